@@ -1,0 +1,22 @@
+"""Where the leaves are: one row a leaf, needle tuft or leaflet."""
+
+from dataclasses import dataclass
+
+import numpy as np
+from jaxtyping import Float, Int
+
+
+@dataclass(frozen=True, eq=False)
+class Leaves:
+    """All leaves of a tree. Metres, world frame; every vector is of unit length."""
+
+    model: str  # name of the leaf model
+    position: Float[np.ndarray, "leaf 3"]  # where the petiole meets the wood's surface
+    direction: Float[np.ndarray, "leaf 3"]  # from the petiole to the leaf's tip
+    normal: Float[np.ndarray, "leaf 3"]  # out of the upper face; perpendicular to `direction`
+    size: Float[np.ndarray, " leaf"]  # blade length, metres
+    tint: Float[np.ndarray, " leaf"]  # 0-1, place in the model's range of colours
+    segment: Int[np.ndarray, " leaf"]  # row of the skeleton that carries it
+
+    def __len__(self) -> int:
+        return len(self.position)

@@ -1,0 +1,33 @@
+"""A textured triangle mesh, as every writer and the preview take it."""
+
+from dataclasses import dataclass
+
+import numpy as np
+from jaxtyping import Float, Int, UInt8
+
+
+@dataclass(frozen=True, eq=False)
+class Material:
+    """A physically based material (glTF's metallic-roughness model, metallic 0)."""
+
+    name: str  # `wood…` or `leaf…`
+    base_color_texture: UInt8[np.ndarray, "row column channel"] | None = None  # sRGB, 3 or 4 channels
+    normal_texture: UInt8[np.ndarray, "row column 3"] | None = None  # tangent space, +y up (glTF)
+    roughness_texture: UInt8[np.ndarray, "row column"] | None = None
+    base_color: tuple[float, float, float, float] = (1.0, 1.0, 1.0, 1.0)  # linear factor
+    roughness: float = 0.9
+    alpha_cutoff: float | None = None  # None: opaque; else pixels with less alpha are cut away
+    double_sided: bool = False
+
+
+@dataclass(frozen=True, eq=False)
+class Mesh:
+    """Triangles with one material. Metres, y up, counter-clockwise seen from outside."""
+
+    name: str  # `wood…` or `leaf…`
+    position: Float[np.ndarray, "vertex 3"]
+    normal: Float[np.ndarray, "vertex 3"]  # unit
+    uv: Float[np.ndarray, "vertex 2"]  # glTF: (0, 0) is the top left of the texture; repeats
+    triangle: Int[np.ndarray, "triangle 3"]
+    material: Material
+    color: Float[np.ndarray, "vertex 4"] | None = None  # linear factor per vertex (tint)

@@ -1,0 +1,59 @@
+"""What was drawn? Freehand strokes, as they stand in the file."""
+
+from dataclasses import dataclass, field
+from enum import StrEnum
+
+import numpy as np
+from jaxtyping import Float
+
+from sketchtree.errors import SketchError
+
+
+class StrokeKind(StrEnum):
+    """What a stroke stands for."""
+
+    BRANCH = "branch"
+    CROWN = "crown"
+    OBSTACLE = "obstacle"
+
+
+@dataclass(frozen=True, eq=False)
+class Stroke:
+    """One freehand line. Requirements, checked at construction: at least one point, all finite."""
+
+    id: str  # unique in its sketch; from the file where it has one
+    points: Float[np.ndarray, "point 2"]  # user units, x right, y UP (already negated)
+    kind: StrokeKind = StrokeKind.BRANCH
+    labelled: bool = False  # the file says the kind (layer, class, id); else it may be found by shape
+    closed: bool = False
+    width: float | None = None  # line width, user units
+    pressure: Float[np.ndarray, " point"] | None = None  # 0-1
+    time: Float[np.ndarray, " point"] | None = None  # milliseconds
+    filled: bool = False  # painted as an area rather than as a line
+
+    def __post_init__(self):
+        points = np.array(self.points, np.float64).reshape(-1, 2)
+        points.flags.writeable = False
+        object.__setattr__(self, "points", points)
+        if len(points) == 0:
+            raise SketchError("it has no points.", stroke=self.id, remedy="Delete it or draw it again.")
+        if not np.isfinite(points).all():
+            raise SketchError(
+                "it has a coordinate that is not a finite number.",
+                stroke=self.id,
+                remedy="Export the drawing again, or delete that stroke.",
+            )
+
+
+@dataclass(frozen=True, eq=False)
+class Sketch:
+    """A drawing: strokes in the order of the file, in its user units with y up."""
+
+    strokes: tuple[Stroke, ...]
+    name: str = "sketch"
+    units: str = "px"
+    view_deg: float = 0.0  # azimuth of the page when it was drawn
+    warnings: tuple[str, ...] = field(default=())
+
+    def __len__(self) -> int:
+        return len(self.strokes)
