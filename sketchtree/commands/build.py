@@ -1,0 +1,75 @@
+"""`sketchtree build SKETCH -o TREE`: a sketch file in, a complete textured tree out."""
+
+import time
+from pathlib import Path
+
+import click
+
+from sketchtree.commands import options
+from sketchtree.commands.planned import not_yet
+from sketchtree.commands.progress import Progress
+
+_LATER = {
+    "obstacle": ("--obstacle", "What the sketch left out"),
+    "solid": ("--solid", "Files that drop into real tools"),
+    "pack": ("--pack", "Files that drop into real tools"),
+}
+
+
+@click.command("build")
+@click.argument("sketch", type=click.Path(path_type=Path))
+@click.option("-o", "--output", required=True, type=click.Path(path_type=Path), metavar="TREE", help=".glb .obj .ply .stl, .swc .json, or .png")
+@options.reading
+@click.option("--generations", type=int, metavar="N", help="Generations of undrawn branches (default 5; up to 12 inside a crown; 0: none).")
+@click.option("--fill", is_flag=True, help="Grow on until the crown is evenly filled.")
+@click.option("--max-segments", type=click.IntRange(1), default=200_000, show_default=True)
+@click.option("--leaf", metavar="MODEL|EXEMPLAR|none", help="Leaf model (default: the template's).")
+@click.option("--season", type=click.Choice(options.SEASONS), default="summer", show_default=True)
+@click.option("--bark", metavar="NAME", help="Bark (default: the template's).")
+@click.option("--skeleton", type=click.Path(path_type=Path), metavar="T.swc", help="Write the complete skeleton too.")
+@click.option("--preview", type=click.Path(path_type=Path), metavar="P.png", help="Write a picture of the result too.")
+@click.option("--wood", type=click.Choice(["one-piece", "tubes"]), default="tubes", show_default=True)
+@click.option("--lod", type=click.IntRange(0, 3), default=0, show_default=True)
+@click.option("--leaves", type=click.Choice(["merged", "instanced"]), default="merged", show_default=True)
+@click.option("--obstacle", multiple=True, hidden=True)
+@click.option("--solid", is_flag=True, hidden=True)
+@click.option("--pack", hidden=True)
+@options.common
+def build(sketch: Path, output: Path, seed: int, quiet: bool, json_log: bool, report: Path | None, db: Path | None, **wanted) -> None:
+    """Turn SKETCH into a complete tree."""
+    began = time.perf_counter()
+    _refuse_planned(wanted)
+    from sketchtree.commands import writing
+
+    writing.check_outputs(sketch, output, report, wanted["skeleton"], wanted["preview"])
+    from sketchtree import pipeline
+    from sketchtree.keys import root_key
+    from sketchtree.templates.database import Database
+
+    imported = time.perf_counter() - began
+    reading, tree = writing.split_options(wanted, pipeline.ReadingOptions, pipeline.TreeOptions)
+    progress = Progress(pipeline.STAGES, quiet=quiet, json_log=json_log)
+    watch = pipeline.Watch(progress)
+    with progress.running():
+        templates = None if db is None and reading.template == "none" else Database.open(db)
+        model = pipeline.sketch_to_tree(sketch, templates, key=root_key(seed), reading=reading, tree=tree, watch=watch)
+        run = writing.Run("build", seed, imported, began, watch, pipeline.options_as_dict(reading, tree))
+        with watch("export"):
+            unseen = writing.write_tree(model, output, run, skeleton=wanted["skeleton"], preview=wanted["preview"])
+        record = writing.record(run, model.drawn, model, extra_warnings=unseen)
+        writing.write_report(report, record)
+    for warning in record["warnings"]:
+        progress.say(f"Note: {warning}", event="warning")
+    progress.say(writing.summary(record, output), event="done")
+
+
+def _refuse_planned(wanted: dict) -> None:
+    for name, (option, section) in _LATER.items():
+        if wanted.pop(name):
+            raise not_yet(option, section)
+    if wanted.pop("wood") == "one-piece":
+        raise not_yet("--wood one-piece", "Files that drop into real tools", "Use `--wood tubes`, the default here.")
+    if wanted.pop("lod"):
+        raise not_yet("--lod", "Files that drop into real tools", "Use `--lod 0`, the default.")
+    if wanted.pop("leaves") == "instanced":
+        raise not_yet("--leaves instanced", "Files that drop into real tools", "Use `--leaves merged`, the default.")

@@ -1,0 +1,49 @@
+"""`sketchtree infer SKETCH -o DRAWN.swc`: only the drawn branches, in 3D."""
+
+import time
+from pathlib import Path
+
+import click
+
+from sketchtree.commands import options
+from sketchtree.commands.planned import not_yet
+from sketchtree.commands.progress import Progress
+
+
+@click.command("infer")
+@click.argument("sketch", type=click.Path(path_type=Path))
+@click.option("-o", "--output", required=True, type=click.Path(path_type=Path), metavar="DRAWN.swc", help=".swc or .json")
+@click.option("--frame", type=click.Choice(["sketch", "world"]), default="world", show_default=True, help="The sketch's own units (y up), or metres with the root at the origin.")
+@options.reading
+@click.option("--samples", type=int, hidden=True)
+@click.option("--posterior", hidden=True)
+@click.option("--alternatives", type=int, hidden=True)
+@options.common
+def infer(sketch: Path, output: Path, frame: str, seed: int, quiet: bool, json_log: bool, report: Path | None, db: Path | None, **wanted) -> None:
+    """Infer the depths of the strokes in SKETCH and write the drawn branches as a skeleton."""
+    began = time.perf_counter()
+    for name in ("samples", "posterior", "alternatives"):
+        if wanted.pop(name):
+            raise not_yet(f"--{name}", "The inference engine")
+    from sketchtree.commands import writing
+
+    writing.check_outputs(sketch, output, report, kinds=writing.SKELETONS)
+    from sketchtree import pipeline
+    from sketchtree.keys import root_key
+    from sketchtree.templates.database import Database
+
+    imported = time.perf_counter() - began
+    (reading,) = writing.split_options(wanted, pipeline.ReadingOptions)
+    progress = Progress(("read", "match", "infer", "export"), quiet=quiet, json_log=json_log)
+    watch = pipeline.Watch(progress)
+    with progress.running():
+        templates = None if db is None and reading.template == "none" else Database.open(db)
+        drawn = pipeline.draw_out(sketch, templates, key=root_key(seed), options=reading, watch=watch)
+        run = writing.Run("infer", seed, imported, began, watch, pipeline.options_as_dict(reading) | {"frame": frame})
+        with watch("export"):
+            writing.write_drawn(drawn, output, run, frame=frame)
+        record = writing.record(run, drawn)
+        writing.write_report(report, record)
+    for warning in record["warnings"]:
+        progress.say(f"Note: {warning}", event="warning")
+    progress.say(writing.summary(record, output), event="done")

@@ -1,0 +1,42 @@
+"""Commands and options that a later part brings: each says so in one paragraph instead of failing oddly."""
+
+import click
+
+from sketchtree.errors import OptionError
+
+COMMANDS = {
+    "inspect": "Read whatever people draw",
+    "photo": "One photo and a few strokes",
+    "grow": "A trunk from scribbles, and a tree that grows",
+    "views": "Many photos, or a point cloud",
+    "cloud": "Many photos, or a point cloud",
+    "forest": "What the sketch left out",
+    "batch": "What the sketch left out",
+    "studio": "The studio",
+    "view": "Files that drop into real tools",
+    "convert": "Files that drop into real tools",
+    "doctor": "Files that drop into real tools",
+    "cite": "Files that drop into real tools",
+}
+"""Command → the section of docs/roadmap.md that describes it."""
+
+
+def not_yet(what: str, section: str, instead: str = "") -> OptionError:
+    """The error for a documented option or command that this version does not have."""
+    return OptionError(
+        f"`{what}` is described in docs/roadmap.md, “{section}”, and is not in this version.",
+        remedy=instead or "Leave it out, or use a version that lists it as done.",
+    )
+
+
+def planned_command(name: str) -> click.Command:
+    """A command that takes any arguments and says where it is described."""
+
+    @click.command(name, hidden=True, add_help_option=False, context_settings=_TAKES_ANYTHING)
+    def command() -> None:
+        raise not_yet(f"sketchtree {name}", COMMANDS[name])
+
+    return command
+
+
+_TAKES_ANYTHING = {"allow_extra_args": True, "ignore_unknown_options": True}

@@ -1,0 +1,142 @@
+"""Everything a command writes: checked before the work, written whole or not at all after it."""
+
+import dataclasses
+import json
+import os
+import time
+from dataclasses import dataclass
+from pathlib import Path
+
+from sketchtree.errors import ExportError
+
+MESHES = (".glb", ".obj", ".ply", ".stl")
+SKELETONS = (".swc", ".json")
+PICTURES = (".png",)
+_LATER = (".gltf", ".usd", ".usda", ".usdz", ".mtg", ".h5", ".sketchtree")
+
+
+@dataclass(frozen=True)
+class Run:
+    """One run of a command: what the report says about it."""
+
+    command: str
+    seed: int
+    imported: float  # seconds spent importing
+    began: float  # time.perf_counter() at its start
+    watch: object  # pipeline.Watch
+    options: dict
+
+
+def check_outputs(sketch: Path, output: Path, report=None, skeleton=None, preview=None, *, kinds=MESHES + SKELETONS + PICTURES) -> None:
+    """Refuse, before any work, an output that can't be written. Raises ExportError."""
+    _check_kind(output, "-o", kinds)
+    _check_kind(skeleton, "--skeleton", SKELETONS)
+    _check_kind(preview, "--preview", PICTURES)
+    taken: dict[Path, str] = {sketch.resolve(): "the sketch itself"}
+    for path, option in ((output, "-o"), (report, "--report"), (skeleton, "--skeleton"), (preview, "--preview")):
+        if path is None:
+            continue
+        if path.resolve() in taken:
+            raise ExportError(f"`{option} {path}` would overwrite {taken[path.resolve()]}.", remedy="Give it another name.")
+        taken[path.resolve()] = f"what `{option}` writes"
+        _check_place(path, option)
+
+
+def _check_kind(path: Path | None, option: str, kinds: tuple[str, ...]) -> None:
+    if path is None or path.suffix.lower() in kinds:
+        return
+    known = " ".join(kinds)
+    if path.suffix.lower() in _LATER:
+        raise ExportError(f"`{option} {path}`: {path.suffix} files are not written by this version.", remedy=f"Use one of {known}; docs/roadmap.md says when others come.")
+    raise ExportError(f"`{option} {path}`: the extension decides what is written, and “{path.suffix}” names nothing.", remedy=f"End the name in one of {known}.")
+
+
+def _check_place(path: Path, option: str) -> None:
+    folder = path.resolve().parent
+    if path.is_dir():
+        raise ExportError(f"`{option} {path}` is a folder.", remedy="Name a file in it.")
+    if not folder.is_dir():
+        raise ExportError(f"`{option} {path}`: the folder {folder} does not exist.", remedy="Make it first, or write elsewhere.")
+    if not os.access(folder, os.W_OK) or (path.exists() and not os.access(path, os.W_OK)):
+        raise ExportError(f"`{option} {path}` can't be written: permission is denied.", remedy="Choose a place you may write to.")
+
+
+def split_options(wanted: dict, *records: type) -> list:
+    """One option record of each type, from those of its fields that the command line has."""
+    return [record(**{f.name: wanted[f.name] for f in dataclasses.fields(record) if f.name in wanted}) for record in records]
+
+
+def write_tree(model, output: Path, run: Run, *, skeleton: Path | None, preview: Path | None) -> tuple[str, ...]:
+    """Write the tree and what else was asked for; returns warnings (a picture that could not be made)."""
+    from sketchtree.export import gltf, meshes
+    from sketchtree.export.skeletons import skeleton_extras
+
+    kind = output.suffix.lower()
+    if kind == ".glb":
+        gltf.write_glb(output, model.meshes, extras=skeleton_extras(model.skeleton))
+    elif kind in MESHES:
+        meshes.write_meshes(output, model.meshes)
+    elif kind in SKELETONS:
+        _write_skeleton(output, model.skeleton, run)
+    if skeleton is not None:
+        _write_skeleton(skeleton, model.skeleton, run)
+    pictures = [path for path in (output if kind in PICTURES else None, preview) if path is not None]
+    return tuple(warning for path in pictures for warning in _picture(model, path))
+
+
+def _picture(model, path: Path) -> tuple[str, ...]:
+    from sketchtree.view import preview
+
+    drawn, reason = preview(model.meshes, path)
+    return () if drawn else (f"{path} was not drawn: {reason}",)
+
+
+def write_drawn(drawn, output: Path, run: Run, *, frame: str) -> None:
+    """The drawn branches as a skeleton file, in metres or in the sketch's own units (INTERFACES §2)."""
+    if frame == "world":
+        _write_skeleton(output, drawn.skeleton, run)
+        return
+    from sketchtree.mrf.lift import lift
+    from sketchtree.similarity import Similarity
+
+    page = lift(drawn.graph, drawn.fit.depth, Similarity(1.0, (0.0, 0.0, 0.0)), depth_sd=drawn.fit.depth_sd)
+    page = page.replace(radius=drawn.skeleton.radius / drawn.similarity.scale)
+    _write_skeleton(output, page, run, units="sketch units", frame="sketch")
+
+
+def _write_skeleton(path: Path, tree, run: Run, *, units: str = "metres", frame: str = "world") -> None:
+    from sketchtree.export.skeletons import write_skeleton_json, write_swc
+    from sketchtree.version import __version__
+
+    if path.suffix.lower() == ".swc":
+        write_swc(path, tree, header={"units": units, "frame": frame, "version": __version__, "seed": run.seed})
+    else:
+        write_skeleton_json(path, tree, units=units, frame=frame)
+
+
+def record(run: Run, drawn, model=None, *, extra_warnings: tuple[str, ...] = ()) -> dict:
+    """The report of a run that has just written its files."""
+    from sketchtree.report import build_report
+
+    seconds = {"import": run.imported} | run.watch.seconds | {"total": time.perf_counter() - run.began}
+    seconds = {name: round(value, 4) for name, value in seconds.items()}
+    return build_report(drawn, model, command=run.command, seed=run.seed, seconds=seconds, options=run.options, warnings=extra_warnings)
+
+
+def write_report(path: Path | None, record: dict) -> None:
+    """The report as a file, whole or not at all."""
+    if path is None:
+        return
+    from sketchtree.export.atomic import atomic_write
+
+    atomic_write(path, (json.dumps(record, indent=1, ensure_ascii=False) + "\n").encode())
+
+
+def summary(record: dict, output: Path) -> str:
+    """One line for the user: what was written, from what, in how long."""
+    drawn, total = record["segments"]["drawn"], record["segments"]["total"]
+    parts = [f"{output}: {drawn} drawn segments"]
+    if record["triangles"]:
+        parts.append(f"{total} in all, {record['leaves']} leaves, {sum(record['triangles'].values())} triangles")
+    parts.append(f"template {record['template_used'] or 'none'}, {record['height']:.1f} m high, {record['seconds']['total']:.1f} s")
+    return ", ".join(parts)
