@@ -1,5 +1,63 @@
-"""Freehand strokes in, a complete textured 3D tree out."""
+"""Freehand strokes in, a complete textured 3D tree out.
+
+The public names, in the order of the pipeline; each is imported when it is first used.
+
+    read_sketch → Sketch                 what was drawn
+    sketch_graph → SketchGraph           strokes → one rooted segment tree
+    Database, match                      which exemplar is it most like?
+    Prior, factor_graph, infer, lift     how deep is each segment? → TreeSkeleton
+    Propagate                            what did the sketch leave out?
+    PipeRadii, wood_mesh                 what shape is the wood?
+    populate, leaf_mesh                  which leaves, and where?
+    write_glb, write_swc, preview        files and pictures
+    sketch_to_tree                       all of it in one call → TreeModel
+"""
+
+from importlib import import_module
 
 from sketchtree.version import __version__
 
-__all__ = ["__version__"]
+_HOMES = {
+    "sketchtree.keys": ("root_key", "stage_key"),
+    "sketchtree.sketch.strokes": ("Sketch", "Stroke", "StrokeKind"),
+    "sketchtree.sketch.formats": ("read_sketch", "write_sketch_json"),
+    "sketchtree.sketch.graph": ("SketchGraph",),
+    "sketchtree.sketch.reading": ("sketch_graph",),
+    "sketchtree.parameters": ("TreeParameters", "LimbStatistics", "Habit"),
+    "sketchtree.templates.database": ("Database",),
+    "sketchtree.templates.match": ("match",),
+    "sketchtree.mrf.prior": ("Prior",),
+    "sketchtree.mrf.factor_graph": ("factor_graph",),
+    "sketchtree.mrf.methods": ("METHODS", "solver_named"),
+    "sketchtree.mrf.infer": ("infer",),
+    "sketchtree.mrf.lift": ("lift",),
+    "sketchtree.similarity": ("Similarity",),
+    "sketchtree.skeleton": ("TreeSkeleton", "Kind"),
+    "sketchtree.stage": ("SkeletonSource", "SkeletonStage", "sources", "stages"),
+    "sketchtree.propagate.generations": ("Propagate",),
+    "sketchtree.geometry.radii": ("PipeRadii",),
+    "sketchtree.geometry.wood": ("wood_mesh",),
+    "sketchtree.geometry.mesh": ("Mesh", "Material"),
+    "sketchtree.foliage.populate": ("populate",),
+    "sketchtree.foliage.cards": ("leaf_mesh",),
+    "sketchtree.export.gltf": ("write_glb",),
+    "sketchtree.export.skeletons": ("write_swc", "read_swc", "write_skeleton_json", "read_skeleton_json"),
+    "sketchtree.view": ("preview",),
+    "sketchtree.pipeline": ("sketch_to_tree", "draw_out", "complete", "ReadingOptions", "TreeOptions", "TreeModel"),
+    "sketchtree.errors": ("SketchTreeError", "SketchError", "SkeletonError", "TemplateError", "ExportError"),
+}
+_HOME_OF = {name: module for module, names in _HOMES.items() for name in names}
+
+__all__ = ["__version__", *_HOME_OF]
+
+
+def __getattr__(name: str):
+    if name not in _HOME_OF:
+        raise AttributeError(f"module `sketchtree` has no attribute `{name}`")
+    value = getattr(import_module(_HOME_OF[name]), name)
+    globals()[name] = value
+    return value
+
+
+def __dir__() -> list[str]:
+    return sorted(__all__)

@@ -5,6 +5,7 @@ Built-in sources and stages come through the same doors as anybody's plug-in (en
 an explicit key without a default.
 """
 
+from importlib.metadata import entry_points
 from typing import Any, Protocol, runtime_checkable
 
 from jaxtyping import Array, Key
@@ -25,3 +26,13 @@ class SkeletonStage(Protocol):
     on the page (x, y), unless bending them is the stage's declared purpose."""
 
     def __call__(self, tree: TreeSkeleton, *, key: Key[Array, ""]) -> TreeSkeleton: ...
+
+
+def sources() -> dict[str, type]:
+    """Every installed source by name, built-in ones and plug-ins alike."""
+    return {entry.name: entry.load() for entry in entry_points(group="sketchtree.sources")}
+
+
+def stages() -> dict[str, type]:
+    """Every installed stage by name, built-in ones and plug-ins alike."""
+    return {entry.name: entry.load() for entry in entry_points(group="sketchtree.stages")}
