@@ -12,7 +12,7 @@ from pathlib import Path
 import numpy as np
 from jaxtyping import Array, Float, Key
 
-from sketchtree.errors import OptionError, TemplateError
+from sketchtree.errors import InferenceError, OptionError, TemplateError
 from sketchtree.foliage.cards import leaf_mesh
 from sketchtree.foliage.leaves import Leaves
 from sketchtree.foliage.models import leaf_names
@@ -27,6 +27,7 @@ from sketchtree.mrf.infer import Fit, infer
 from sketchtree.mrf.lift import lift
 from sketchtree.mrf.methods import solver_named
 from sketchtree.mrf.prior import Prior
+from sketchtree.mrf.solver import RESULTS
 from sketchtree.parameters import GENERIC, Habit
 from sketchtree.propagate.generations import Propagate
 from sketchtree.similarity import Similarity
@@ -87,6 +88,12 @@ class DrawnTree:
     similarity: Similarity  # sketch units → metres
     skeleton: TreeSkeleton  # metres; rows are those of the graph
     habit: Habit
+
+    @property
+    def warnings(self) -> tuple[str, ...]:
+        """What the user should know about the reading and the depths."""
+        unsettled = () if self.fit.result == RESULTS.converged else (str(RESULTS[self.fit.result]),)
+        return self.graph.warnings + unsettled
 
 
 @dataclass(frozen=True, eq=False)
@@ -159,7 +166,9 @@ def draw_out(
         prior = Prior(exemplar.theta, exemplar.limbs) if exemplar else Prior(GENERIC)
     with watch("infer"):
         solver = solver_named(options.method, theta=options.theta, planar=options.planar)
-        fit = infer(factor_graph(graph), prior, solver, key=stage_key(key, "infer"))
+        fit = infer(factor_graph(graph), prior, solver, key=stage_key(key, "infer"), throw=False)
+        if fit.result == RESULTS.not_finite:
+            raise InferenceError(f"The depths could not be inferred by `{options.method}`.", remedy=str(RESULTS[fit.result]))
         similarity = page_to_world(graph, options.height or habit.height)
         radius = drawn_radius(graph, similarity)
         skeleton = lift(graph, fit.depth, similarity, depth_sd=fit.depth_sd)
@@ -189,7 +198,7 @@ def complete(
         meshes = [wood_mesh(skeleton, bark=bark, key=stage_key(key, "mesh"))]
         if len(leaves):
             meshes.append(leaf_mesh(leaves, season=options.season))
-    return TreeModel(drawn, skeleton, leaves, tuple(meshes), drawn.graph.warnings + warnings)
+    return TreeModel(drawn, skeleton, leaves, tuple(meshes), drawn.warnings + warnings)
 
 
 def choose_template(graph: SketchGraph, templates: Database | None, wanted: str) -> tuple[list[Match], Exemplar | None]:

@@ -11,6 +11,7 @@ from pathlib import Path
 
 import numpy as np
 
+from sketchtree.mrf.solver import RESULTS
 from sketchtree.parameters import TreeParameters
 from sketchtree.pipeline import DrawnTree, TreeModel
 from sketchtree.version import __version__
@@ -35,7 +36,7 @@ def build_report(
     warnings: tuple[str, ...] = (),
 ) -> dict:
     """The report of one run; `model` is None where only the drawn branches were asked for."""
-    seen = list(drawn.graph.warnings) if model is None else list(model.warnings)
+    seen = list(drawn.warnings if model is None else model.warnings)
     return _plain(
         {
             "schema": SCHEMA,
@@ -104,7 +105,7 @@ def _inference(drawn: DrawnTree) -> dict:
     fit = drawn.fit
     return {
         "method": fit.method,
-        "result": fit.result_name,
+        "result": _result_name(fit.result),
         "log_posterior": fit.log_posterior,
         "seconds_warm": fit.seconds_warm,
         "steps": fit.steps,
@@ -113,6 +114,11 @@ def _inference(drawn: DrawnTree) -> dict:
         "intervals": [],
         "alternatives": [],
     }
+
+
+def _result_name(result: RESULTS) -> str:
+    names = ("converged", "out_of_steps", "not_finite")
+    return next(name for name in names if result == getattr(RESULTS, name))
 
 
 def _triangles(model: TreeModel) -> dict:
