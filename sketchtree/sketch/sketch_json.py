@@ -1,0 +1,141 @@
+"""Our own sketch file: strokes as points, with pressure and time where the pen gave them.
+
+    {"sketchtree": 1, "units": "px", "y": "down", "view_deg": 0,
+     "strokes": [{"id": "trunk", "kind": "branch", "points": [[x, y, pressure?, t_ms?], ...],
+                  "width": 3, "closed": false, "filled": false, "labelled": false}, ...]}
+
+Only `sketchtree` and every stroke's `points` are required. A kind that is written out counts as labelled
+unless `labelled` says otherwise. What is written reads back as the same sketch, bit for bit.
+"""
+
+import json
+from typing import Any
+
+import numpy as np
+
+from sketchtree.errors import SketchError
+from sketchtree.sketch.strokes import Sketch, Stroke, StrokeKind
+
+VERSION = 1
+_REMEDY = "Compare it with the sketch JSON described in docs/formats.md."
+
+
+def read_sketch_json(data: bytes, name: str, *, max_strokes: int = 20_000) -> Sketch:
+    """A sketch from the bytes of a JSON file. Raises SketchError naming the stroke at fault."""
+    try:
+        document = json.loads(data)
+    except (ValueError, RecursionError) as error:
+        raise SketchError(f"{name} is not one well-formed JSON document ({error}); it may be cut short.", remedy="Save the sketch again.") from None
+    _check_head(document, name)
+    rows = document["strokes"]
+    if len(rows) > max_strokes:
+        raise SketchError(
+            f"{name} holds {len(rows)} strokes, more than {max_strokes}.",
+            remedy="Draw fewer strokes, or raise the limit with --max-strokes.",
+        )
+    up = document.get("y", "down") == "up"
+    strokes = tuple(_stroke(row, k, name, up) for k, row in enumerate(rows))
+    _check_ids(strokes, name)
+    units = document.get("units", "px")
+    return Sketch(strokes, name=name, units=units, view_deg=float(document.get("view_deg", 0.0)))
+
+
+def sketch_json(sketch: Sketch) -> str:
+    """The text of a sketch file, y up, one stroke a line."""
+    head = {"sketchtree": VERSION, "units": sketch.units, "y": "up", "view_deg": sketch.view_deg}
+    rows = [json.dumps(_row(stroke)) for stroke in sketch.strokes]
+    return json.dumps(head)[:-1] + ', "strokes": [\n ' + ",\n ".join(rows) + "\n]}\n"
+
+
+def _check_head(document: Any, name: str) -> None:
+    if not isinstance(document, dict) or "sketchtree" not in document:
+        raise SketchError(f"{name} is JSON, but not a sketch: it has no key 'sketchtree'.", remedy=_REMEDY)
+    version = document["sketchtree"]
+    if not isinstance(version, int) or isinstance(version, bool) or version < 1:
+        raise SketchError(f"{name} has 'sketchtree': {version!r}; a version number was expected.", remedy=_REMEDY)
+    if version > VERSION:
+        raise SketchError(
+            f"{name} is a sketch of version {version}; this program reads up to {VERSION}.",
+            remedy="Upgrade SketchTree, or save the sketch in the older form.",
+        )
+    if document.get("y", "down") not in ("up", "down"):
+        raise SketchError(f"{name} has 'y': {document['y']!r}; 'up' or 'down' was expected.", remedy=_REMEDY)
+    if not isinstance(document.get("strokes"), list):
+        raise SketchError(f"{name} has no list 'strokes'.", remedy=_REMEDY)
+    if not isinstance(document.get("units", "px"), str):
+        raise SketchError(f"{name} has 'units': {document['units']!r}; a word was expected.", remedy=_REMEDY)
+    if not _is_number(document.get("view_deg", 0.0)):
+        raise SketchError(f"{name} has 'view_deg': {document['view_deg']!r}; degrees were expected.", remedy=_REMEDY)
+
+
+def _stroke(row: Any, k: int, name: str, up: bool) -> Stroke:
+    if not isinstance(row, dict):
+        raise SketchError(f"in {name}, it is not an object.", stroke=k + 1, remedy=_REMEDY)
+    stroke_id = str(row.get("id", f"stroke-{k + 1}"))
+    columns = _columns(row.get("points"), stroke_id, name)
+    kind = row.get("kind")
+    if kind is not None and kind not in tuple(StrokeKind):
+        raise SketchError(f"in {name}, its kind is {kind!r}; branch, crown or obstacle was expected.", stroke=stroke_id, remedy=_REMEDY)
+    width = row.get("width")
+    if width is not None and not (_is_number(width) and width >= 0):
+        raise SketchError(f"in {name}, its width is {width!r}; a number of at least 0 was expected.", stroke=stroke_id, remedy=_REMEDY)
+    flags = {flag: row.get(flag, flag == "labelled" and kind is not None) for flag in ("closed", "filled", "labelled")}
+    wrong = next((flag for flag, value in flags.items() if not isinstance(value, bool)), None)
+    if wrong:
+        raise SketchError(f"in {name}, its '{wrong}' is {flags[wrong]!r}; true or false was expected.", stroke=stroke_id, remedy=_REMEDY)
+    try:
+        return Stroke(
+            stroke_id,
+            columns[:, :2] * (1.0, 1.0 if up else -1.0),
+            StrokeKind(kind or "branch"),
+            width=None if width is None else float(width),
+            pressure=columns[:, 2] if columns.shape[1] > 2 else None,
+            time=columns[:, 3] if columns.shape[1] > 3 else None,
+            **flags,
+        )
+    except SketchError as error:
+        raise SketchError(f"in {name}, {error.message.split(': ', 1)[-1]}", stroke=stroke_id, remedy=error.remedy) from None
+
+
+def _columns(points: Any, stroke_id: str, name: str) -> np.ndarray:
+    """Points as (point, 2-4) of x, y, pressure, t; every row as long as the first."""
+    if not isinstance(points, list) or not all(isinstance(point, list) for point in points):
+        raise SketchError(f"in {name}, its points are not a list of [x, y] rows.", stroke=stroke_id, remedy=_REMEDY)
+    size = len(points[0]) if points else 2
+    for k, point in enumerate(points):
+        if len(point) != size or not 2 <= size <= 4 or not all(map(_is_number, point)):
+            raise SketchError(
+                f"in {name}, point {k + 1} is {json.dumps(point)[:60]}; [x, y], [x, y, pressure] or [x, y, pressure, t_ms] was expected, the same for all its points.",
+                stroke=stroke_id,
+                remedy=_REMEDY,
+            )
+    columns = np.array(points, float).reshape(-1, size)
+    if not np.isfinite(columns).all():
+        raise SketchError(
+            f"in {name}, it has a coordinate that is not a finite number.",
+            stroke=stroke_id,
+            remedy="Export the drawing again, or delete that stroke.",
+        )
+    return columns
+
+
+def _check_ids(strokes: tuple[Stroke, ...], name: str) -> None:
+    seen: set[str] = set()
+    for stroke in strokes:
+        if stroke.id in seen:
+            raise SketchError(f"in {name}, its id is used twice.", stroke=stroke.id, remedy="Give every stroke an id of its own.")
+        seen.add(stroke.id)
+
+
+def _row(stroke: Stroke) -> dict[str, Any]:
+    columns = [stroke.points]
+    if stroke.pressure is not None or stroke.time is not None:
+        pressure = stroke.pressure if stroke.pressure is not None else np.ones(len(stroke.points))
+        columns += [column[:, None] for column in (pressure, stroke.time) if column is not None]
+    row = {"id": stroke.id, "kind": str(stroke.kind), "labelled": stroke.labelled, "points": np.hstack(columns).tolist()}
+    row |= {flag: True for flag in ("closed", "filled") if getattr(stroke, flag)}
+    return row | ({} if stroke.width is None else {"width": stroke.width})
+
+
+def _is_number(value: Any) -> bool:
+    return isinstance(value, (int, float)) and not isinstance(value, bool)
