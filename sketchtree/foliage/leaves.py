@@ -17,6 +17,13 @@ class Leaves:
     size: Float[np.ndarray, " leaf"]  # blade length, metres
     tint: Float[np.ndarray, " leaf"]  # 0-1, place in the model's range of colours
     segment: Int[np.ndarray, " leaf"]  # row of the skeleton that carries it
+    kept: float = 1.0  # share of the leaves that the cap left; the sizes of these make up for the rest
 
     def __len__(self) -> int:
         return len(self.position)
+
+    @classmethod
+    def none(cls, model: str) -> "Leaves":
+        """No leaf at all, as in winter."""
+        vectors, numbers = np.zeros((0, 3)), np.zeros(0)
+        return cls(model, vectors, vectors, vectors, numbers, numbers, np.zeros(0, np.int64))

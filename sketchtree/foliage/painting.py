@@ -1,0 +1,179 @@
+"""How is a leaf drawn into a texture?
+
+Everything is drawn three times larger and averaged down. A `Painting` knows no season: it holds how much
+of each pixel is blade, vein or stem, a shade and a height; `albedo` mixes a season's colours into it.
+
+    albedo  = shade · (blade C_blade + vein C_vein + stem C_stem)       C: linear colours of the season
+    normal  ∝ (−∂h/∂x, −∂h/∂y, 1)                                       h: height, veins sunk between pillows
+"""
+
+from dataclasses import dataclass
+
+import numpy as np
+from jaxtyping import Float, UInt8
+from PIL import Image, ImageDraw
+from scipy import ndimage
+
+from sketchtree.foliage.outline import Curve
+from sketchtree.foliage.venation import Vein
+
+PIXELS = 512  # along the blade
+_SUPERSAMPLE = 3
+_BORDER = 4  # transparent pixels round the drawing, so that mipmaps and bilinear filters stay clean
+
+
+@dataclass(frozen=True, eq=False)
+class Painting:
+    """A leaf before its season. The card spans `left…right` × `bottom…top` in blade lengths."""
+
+    coverage: Float[np.ndarray, "row column"]  # 0-1
+    vein: Float[np.ndarray, "row column"]  # 0-1, share of the pixel
+    stem: Float[np.ndarray, "row column"]  # 0-1
+    shade: Float[np.ndarray, "row column"]  # factor, about 1
+    height: Float[np.ndarray, "row column"]  # pixels
+    left: float
+    right: float
+    bottom: float
+    top: float
+
+
+class Canvas:
+    """A rectangle of blade coordinates with a margin, and the masks drawn on it."""
+
+    def __init__(self, low: Float[np.ndarray, " 2"], high: Float[np.ndarray, " 2"]):
+        scale = (PIXELS - 2 * _BORDER) / max(high - low)
+        self.size = np.maximum(64, 16 * np.ceil((scale * (high - low) + 2 * _BORDER) / 16)).astype(int)
+        centre = (low + high) / 2
+        self.low, self.high = centre - self.size / scale / 2, centre + self.size / scale / 2
+        self._scale = scale * _SUPERSAMPLE
+
+    def blank(self) -> Image.Image:
+        """An empty mask at the drawing's resolution."""
+        return Image.new("L", tuple(int(n) for n in self.size * _SUPERSAMPLE), 0)
+
+    def fill(self, mask: Image.Image, outline: Curve, value: int = 255) -> None:
+        """Fill a closed outline."""
+        x = (outline[:, 0] - self.low[0]) * self._scale
+        y = (self.high[1] - outline[:, 1]) * self._scale
+        ImageDraw.Draw(mask).polygon(np.stack([x, y], axis=1).ravel().tolist(), fill=value)
+
+    def stroke(self, mask: Image.Image, path: Curve, start_width: float, end_width: float, value: int = 255) -> None:
+        """Fill a tapered line."""
+        self.fill(mask, ribbon(path, start_width, end_width), value)
+
+    def average(self, mask: Image.Image) -> Float[np.ndarray, "row column"]:
+        """The mask at the texture's resolution, 0-1."""
+        return np.asarray(mask.reduce(_SUPERSAMPLE), np.float32) / 255.0
+
+
+def ribbon(path: Curve, start_width: float, end_width: float) -> Curve:
+    """The outline of a tapered line along `path`."""
+    tangent = np.gradient(path, axis=0)
+    tangent /= np.linalg.norm(tangent, axis=1, keepdims=True) + 1e-12
+    half = np.linspace(start_width, end_width, len(path))[:, None] / 2
+    side = np.stack([tangent[:, 1], -tangent[:, 0]], axis=1) * half
+    return np.vstack([path + side, (path - side)[::-1]])
+
+
+def paint_blade(outline: Curve, veins: list[Vein], *, petiole: float, reticulation: float = 1.0, seed: int = 0) -> Painting:
+    """A flat blade with a petiole. The first vein is the midrib, petiole included; `reticulation`
+    weighs the fine net between the veins."""
+    low = np.minimum(outline.min(axis=0), [0.0, -petiole])
+    canvas = Canvas(low, outline.max(axis=0))
+    body, stalk, lines = canvas.blank(), canvas.blank(), canvas.blank()
+    canvas.fill(body, outline)
+    for vein in veins:
+        canvas.stroke(lines, vein.path, vein.start_width, vein.end_width)
+    main = veins[0]
+    below = main.path[main.path[:, 1] <= 0.02]
+    if len(below) > 1:
+        canvas.stroke(stalk, below, main.start_width, main.start_width)
+    blade, stem, vein = (canvas.average(mask) for mask in (body, stalk, lines))
+    vein = vein * blade
+    stem = np.clip(stem - blade, 0, 1)
+    net = _reticulation(blade.shape, seed) * reticulation
+    soft = ndimage.gaussian_filter(vein, 3.0)
+    mottle = ndimage.zoom(np.random.default_rng(seed).normal(size=(12, 12)), np.array(blade.shape) / 12, order=1)
+    rim = np.clip(ndimage.gaussian_filter(blade, 9.0), 0, 1)
+    shade = 1 - 0.10 * soft - 0.13 * net + 0.035 * mottle - 0.10 * (1 - rim) * blade
+    height = -2.2 * soft - 1.1 * ndimage.gaussian_filter(net, 1.0) + 1.4 * rim + 1.5 * ndimage.gaussian_filter(vein, 0.8)
+    return Painting(np.clip(blade + stem, 0, 1), vein, stem, shade, height, canvas.low[0], canvas.high[0], canvas.low[1], canvas.high[1])
+
+
+def paint_needles(stem: list[Vein], needles: list[tuple[Vein, float]]) -> Painting:
+    """A twig with needles, each with its shade; later ones lie over earlier ones and over the twig
+    once half of them are drawn."""
+    points = np.vstack([vein.path for vein, _ in needles] + [vein.path for vein in stem])
+    canvas = Canvas(points.min(axis=0), points.max(axis=0))
+    cover, twig, shade, ridge, line = (canvas.blank() for _ in range(5))
+    for rank, (needle, value) in enumerate(needles):
+        if rank == len(needles) // 2:
+            for vein in stem:
+                canvas.stroke(cover, vein.path, vein.start_width, vein.end_width)
+                canvas.stroke(twig, vein.path, vein.start_width, vein.end_width)
+                canvas.stroke(shade, vein.path, vein.start_width, vein.end_width, 130)
+                canvas.stroke(ridge, vein.path, 0.6 * vein.start_width, vein.end_width)
+        w0, w1 = needle.start_width, needle.end_width
+        canvas.stroke(cover, needle.path, w0, w1)
+        canvas.stroke(twig, needle.path, w0, w1, 0)
+        canvas.stroke(shade, needle.path, w0, w1, int(130 * value))
+        canvas.stroke(ridge, needle.path, w0, w1, 60)
+        canvas.stroke(ridge, needle.path, 0.4 * w0, 0.4 * w1, 255)
+        canvas.stroke(line, needle.path, w0, w1, 0)
+        canvas.stroke(line, needle.path, 0.3 * w0, 0.3 * w1, 255)
+    coverage = canvas.average(cover)
+    tone = canvas.average(shade) * 255 / 130
+    tone = np.where(coverage > 0.02, tone / np.maximum(coverage, 0.02), 1.0)
+    height = 2.5 * ndimage.gaussian_filter(canvas.average(ridge), 0.8)
+    return Painting(coverage, 0.6 * canvas.average(line), canvas.average(twig), tone, height, canvas.low[0], canvas.high[0], canvas.low[1], canvas.high[1])
+
+
+def albedo(painting: Painting, blade, vein, stem) -> UInt8[np.ndarray, "row column 4"]:
+    """The sRGB texture with alpha in a season's linear colours; colour runs on under the transparent
+    area, so that no halo appears where a filter reaches across the edge."""
+    w_stem = painting.stem[..., None]
+    w_vein = np.minimum(painting.vein, 1 - painting.stem)[..., None]
+    colour = (1 - w_stem - w_vein) * np.asarray(blade) + w_vein * np.asarray(vein) + w_stem * np.asarray(stem)
+    colour = np.clip(colour * painting.shade[..., None], 0, 1)
+    colour = _run_on(to_srgb(colour), painting.coverage)
+    return np.dstack([np.round(255 * colour), np.round(255 * painting.coverage)]).astype(np.uint8)
+
+
+def normal_map(painting: Painting, strength: float = 1.0) -> UInt8[np.ndarray, "row column 3"]:
+    """The tangent-space normal texture, +y up (glTF's convention); flat where transparent."""
+    down, right = np.gradient(ndimage.gaussian_filter(painting.height, 0.7) * strength)
+    inner = painting.coverage > 0.9
+    normal = np.dstack([-right * inner, down * inner, np.ones_like(down)])
+    normal /= np.linalg.norm(normal, axis=2, keepdims=True)
+    return np.round(127.5 + 127.5 * normal).astype(np.uint8)
+
+
+def to_srgb(linear):
+    """Linear light 0-1 to sRGB 0-1 (IEC 61966-2-1)."""
+    linear = np.asarray(linear, float)
+    return np.where(linear <= 0.0031308, 12.92 * linear, 1.055 * np.maximum(linear, 1e-9) ** (1 / 2.4) - 0.055)
+
+
+def to_linear(srgb):
+    """sRGB 0-1 to linear light 0-1 (IEC 61966-2-1)."""
+    srgb = np.asarray(srgb, float)
+    return np.where(srgb <= 0.04045, srgb / 12.92, ((srgb + 0.055) / 1.055) ** 2.4)
+
+
+def _run_on(colour, coverage):
+    """Every transparent pixel takes the colour of the nearest solid one."""
+    nearest = ndimage.distance_transform_edt(coverage < 0.5, return_distances=False, return_indices=True)
+    return colour[tuple(nearest)]
+
+
+def _reticulation(shape, seed):
+    """The fine net of a blade, 0-1: pixels about as near to their second closest cell as to the closest."""
+    from scipy.spatial import cKDTree
+
+    rows, columns = (n // 2 for n in shape)
+    rng = np.random.default_rng(seed)
+    cells = rng.uniform(0, 1, (rows * columns // 60, 2)) * [rows, columns]
+    grid = np.stack(np.meshgrid(np.arange(rows), np.arange(columns), indexing="ij"), axis=-1).reshape(-1, 2)
+    near = cKDTree(cells).query(grid, k=2)[0]
+    net = np.clip(1 - (near[:, 1] - near[:, 0]) / 1.8, 0, 1).reshape(rows, columns)
+    return ndimage.zoom(net, np.array(shape) / net.shape, order=1)
