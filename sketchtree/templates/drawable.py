@@ -1,0 +1,138 @@
+"""What would a person draw of an exemplar? Its main limbs, in a few long segments.
+
+An exemplar has thousands of segments, a sketch has dozens. Before 2D statistics are taken, the
+exemplar is brought to a sketch's granularity:
+
+  - the stems, and along each kept limb at most `ALONG_STEM` (a stem) or `ALONG_LIMB` (another limb)
+    laterals: its insertions are cut into that many runs and the longest of each run is kept;
+  - only limbs of order 3 or less, longer than `SHORTEST` of the tree's height above order 1;
+  - a limb keeps its junctions, its tip, and points where it bends by more than `TOLERANCE` of the height.
+
+`Drawing` is the flat form that exemplars (under many views) and sketches (one view) share.
+"""
+
+from dataclasses import dataclass
+
+import numpy as np
+from jaxtyping import Float, Int
+
+from sketchtree.axes import NULL
+from sketchtree.skeleton import TreeSkeleton
+from sketchtree.sketch.graph import SketchGraph
+from sketchtree.templates.footprint import project
+from sketchtree.traverse import limb_chains
+
+ALONG_STEM = 24
+ALONG_LIMB = 4
+DEEPEST = 3  # order
+SHORTEST = 0.1  # of the tree's height
+TOLERANCE = 0.015  # of the tree's height
+
+
+@dataclass(frozen=True, eq=False)
+class Drawing:
+    """A branching drawing seen under one or more views. Rows as in a skeleton: parents first."""
+
+    parent: Int[np.ndarray, " segment"]
+    limb: Int[np.ndarray, " segment"]
+    order: Int[np.ndarray, " segment"]
+    start: Float[np.ndarray, "view segment 2"]
+    tip: Float[np.ndarray, "view segment 2"]
+
+    @classmethod
+    def of_graph(cls, graph: SketchGraph) -> "Drawing":
+        """A sketch: one view, in sketch units."""
+        return cls(graph.parent, graph.limb, graph.order, graph.start[None], graph.xy[None])
+
+    @classmethod
+    def of_skeleton(cls, tree: TreeSkeleton, azimuth_deg: Float[np.ndarray, " view"]) -> "Drawing":
+        """Orthographic views of a skeleton from these azimuths, metres."""
+        start = np.stack([project(tree.start, v) for v in azimuth_deg])
+        tip = np.stack([project(tree.tip, v) for v in azimuth_deg])
+        return cls(tree.parent, tree.limb, tree.order, start, tip)
+
+    @property
+    def size(self) -> Float[np.ndarray, " view"]:
+        """H of every view: the larger of height and width."""
+        return np.ptp(self.tip, axis=1).max(axis=1)
+
+
+def drawable(
+    tree: TreeSkeleton, *, along_stem: int = ALONG_STEM, along_limb: int = ALONG_LIMB, deepest: int = DEEPEST
+) -> TreeSkeleton:
+    """The main limbs of `tree`, simplified as a person would draw them."""
+    chains = limb_chains(tree.parent, tree.limb)
+    length = np.array([tree.length[rows].sum() for rows in chains])
+    owner = np.empty(len(tree), np.int64)
+    for limb, rows in enumerate(chains):
+        owner[rows] = limb
+    above = np.array([tree.parent[rows[0]] for rows in chains])
+    order = np.array([tree.order[rows[-1]] for rows in chains])
+    kept = _main_limbs(tree, chains, length, owner, above, order, (along_stem, along_limb, deepest))
+    return _simplify(tree, chains, above, kept)
+
+
+def _main_limbs(tree, chains, length, owner, above, order, limits) -> list[int]:
+    along_stem, along_limb, deepest = limits
+    by_parent: dict[int, list[int]] = {}
+    for limb in np.flatnonzero(above != NULL):
+        by_parent.setdefault(int(owner[above[limb]]), []).append(int(limb))
+    kept, queue = [], [int(limb) for limb in np.flatnonzero(above == NULL)]
+    shortest = SHORTEST * tree.height
+    while queue:
+        limb = queue.pop(0)
+        kept.append(limb)
+        laterals = [c for c in by_parent.get(limb, []) if order[c] <= deepest and (order[c] <= 1 or length[c] > shortest)]
+        laterals.sort(key=lambda c: (above[c], c))
+        runs = np.array_split(laterals, min(len(laterals), along_stem if order[limb] == 0 else along_limb)) if laterals else []
+        queue.extend(int(run[np.argmax(length[run])]) for run in runs)
+    return sorted(kept)
+
+
+def _simplify(tree: TreeSkeleton, chains, above, kept) -> TreeSkeleton:
+    """Only the kept limbs; of their rows only bases, junctions of kept limbs, tips and bends."""
+    junction = np.zeros(len(tree), bool)
+    junction[above[[limb for limb in kept if above[limb] != NULL]].astype(int)] = True
+    keep = np.zeros(len(tree), bool)
+    for limb in kept:
+        rows = chains[limb]
+        path = rows if above[limb] == NULL else np.r_[above[limb], rows]
+        fixed = np.flatnonzero(junction[path] | tree.is_base[path])
+        marks = np.unique(np.r_[0, fixed, len(path) - 1])
+        for first, last in zip(marks[:-1], marks[1:], strict=True):
+            marks = np.union1d(marks, first + bends(tree.tip[path[first : last + 1]], TOLERANCE * tree.height))
+        keep[path[marks]] = True
+    rows = np.flatnonzero(keep)
+    parent = tree.parent.copy()
+    for row in rows:  # climb to the nearest kept ancestor
+        while parent[row] != NULL and not keep[parent[row]]:
+            parent[row] = tree.parent[parent[row]]
+    renumber = np.full(len(tree) + 1, NULL)
+    renumber[rows] = np.arange(len(rows))
+    return TreeSkeleton.from_columns(
+        renumber[parent[rows]], tree.tip[rows], tree.radius[rows],
+        order=tree.order[rows], limb=tree.limb[rows], tree=tree.tree[rows],
+    )  # fmt: skip
+
+
+def bends(point: Float[np.ndarray, "point axis"], tolerance: float) -> Int[np.ndarray, " bend"]:
+    """Inner points a polyline must keep to stay within `tolerance` of itself (Douglas & Peucker 1973)."""
+    kept, spans = [], [(0, len(point) - 1)]
+    while spans:
+        first, last = spans.pop()
+        if last - first < 2:
+            continue
+        away = _distance(point[first + 1 : last], point[first], point[last])
+        worst = int(np.argmax(away))
+        if away[worst] > tolerance:
+            middle = first + 1 + worst
+            kept.append(middle)
+            spans += [(first, middle), (middle, last)]
+    return np.array(sorted(kept), np.int64)
+
+
+def _distance(point, a, b):
+    along = b - a
+    square = float(np.sum(along * along))
+    share = np.clip(np.sum((point - a) * along, axis=1) / square, 0, 1) if square > 0 else np.zeros(len(point))
+    return np.sqrt(np.sum((point - a - share[:, None] * along) ** 2, axis=1))
