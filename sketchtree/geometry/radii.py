@@ -1,0 +1,187 @@
+"""How thick is the wood, everywhere?
+
+The pipe model (Shinozaki et al. 1964): every leaf is fed by one pipe that runs down to the ground, and
+the wood at any place is the bundle of the pipes that pass it. With exponent n (Murray's law, n = 2 … 3),
+
+    r^n = Σ_c r_c^n                 at a fork: r below it, r_c where each child leaves it
+    r(s)^n = ρ^n (N(s) + λ L(s))    anywhere: N tips and L metres of wood stand beyond s
+
+    ρ   radius of one twig                                  `habit.twig_radius`
+    n   exponent of the pipe model                          `habit.pipe_exponent`
+    λ   pipes a metre: the twigs that no row stands for     from r(ground) = `habit.trunk_ratio` × height
+
+Both ends are met: twigs are as thin as twigs and the trunk as thick as its species', however many or few
+rows the tree has, and wood without branches tapers gently because leaves were fed along it. Where
+more tips stand than the trunk has pipes, λ is 0 and n grows until they fit. Palms thicken no further
+(monocots have no cambium): their trunk is nearly a cylinder and their fronds thin, whatever they carry.
+
+Radii that were drawn are honoured; the model fills in between them.
+"""
+
+from dataclasses import dataclass
+
+import numpy as np
+from jaxtyping import Array, Float, Int, Key
+
+from sketchtree.errors import OptionError
+from sketchtree.parameters import Habit
+from sketchtree.skeleton import TreeSkeleton
+from sketchtree.traverse import generations, is_tip, sum_to_root
+
+_PALM_TAPER = 0.18  # how much thinner a palm's trunk is at its head
+_FROND_BASE = 4.0  # radius of a frond's foot / radius of its tip
+
+
+@dataclass(frozen=True, eq=False)
+class PipeRadii:
+    """A stage that fills in the `radius` column. Nothing else of the tree changes.
+
+    Afterwards no row is thicker than its parent. Without drawn radii, the bases of one tree hold
+    together Σ r^n = (trunk_ratio × height)^n.
+    """
+
+    habit: Habit
+    drawn_radius: Float[np.ndarray, " segment"] | None = None  # metres at the tip, > 0; NaN where nothing was drawn
+
+    def __call__(self, tree: TreeSkeleton, *, key: Key[Array, ""] | None = None) -> TreeSkeleton:
+        """The tree with new radii. `key` is part of the stage's door; nothing here is random."""
+        if len(tree) == 0:
+            return tree
+        radius = pipe_radii(tree, self.habit)
+        if self.drawn_radius is not None:
+            drawn = _checked(self.drawn_radius, len(tree))
+            radius = honour_drawn(tree.parent, radius, drawn, self.habit.twig_radius)
+        return tree.replace(radius=radius)
+
+
+def pipe_radii(tree: TreeSkeleton, habit: Habit) -> Float[np.ndarray, " segment"]:
+    """Radius at every tip by the pipe model, metres."""
+    tips = sum_to_root(tree.parent, is_tip(tree.parent).astype(float))
+    beyond = sum_to_root(tree.parent, tree.length) - tree.length  # metres of wood past each tip
+    radius = np.empty(len(tree))
+    for name in np.unique(tree.tree):
+        rows = np.flatnonzero(tree.tree == name)
+        bases = rows[tree.is_base[rows]]
+        ground = max(habit.trunk_ratio * _extent(tree, rows), 1.01 * habit.twig_radius)
+        radius[rows] = _one_tree(tips[rows], beyond[rows], tips[bases].sum(), beyond[bases].sum(), ground, habit)
+        if habit.leaf_arrangement == "frond":
+            radius[rows] = _palm(tree, rows, ground, beyond, habit)
+    return radius
+
+
+def _one_tree(tips, beyond, all_tips: float, all_wood: float, ground: float, habit: Habit):
+    """ρ (N + λ L)^(1/n), with λ, or else n, from the radius at the ground."""
+    twig, exponent = habit.twig_radius, habit.pipe_exponent
+    pipes = (ground / twig) ** exponent
+    if pipes < all_tips:
+        exponent = np.log(all_tips) / np.log(ground / twig)
+        pipes = all_tips
+    per_metre = (pipes - all_tips) / all_wood if all_wood > 0 else 0.0
+    return twig * (tips + per_metre * beyond) ** (1.0 / exponent)
+
+
+def _palm(tree: TreeSkeleton, rows, ground: float, beyond, habit: Habit):
+    """A nearly cylindrical trunk; fronds from a slim foot to a twig's tip."""
+    y = tree.tip[rows, 1]
+    trunk = tree.order[rows] == 0
+    rise = (y - y.min()) / max(np.ptp(y[trunk]) if trunk.any() else 1.0, 1e-9)
+    stem = ground * (1.0 - _PALM_TAPER * np.clip(rise, 0.0, 1.0))
+    longest = max(beyond[rows][~trunk].max(initial=0.0), 1e-9)
+    frond = habit.twig_radius * (1.0 + (_FROND_BASE - 1.0) * beyond[rows] / longest)
+    radius = np.where(trunk, stem, np.minimum(frond, 0.5 * ground * (1.0 - _PALM_TAPER)))
+    return never_thicker(tree.parent, _scatter(len(tree), rows, radius))[rows]
+
+
+def honour_drawn(
+    parent: Int[np.ndarray, " segment"],
+    model: Float[np.ndarray, " segment"],
+    drawn: Float[np.ndarray, " segment"],
+    twig: float,
+) -> Float[np.ndarray, " segment"]:
+    """Drawn radii where there are any (NaN: none), the model's elsewhere, never growing towards the tips.
+
+    Between a drawn row of radius a (the model said m) and the twigs, r = ρ (r_model / ρ)^γ with γ such
+    that m becomes a: the drawn row keeps its width and twigs stay twigs.
+    """
+    if np.isnan(drawn).all():
+        return model
+    drawn = _drawn_bases(parent, model, drawn)
+    needed = _largest_beyond(parent, np.nan_to_num(drawn, nan=0.0))
+    radius, anchor, anchor_model = drawn.copy(), drawn.copy(), model.copy()
+    for rows in generations(parent)[1:]:
+        above = parent[rows]
+        anchor[rows], anchor_model[rows] = anchor[above], anchor_model[above]
+        filled = _between(model[rows], anchor[rows], anchor_model[rows], twig)
+        wanted = np.where(np.isnan(drawn[rows]), np.maximum(filled, needed[rows]), drawn[rows])
+        radius[rows] = np.minimum(wanted, radius[above])
+        pinned = rows[~np.isnan(drawn[rows])]
+        anchor[pinned], anchor_model[pinned] = radius[pinned], model[pinned]
+    return radius
+
+
+def never_thicker(parent, radius):
+    """The radii with every row cut down to its parent's."""
+    radius = np.array(radius, float)
+    for rows in generations(parent)[1:]:
+        radius[rows] = np.minimum(radius[rows], radius[parent[rows]])
+    return radius
+
+
+def _between(model, anchor, anchor_model, twig: float):
+    span = np.log(np.maximum(anchor_model, 1.001 * twig) / twig)
+    gamma = np.log(np.maximum(anchor, 1.001 * twig) / twig) / span
+    bent = twig * np.maximum(model / twig, 1.0) ** gamma
+    return np.where(anchor > 1.01 * twig, bent, anchor * np.minimum(model / anchor_model, 1.0))
+
+
+def _drawn_bases(parent, model, drawn):
+    """Every base gets a drawn radius: its own, or the model's scaled as its thickest drawn row was."""
+    drawn = drawn.copy()
+    stem = np.arange(len(parent))
+    for rows in generations(parent)[1:]:
+        stem[rows] = stem[parent[rows]]
+    known = np.flatnonzero(~np.isnan(drawn))
+    known = known[np.argsort(-model[known], kind="stable")]
+    stems, first = np.unique(stem[known], return_index=True)
+    thickest = dict(zip(stems.tolist(), known[first].tolist(), strict=True))
+    for base in np.flatnonzero((parent < 0) & np.isnan(drawn)):
+        row = thickest.get(int(base))
+        drawn[base] = model[base] if row is None else drawn[row] * np.clip(model[base] / model[row], 1.0, 1.5)
+    return drawn
+
+
+def _largest_beyond(parent, value):
+    most = np.array(value, float)
+    for rows in reversed(generations(parent)[1:]):
+        np.maximum.at(most, parent[rows], most[rows])
+    return most
+
+
+def _extent(tree: TreeSkeleton, rows) -> float:
+    """Height of one tree; the longest side of its box where it hardly rises (a creeping stem)."""
+    points = tree.tip[rows]
+    foot = points[tree.is_base[rows], 1].min()
+    return float(max(points[:, 1].max() - foot, 0.25 * np.ptp(points, axis=0).max()))
+
+
+def _scatter(size: int, rows, value):
+    full = np.full(size, np.inf)
+    full[rows] = value
+    return full
+
+
+def _checked(drawn, rows: int):
+    drawn = np.asarray(drawn, float)
+    if drawn.shape != (rows,):
+        raise OptionError(
+            f"`drawn_radius` has shape {drawn.shape}, but the tree has {rows} rows.",
+            remedy="Give one radius per row, NaN where nothing was drawn.",
+        )
+    if (drawn <= 0).any() or np.isinf(drawn).any():
+        row = int(np.flatnonzero((drawn <= 0) | np.isinf(drawn))[0])
+        raise OptionError(
+            f"The drawn radius of row {row} is {drawn[row]:g}, which is not a positive length.",
+            remedy="Give metres above zero, NaN where nothing was drawn.",
+        )
+    return drawn
+

@@ -1,0 +1,50 @@
+"""Which part of the bark lies where?
+
+One tile of bark covers `tile` × `tile` metres. Around a limb of circumference c it repeats k times, a power of
+two (so that it closes without a seam where k ≥ 1), and along it
+
+    u = k θ / 2π + u₀        dv/ds = −ρ^½ / tile        ρ = k tile / c
+
+    ρ    density of the bark around the limb, 1 = as on the tile
+    θ    angle from the seam, which starts at the back of the tree
+
+The largest stretch of a texel is max(ρ^½, ρ^−½). k starts at the power of two nearest to c / tile, so ρ starts within
+½√2 … √2; where thinning makes ρ pass 4, k falls by 4. So stretch stays ≤ 2 and density within ½√2 … 2√2 of the tile's.
+"""
+
+import numpy as np
+from jaxtyping import Float, Int
+
+from sketchtree.geometry.rings import Rings
+
+
+def repeats(ring: Rings, tile: float) -> Float[np.ndarray, " ring"]:
+    """k of every ring: it never rises towards the tip."""
+    around = 2.0 * np.pi * ring.radius / tile
+    foot = around[ring.start[:-1]]
+    level = np.round(np.log2(foot))[ring.limb]
+    falls = np.maximum(np.floor((level - np.log2(around)) / 2.0), 0.0)
+    stride = float(falls.max(initial=0.0)) + 1.0
+    falls = np.maximum.accumulate(falls + ring.limb * stride) - ring.limb * stride
+    return 2.0 ** (level - 2.0 * falls)
+
+
+def pace(ring: Rings, repeat: Float[np.ndarray, " ring"], tile: float) -> Float[np.ndarray, " ring"]:
+    """−dv/ds at every ring, tiles a metre."""
+    density = repeat * tile / (2.0 * np.pi * ring.radius)
+    return np.sqrt(np.clip(density, 0.5, 4.0)) / tile
+
+
+def lengthwise(ring: Rings, paces: Float[np.ndarray, " ring"]) -> Float[np.ndarray, " ring"]:
+    """−v at every ring, 0 at each limb's foot: the pace summed over the length."""
+    step = np.r_[0.0, 0.5 * (paces[1:] + paces[:-1]) * np.diff(ring.s)]
+    step[ring.start[:-1]] = 0.0
+    total = np.cumsum(step)
+    return total - np.repeat(total[ring.start[:-1]], np.diff(ring.start))
+
+
+def first_of_limb(start: Int[np.ndarray, " limb+1"], size: int):
+    """Bool[ring]: the first ring of each limb."""
+    first = np.zeros(size, bool)
+    first[start[:-1]] = True
+    return first
