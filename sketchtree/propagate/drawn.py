@@ -1,0 +1,163 @@
+"""What of the drawn tree may grow on?
+
+Generation 0 is what was drawn (Chen et al. 2008, §6). It offers two things to the first generation:
+
+    open tips   the ends of drawn limbs, which grow on by `EXTENSION` of their length, or to the crown
+    nodes       every h metres along the limbs, from their bare base on (`laterals`), unless a lateral was
+                drawn just there, in the same direction
+
+A drawn trunk is bare up to its first drawn limb: where the drawing begins to branch, so does the tree.
+"""
+
+from dataclasses import dataclass
+
+import numpy as np
+from jaxtyping import Array, Bool, Float, Int, Key
+
+from sketchtree import keys
+from sketchtree.axes import NULL
+from sketchtree.parameters import Habit
+from sketchtree.propagate.attach_block import Nodes
+from sketchtree.propagate.envelope import Envelope
+from sketchtree.propagate.laterals import Split
+from sketchtree.propagate.library import Library
+from sketchtree.propagate.open_branch import OpenBranches, frames, limb_arcs
+from sketchtree.skeleton import TreeSkeleton
+from sketchtree.traverse import is_tip
+
+EXTENSION = np.array([0.04, 0.12])  # of a drawn limb's length, without a crown; by order 0, 1+
+CROWN_EXTENSION = 0.5  # of a drawn limb's length, at most, towards the crown
+_BEGINS = 0.06  # of the trunk's length: new limbs may start this far below the first drawn one
+_APART = np.cos(np.radians(35.0))  # a new lateral this close to a drawn one's direction is not grown
+
+
+def open_tips(
+    tree: TreeSkeleton, spacing: Float[np.ndarray, " segment"], habit: Habit, envelope: Envelope | None, key: Key[Array, ""]
+) -> OpenBranches:
+    """The ends of drawn limbs as open branches. Tips outside the crown are closed, and so are limbs of
+    the deepest order: what was drawn there is their whole length."""
+    arc, whole = limb_arcs(tree)
+    rows = np.flatnonzero(is_tip(tree.parent) & ~tree.is_base & (tree.order < max(habit.max_order, 1)))
+    frame = frames(tree)[rows]
+    length = EXTENSION[np.minimum(tree.order[rows], 1)] * whole[rows] * (0.7 + 0.6 * keys.uniform(key, tree.limb[rows], 8))
+    if envelope is not None:
+        far = CROWN_EXTENSION * whole[rows]
+        reach = envelope.exit_fraction(tree.tip[rows], tree.tip[rows] + far[:, None] * frame[:, :, 1])
+        length = np.where(envelope.inside(tree.tip[rows]), reach * far, 0.0)
+    keep = length > 0.3 * habit.twig_length
+    rows, frame, length = rows[keep], frame[keep], length[keep]
+    return OpenBranches(
+        row=rows,
+        origin=tree.tip[rows],
+        frame=frame,
+        limb=tree.limb[rows],
+        order=tree.order[rows],
+        tree=tree.tree[rows],
+        length=length,
+        grown=arc[rows],
+        node=np.rint(arc[rows] / spacing[rows]).astype(np.int64) + 1,
+        radius=tree.radius[rows],
+        bends=np.ones(len(rows), bool),
+    )
+
+
+def drawn_nodes(
+    split: Split, open_: OpenBranches, library: Library, envelope: Envelope | None
+) -> Nodes:
+    """The nodes along drawn limbs that may bear new laterals (`position` counts what the tip will yet grow)."""
+    tree = split.tree
+    arc, whole = limb_arcs(tree)
+    grows = dict(zip(open_.limb.tolist(), open_.length.tolist(), strict=True))
+    whole = whole + np.array([grows.get(limb, 0.0) for limb in tree.limb.tolist()])
+    rows = np.flatnonzero((split.number != NULL) & (tree.order < len(library.bare)))
+    rows = rows[arc[rows] >= (bare_length(tree, library) - 1e-9)[rows]]
+    if envelope is not None:
+        rows = rows[envelope.inside(tree.tip[rows])]
+    return Nodes(
+        row=rows,
+        tip=tree.tip[rows],
+        frame=frames(tree)[rows],
+        limb=tree.limb[rows],
+        order=tree.order[rows],
+        tree=tree.tree[rows],
+        number=split.number[rows],
+        position=arc[rows] / whole[rows],
+        whole=whole[rows],
+        radius=tree.radius[rows],
+    )
+
+
+def bare_length(tree: TreeSkeleton, library: Library) -> Float[np.ndarray, " segment"]:
+    """Metres of each row's limb, from its insertion on, that bear no new lateral."""
+    arc, whole = limb_arcs(tree)
+    share = library.bare[np.minimum(tree.order, len(library.bare) - 1)]
+    bare = share * whole
+    first = _first_drawn_lateral(tree, arc)
+    begins = np.where(np.isfinite(first), np.maximum(first - _BEGINS * whole, 0.0), bare)
+    return np.where(tree.order == 0, begins, bare)
+
+
+def _first_drawn_lateral(tree, arc):
+    """Arc of the first drawn lateral of every row's limb, metres; inf where there is none."""
+    above = np.where(tree.parent == NULL, 0, tree.parent)
+    lateral = np.flatnonzero((tree.parent != NULL) & (tree.limb != tree.limb[above]))
+    limbs, of_row = np.unique(tree.limb, return_inverse=True)
+    first = np.full(len(limbs), np.inf)
+    at = tree.parent[lateral]
+    np.minimum.at(first, of_row[at], arc[at])
+    return first[of_row]
+
+
+@dataclass(frozen=True, eq=False)
+class DrawnLaterals:
+    """The drawn laterals, sorted along one axis on which every limb has a stretch of its own."""
+
+    place: Float[np.ndarray, " lateral"]  # limb · stretch + arc of the node, rising
+    limb: Int[np.ndarray, " lateral"]  # dense number of the parent limb
+    heading: Float[np.ndarray, "lateral 3"]  # unit
+    length: Float[np.ndarray, " lateral"]  # of the whole lateral, metres
+    at: Float[np.ndarray, " segment"]  # the same axis for the tip of every row of the tree
+    of_row: Int[np.ndarray, " segment"]
+
+    @classmethod
+    def of(cls, tree: TreeSkeleton) -> "DrawnLaterals":
+        """All laterals of a drawn tree."""
+        arc, whole = limb_arcs(tree)
+        _, of_row = np.unique(tree.limb, return_inverse=True)
+        at = of_row * (2.0 * arc.max(initial=0.0) + 1.0) + arc
+        above = np.where(tree.parent == NULL, 0, tree.parent)
+        rows = np.flatnonzero((tree.parent != NULL) & (tree.limb != tree.limb[above]) & (tree.length > 0))
+        rows = rows[np.argsort(at[tree.parent[rows]], kind="stable")]
+        node = tree.parent[rows]
+        return cls(at[node], of_row[node], tree.vector[rows] / tree.length[rows][:, None], whole[rows], at, of_row)
+
+    def beside(
+        self, new: OpenBranches, spacing: Float[np.ndarray, " segment"]
+    ) -> Bool[np.ndarray, " branch"]:
+        """Which new branches start near a drawn lateral of the same limb and point its way."""
+        clash = np.zeros(len(new), bool)
+        if not len(self.place):
+            return clash
+        at = self.at[new.row]
+        following = np.searchsorted(self.place, at)
+        for offset in (-2, -1, 0, 1):
+            other = np.clip(following + offset, 0, len(self.place) - 1)
+            near = np.abs(self.place[other] - at) < 1.2 * spacing[new.row]
+            clash |= near & (np.einsum("bi,bi->b", self.heading[other], new.frame[:, :, 1]) > _APART)
+        return clash
+
+    def usual_length(self, new: OpenBranches) -> Float[np.ndarray, " branch"]:
+        """How long the drawn laterals are where each new branch starts, interpolated along the limb; NaN
+        on limbs with none. On the page a limb is as long as it was drawn or longer in depth, never shorter."""
+        usual = np.full(len(new), np.nan)
+        if not len(self.place):
+            return usual
+        at, limb = self.at[new.row], self.of_row[new.row]
+        right = np.clip(np.searchsorted(self.place, at), 0, len(self.place) - 1)
+        left = np.maximum(right - 1, 0)
+        right_on, left_on = self.limb[right] == limb, self.limb[left] == limb
+        span = self.place[right] - self.place[left]
+        t = np.clip(np.where(span > 0, (at - self.place[left]) / np.where(span > 0, span, 1.0), 1.0), 0.0, 1.0)
+        t = np.where(left_on & right_on, t, np.where(right_on, 1.0, 0.0))
+        between = (1 - t) * self.length[left] + t * self.length[right]
+        return np.where(left_on | right_on, between, np.nan)

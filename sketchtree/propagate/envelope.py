@@ -1,0 +1,135 @@
+"""How far may the tree grow? The crown as a surface of local revolution.
+
+Chen et al. 2008, §6 (after Okabe et al. 2005): every outline drawn is revolved about a vertical axis of its own.
+At height y an outline spans x ∈ [x_l(y), x_r(y)] on the page; about its axis x_a the surface lies at the radius
+
+    w(θ, y) = w_r (1 + cos θ)/2 + w_l (1 − cos θ)/2,      w_l = x_a − x_l,   w_r = x_r − x_a
+
+    θ     azimuth about the axis from +x towards the viewer (+z)
+    x_a   the outline's centroid, or where a leaning outline leaves it aside, the nearest point that lies
+          a quarter of the width inside: then the revolution is local to the height
+
+On the page (θ = 0, π) the surface is the outline; a circle makes a sphere. Several outlines make the union
+of their surfaces. Where an outline has several stretches at one height, the outermost ends count.
+"""
+
+from dataclasses import dataclass
+
+import numpy as np
+from jaxtyping import Bool, Float
+
+from sketchtree.errors import OptionError
+
+_BISECTIONS = 44
+
+
+@dataclass(frozen=True, eq=False)
+class Lobe:
+    """One outline revolved. Between two neighbouring heights both ends are straight lines."""
+
+    height: Float[np.ndarray, " level"]  # metres, rising
+    left: Float[np.ndarray, "slab 2"]  # x_l at the bottom and the top of each slab
+    right: Float[np.ndarray, "slab 2"]
+    axis: float  # x of the centroid
+    centre_z: float = 0.0  # metres, depth of the axis
+
+    @classmethod
+    def from_outline(cls, outline: Float[np.ndarray, "point 2"], centre_z: float = 0.0) -> "Lobe":
+        """The lobe of one closed outline (world metres, y up; the first point need not be repeated)."""
+        outline = np.asarray(outline, float)
+        ok = outline.ndim == 2 and outline.shape[1] == 2 and len(outline) >= 3 and np.isfinite(outline).all()
+        if not ok or np.ptp(outline[:, 0]) <= 0 or np.ptp(outline[:, 1]) <= 0:
+            raise OptionError(
+                "A crown outline needs at least three finite points that enclose an area.",
+                remedy="Draw the crown as a closed curve, or build with `--crown off`.",
+            )
+        a, b = outline, np.roll(outline, -1, axis=0)
+        height = np.unique(outline[:, 1])
+        middle = 0.5 * (height[:-1] + height[1:])
+        low, high = np.minimum(a[:, 1], b[:, 1]), np.maximum(a[:, 1], b[:, 1])
+        crosses = (low[:, None] <= middle) & (middle <= high[:, None]) & (high > low)[:, None]
+        rise = np.where(high > low, b[:, 1] - a[:, 1], 1.0)
+        slope = (b[:, 0] - a[:, 0]) / rise
+
+        def x(y):
+            return a[:, :1] + slope[:, None] * (y - a[:, 1:])
+
+        bottom, mid, top = x(height[:-1]), x(middle), x(height[1:])
+        first = np.argmin(np.where(crosses, mid, np.inf), axis=0)
+        last = np.argmax(np.where(crosses, mid, -np.inf), axis=0)
+        slab = np.arange(len(middle))
+        return cls(
+            height=height,
+            left=np.stack([bottom[first, slab], top[first, slab]], axis=1),
+            right=np.stack([bottom[last, slab], top[last, slab]], axis=1),
+            axis=_centroid_x(a, b),
+            centre_z=centre_z,
+        )
+
+    def margin(self, point: Float[np.ndarray, "point 3"]) -> Float[np.ndarray, " point"]:
+        """How far inside the surface each point lies, along its own radius, metres; negative outside."""
+        y = point[:, 1]
+        slab = np.clip(np.searchsorted(self.height, y, side="right") - 1, 0, len(self.left) - 1)
+        t = (y - self.height[slab]) / (self.height[slab + 1] - self.height[slab])
+        left = self.left[slab, 0] + t * (self.left[slab, 1] - self.left[slab, 0])
+        right = self.right[slab, 0] + t * (self.right[slab, 1] - self.right[slab, 0])
+        quarter = 0.25 * (right - left)
+        axis = np.clip(self.axis, left + quarter, right - quarter)
+        dx, dz = point[:, 0] - axis, point[:, 2] - self.centre_z
+        radius = np.hypot(dx, dz)
+        cosine = np.divide(dx, radius, out=np.ones_like(dx), where=radius > 0)
+        surface = 0.5 * ((right - axis) * (1 + cosine) + (axis - left) * (1 - cosine))
+        beyond = (y < self.height[0]) | (y > self.height[-1])
+        return np.where(beyond, -np.inf, surface - radius)
+
+
+@dataclass(frozen=True, eq=False)
+class Envelope:
+    """The space the tree may fill: the union of one or several lobes."""
+
+    lobes: tuple[Lobe, ...]
+
+    @classmethod
+    def from_outlines(cls, outlines, centre_z: float = 0.0) -> "Envelope":
+        """The envelope of closed outlines (each point 2, world metres); raises OptionError for a degenerate one."""
+        return cls(tuple(Lobe.from_outline(outline, centre_z) for outline in outlines))
+
+    def inside(self, point: Float[np.ndarray, "point 3"]) -> Bool[np.ndarray, " point"]:
+        """Which points lie inside or on the surface."""
+        within = np.zeros(len(point), bool)
+        for lobe in self.lobes:
+            within |= lobe.margin(point) >= 0
+        return within
+
+    def exit_fraction(
+        self, start: Float[np.ndarray, "branch 3"], end: Float[np.ndarray, "branch 3"]
+    ) -> Float[np.ndarray, " branch"]:
+        """The fraction of each segment from `start` to `end` that stays inside: 1 where the end and the middle
+        are inside, else where the surface is first found by bisection; 0 where the start is outside and the
+        end is too. A branch that starts outside and ends inside may grow."""
+        end_inside = self.inside(end)
+        middle_inside = self.inside(0.5 * (start + end))
+        start_inside = self.inside(start)
+        fraction = np.where(end_inside & (middle_inside | ~start_inside), 1.0, 0.0)
+        rows = np.flatnonzero(start_inside & (fraction == 0.0))
+        if len(rows):
+            low = np.zeros(len(rows))
+            high = np.where(middle_inside[rows], 1.0, 0.5)
+            origin, vector = start[rows], end[rows] - start[rows]
+            for _ in range(_BISECTIONS):
+                middle = 0.5 * (low + high)
+                within = self.inside(origin + middle[:, None] * vector)
+                low, high = np.where(within, middle, low), np.where(within, high, middle)
+            fraction[rows] = low
+        return fraction
+
+
+def _centroid_x(a, b):
+    """x of the polygon's centroid; of its middle if its area vanishes (a curve that crosses itself evenly)."""
+    cross = a[:, 0] * b[:, 1] - b[:, 0] * a[:, 1]
+    area = cross.sum()
+    middle = 0.5 * (a[:, 0].min() + a[:, 0].max())
+    if abs(area) < 1e-9 * np.ptp(a[:, 0]) * np.ptp(a[:, 1]):
+        return float(middle)
+    x = float(((a[:, 0] + b[:, 0]) * cross).sum() / (3 * area))
+    return x if a[:, 0].min() < x < a[:, 0].max() else float(middle)

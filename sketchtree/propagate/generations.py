@@ -1,0 +1,246 @@
+"""How does the tree fill in what the sketch left out?
+
+Chen et al. 2008, §6. Generation 0 is the drawing. In every further one all open branches grow to their
+length at once, node by node along replication blocks; the laterals of those blocks are the open branches of the
+next. Each generation is one set of array operations, linear in the segments it makes.
+
+Growth ends with the generations asked for, at the habit's deepest order, at branches as short as its twigs,
+at the crown's surface, or at `max_segments`.
+"""
+
+import dataclasses
+from dataclasses import dataclass, replace
+
+import numpy as np
+from jaxtyping import Array, Float, Int, Key
+
+from sketchtree import keys
+from sketchtree.errors import OptionError
+from sketchtree.parameters import Habit, TreeParameters
+from sketchtree.propagate.attach_block import MINIMUM_LENGTH, Nodes, attach
+from sketchtree.propagate.block import blocks_of, blocks_of_parameters
+from sketchtree.propagate.drawn import DrawnLaterals, bare_length, drawn_nodes, open_tips
+from sketchtree.propagate.envelope import Envelope
+from sketchtree.propagate.laterals import split_long
+from sketchtree.propagate.library import library
+from sketchtree.propagate.limb_growth import NODES, grow, plan
+from sketchtree.propagate.open_branch import OpenBranches, limb_arcs
+from sketchtree.skeleton import Kind, TreeSkeleton
+
+GENERATIONS = 5  # without a crown (Chen §6)
+CROWN_GENERATIONS = 12  # with one, at most
+_BEARING = 2.5  # twig lengths: a shorter limb bears no laterals
+_TRUNK_SPACING = 1.6  # of the habit's spacing of laterals
+_LARGEST_SCALE = 1.25
+_LIKE_DRAWN = 1.1  # times the drawn laterals around it, a new one on a drawn limb is no longer
+
+
+@dataclass(frozen=True, eq=False)
+class Propagation:
+    """A tree and how it came about."""
+
+    skeleton: TreeSkeleton
+    generation: Int[np.ndarray, " segment"]  # of every row; 0 for what was drawn
+    drawn_row: Int[np.ndarray, " segment"]  # row of the result, for every row of the tree that was given
+    generations_done: int
+    stopped_by: str  # generations | habit | max_segments
+    warnings: tuple[str, ...]
+
+
+@dataclass(frozen=True)
+class Propagate:
+    """The stage: a drawn skeleton in, a complete one out (Chen §6)."""
+
+    habit: Habit
+    theta: TreeParameters
+    crown: tuple = ()  # closed outlines, each (point 2), world metres
+    generations: int | None = None  # 0-50; None: 5 without a crown, at most 12 with one
+    fill: bool = False  # keep on until the crown is evenly filled
+    max_segments: int = 200_000  # of the result, drawn ones included; ≥ 1
+    exemplar: TreeSkeleton | None = None  # lends its blocks where the drawing has too few
+
+    def __call__(self, tree: TreeSkeleton, *, key: Key[Array, ""]) -> TreeSkeleton:
+        return self.run(tree, key=key).skeleton
+
+    def run(self, tree: TreeSkeleton, *, key: Key[Array, ""]) -> Propagation:
+        """As the call, with the generations, warnings and what ended the growth."""
+        return propagate(
+            tree,
+            self.habit,
+            self.theta,
+            crown=self.crown,
+            generations=self.generations,
+            fill=self.fill,
+            max_segments=self.max_segments,
+            exemplar=self.exemplar,
+            key=key,
+        )
+
+
+def propagate(
+    tree: TreeSkeleton,
+    habit: Habit,
+    theta: TreeParameters,
+    *,
+    crown: tuple = (),
+    generations: int | None = None,
+    fill: bool = False,
+    max_segments: int = 200_000,
+    exemplar: TreeSkeleton | None = None,
+    key: Key[Array, ""],
+) -> Propagation:
+    """Grow what the sketch left out. Options as in `Propagate`; the given rows are kept as they are, long ones split."""
+    limit = _limits(generations, max_segments, bool(crown))
+    if len(tree) == 0 or limit == 0:
+        return Propagation(tree, np.zeros(len(tree), int), np.arange(len(tree)), 0, "generations", ())
+    growth = _Growth(tree, _to_scale(habit, tree), theta, exemplar, crown, max_segments, key)
+    for _ in range(limit):
+        if not growth.generation():
+            break
+    return growth.result(limit)
+
+
+class _Growth:
+    """The tree while it grows: the rows made so far and the branches still open."""
+
+    def __init__(self, tree, habit, theta, exemplar, crown, max_segments, key):
+        self.habit, self.theta, self.key, self.max_segments = habit, theta, key, max_segments
+        self.warnings = []
+        self.envelope = Envelope.from_outlines(crown) if len(crown) else None
+        supplement = blocks_of(exemplar) if exemplar is not None else blocks_of_parameters(theta, habit)
+        if len(supplement) == 0:
+            supplement = blocks_of_parameters(theta, habit)
+        self.library = library(blocks_of(tree), supplement, theta, habit.max_order)
+        self.drawn = self._split(tree)
+        self.parts, self.rows, self.done, self.stopped_by = [], len(self.drawn.tree), 0, "generations"
+        self.segments = self.drawn.tree.segment_count
+        self.open = self._first_generation()
+
+    def _split(self, tree):
+        _, whole = limb_arcs(tree)
+        self.spacing = limb_spacing(self.habit, tree.order, whole)
+        arc, _ = limb_arcs(tree)
+        bears = (tree.order < self.habit.max_order) & (arc > bare_length(tree, self.library))
+        split = split_long(tree, self.spacing, bears)
+        _, whole = limb_arcs(split.tree)
+        self.spacing = limb_spacing(self.habit, split.tree.order, whole)
+        return split
+
+    def _first_generation(self) -> OpenBranches:
+        tree = self.drawn.tree
+        tips = open_tips(tree, self.spacing, self.habit, self.envelope, self.key)
+        new = self._laterals(drawn_nodes(self.drawn, tips, self.library, self.envelope))
+        drawn = DrawnLaterals.of(tree)
+        usual = drawn.usual_length(new)
+        length = np.where(np.isnan(usual), new.length, np.minimum(new.length, _LIKE_DRAWN * usual))
+        new = replace(new, length=length)
+        return tips.join(new.select(~drawn.beside(new, self.spacing)))
+
+    def generation(self) -> bool:
+        """Grow all open branches; False where there was nothing to grow."""
+        if len(self.open) == 0:
+            self.stopped_by = "habit"
+            return False
+        whole = self.open.length + self.open.grown
+        nodes = plan(self.open, self.library, limb_spacing(self.habit, self.open.order, whole), self.key)
+        keep = self._within_limit(nodes.count)
+        if not keep.all():
+            self.open = self.open.select(keep)
+            nodes = plan(self.open, self.library, limb_spacing(self.habit, self.open.order, whole[keep]), self.key)
+            self.stopped_by = "max_segments"
+        grown, parent, block = grow(
+            self.open, nodes, self.library, self.habit, self.theta, self.envelope, self.key, first_row=self.rows
+        )
+        self.parts.append((grown, parent))
+        self.rows, self.segments, self.done = self.rows + len(grown), self.segments + len(grown), self.done + 1
+        if self.stopped_by == "max_segments":
+            self.open = self.open.select(slice(0, 0))
+            return False
+        self.open = self._laterals(grown, block)
+        return True
+
+    def _laterals(self, nodes: Nodes, block=None) -> OpenBranches:
+        """The branches that the blocks on these nodes open."""
+        if block is None:
+            block = self.library.choose(nodes.order, nodes.position, keys.uniform(self.key, nodes.id, 6))
+        bears = (nodes.order < self.habit.max_order) & (nodes.whole >= _BEARING * self.habit.twig_length)
+        bears &= nodes.position >= np.r_[self.library.bare, 1.0][np.minimum(nodes.order, len(self.library.bare))]
+        opened = attach(nodes.select(bears), block[bears], self.library.blocks, self.habit, self.theta, self.key)
+        if self.envelope is None:
+            return opened
+        end = opened.origin + opened.length[:, None] * opened.frame[:, :, 1]
+        length = opened.length * self.envelope.exit_fraction(opened.origin, end)
+        opened = replace(opened, length=length)
+        return opened.select(length >= MINIMUM_LENGTH * self.habit.twig_length)
+
+    def _within_limit(self, count):
+        """Which open branches are grown so that the whole keeps to `max_segments`: thinned evenly, by limb id."""
+        left = self.max_segments - self.segments
+        if count.sum() <= left:
+            return np.ones(len(count), bool)
+        lot = np.argsort(keys.uniform(self.key, self.open.limb, 9), kind="stable")
+        keep = np.zeros(len(count), bool)
+        keep[lot] = np.cumsum(count[lot]) <= left
+        return keep
+
+    def result(self, limit: int) -> Propagation:
+        """The whole skeleton."""
+        tree = self.drawn.tree
+        drawn_count = len(tree)
+        if self.parts:
+            tree = tree.append(_columns(self.parts, self.tree_of_rows()))
+        generation = np.repeat(np.arange(len(self.parts) + 1), [drawn_count] + [len(part) for part, _ in self.parts])
+        if self.stopped_by == "generations" and len(self.open) == 0:
+            self.stopped_by = "habit"
+        if self.stopped_by == "max_segments":
+            self.warnings.append(
+                f"Growth stopped at max_segments = {self.max_segments} in generation {self.done}: "
+                "its branches were thinned evenly. Raise --max-segments, or ask for fewer generations."
+            )
+        return Propagation(
+            tree, generation, self.drawn.row, self.done, self.stopped_by, tuple(self.warnings)
+        )
+
+    def tree_of_rows(self):
+        return np.concatenate([part.tree for part, _ in self.parts])
+
+
+def limb_spacing(
+    habit: Habit, order: Int[np.ndarray, " limb"], whole: Float[np.ndarray, " limb"]
+) -> Float[np.ndarray, " limb"]:
+    """Metres between the nodes of a limb of this order and length: the habit's, wider on trunks, whose
+    laterals are large, and never more than `NODES` nodes a limb."""
+    wide = np.where((order == 0) & (habit.arrangement != "whorled"), _TRUNK_SPACING, 1.0)
+    return np.maximum(habit.lateral_spacing * wide, whole / (3 * NODES))
+
+
+def _columns(parts, tree):
+    columns = {name: np.concatenate([getattr(part, name) for part, _ in parts]) for name in ("tip", "radius", "order", "limb")}
+    columns["parent"] = np.concatenate([parent for _, parent in parts])
+    columns["tree"] = tree
+    columns["kind"] = np.full(len(tree), int(Kind.PROPAGATED))
+    return columns
+
+
+def _to_scale(habit: Habit, tree: TreeSkeleton) -> Habit:
+    """The habit's lengths for a tree of another height: a small tree has smaller twigs, a large one
+    more of them."""
+    scale = float(np.clip(tree.height / habit.height, 0.01, _LARGEST_SCALE))
+    return dataclasses.replace(
+        habit,
+        lateral_spacing=habit.lateral_spacing * scale,
+        twig_length=habit.twig_length * scale,
+        gravitropism=habit.gravitropism / scale,
+    )
+
+
+def _limits(generations: int | None, max_segments: int, crown: bool) -> int:
+    if max_segments < 1:
+        raise OptionError(f"max_segments is {max_segments}, but must be 1 or more.", remedy="Give a positive number.")
+    if generations is None:
+        return CROWN_GENERATIONS if crown else GENERATIONS
+    if not 0 <= generations <= 50:
+        raise OptionError(
+            f"generations is {generations}, but must lie between 0 and 50.", remedy="5 to 12 make a full tree."
+        )
+    return generations
