@@ -1,22 +1,22 @@
 """How is each broad leaf drawn? One function a species, in blade coordinates (joint at 0, tip at 1)."""
 
-from sketchtree.foliage.outline import closed, pointed, serrate, smooth, wavy
+from sketchtree.foliage.outline import closed, pointed, rounded, serrate, smooth, wavy
 from sketchtree.foliage.painting import Painting, paint_blade
 from sketchtree.foliage.venation import branching, midrib, parallel, pinnate, reaching
 
 
 def oak() -> Painting:
     """Quercus robur: obovate with four to five round lobes a side, small ears at a very short petiole."""
-    right = smooth([
-        (0, 0), (0.05, -0.012), (0.075, 0.03), (0.055, 0.09), (0.10, 0.15), (0.175, 0.20), (0.185, 0.25), (0.12, 0.30),
-        (0.13, 0.34), (0.235, 0.385), (0.265, 0.44), (0.16, 0.49), (0.165, 0.53), (0.29, 0.585), (0.325, 0.65), (0.20, 0.69),
-        (0.195, 0.73), (0.285, 0.79), (0.27, 0.86), (0.155, 0.865), (0.16, 0.90), (0.155, 0.955), (0.08, 0.985), (0, 1),
-    ])  # fmt: skip
-    left = smooth([
-        (0, 0), (0.05, -0.015), (0.07, 0.03), (0.05, 0.08), (0.08, 0.115), (0.15, 0.16), (0.16, 0.205), (0.105, 0.25),
-        (0.12, 0.29), (0.225, 0.335), (0.25, 0.39), (0.15, 0.435), (0.165, 0.475), (0.285, 0.53), (0.315, 0.60), (0.205, 0.635),
-        (0.205, 0.68), (0.305, 0.74), (0.295, 0.81), (0.18, 0.83), (0.18, 0.87), (0.18, 0.925), (0.09, 0.97), (0, 1),
-    ])  # fmt: skip
+    right = rounded([
+        (0, 0), (0.075, -0.02), (0.085, 0.03), (0.045, 0.09), (0.095, 0.125), (0.195, 0.185), (0.205, 0.255), (0.105, 0.285),
+        (0.105, 0.335), (0.255, 0.38), (0.275, 0.46), (0.135, 0.475), (0.14, 0.535), (0.31, 0.59), (0.335, 0.675), (0.175, 0.68),
+        (0.175, 0.735), (0.31, 0.79), (0.30, 0.875), (0.145, 0.85), (0.14, 0.905), (0.17, 0.965), (0.08, 1.015), (0, 1.0),
+    ], 0.034)  # fmt: skip
+    left = rounded([
+        (0, 0), (0.07, -0.025), (0.08, 0.02), (0.04, 0.07), (0.08, 0.095), (0.165, 0.145), (0.175, 0.21), (0.09, 0.235),
+        (0.095, 0.285), (0.24, 0.33), (0.265, 0.41), (0.13, 0.425), (0.135, 0.485), (0.305, 0.53), (0.33, 0.62), (0.18, 0.63),
+        (0.18, 0.685), (0.325, 0.74), (0.325, 0.825), (0.16, 0.815), (0.16, 0.875), (0.21, 0.93), (0.115, 0.99), (0, 1.0),
+    ], 0.034)  # fmt: skip
     outline = closed(right, left)
     veins = [midrib(0.06, 0.017)]
     veins += reaching([(0.10, 0.155, 0.215), (0.24, 0.235, 0.405), (0.42, 0.285, 0.61), (0.60, 0.255, 0.815), (0.76, 0.13, 0.935)], 0.0095)
@@ -56,7 +56,7 @@ def maple() -> Painting:
 
 def birch() -> Painting:
     """Betula pendula: a rhomb drawn out to a point, doubly toothed."""
-    half = smooth([(0, 0), (0.10, 0.012), (0.25, 0.09), (0.365, 0.24), (0.36, 0.33), (0.25, 0.55), (0.13, 0.77), (0.055, 0.91), (0, 1)])
+    half = smooth([(0, 0), (0.10, 0.012), (0.25, 0.09), (0.365, 0.24), (0.355, 0.33), (0.235, 0.54), (0.105, 0.77), (0.035, 0.91), (0, 1)])
     outline = closed(serrate(half, 13, 0.034, double=0.35), serrate(half * [0.97, 1], 13, 0.034, double=0.35, phase=0.4))
     veins = [midrib(0.34, 0.014)] + pinnate(outline, 6, first=0.05, last=0.74, angle=50, bend=14, width=0.0085)
     return paint_blade(outline, veins, petiole=0.34, seed=4)
@@ -72,7 +72,7 @@ def willow() -> Painting:
 
 def poplar() -> Painting:
     """Populus nigra 'Italica': a broad delta with a clear rim, on a long flattened petiole."""
-    half = smooth([(0, 0), (0.14, -0.005), (0.32, 0.06), (0.455, 0.19), (0.455, 0.29), (0.335, 0.49), (0.19, 0.71), (0.075, 0.88), (0, 1)])
+    half = smooth([(0, 0), (0.14, -0.005), (0.32, 0.06), (0.455, 0.19), (0.455, 0.29), (0.305, 0.49), (0.135, 0.73), (0.045, 0.89), (0, 1)])
     outline = closed(serrate(half, 17, 0.018), serrate(half * [0.97, 1], 17, 0.018, phase=0.5))
     veins = [midrib(0.55, 0.017)] + pinnate(outline, 5, first=0.02, last=0.66, angle=56, bend=24, width=0.011)
     return paint_blade(outline, veins, petiole=0.55, seed=6)
@@ -88,7 +88,7 @@ def apple() -> Painting:
 
 def hazel() -> Painting:
     """Corylus avellana: nearly round with a heart-shaped foot and a sudden point, doubly toothed."""
-    half = smooth([(0, 0), (0.07, -0.045), (0.20, -0.04), (0.345, 0.09), (0.42, 0.30), (0.43, 0.50), (0.36, 0.70), (0.20, 0.86), (0.075, 0.925), (0, 1)])
+    half = smooth([(0, 0), (0.07, -0.045), (0.20, -0.04), (0.345, 0.09), (0.42, 0.30), (0.43, 0.50), (0.36, 0.70), (0.19, 0.875), (0.055, 0.935), (0, 1)])
     outline = closed(serrate(half, 15, 0.034, double=0.4), serrate(half * [0.97, 1], 15, 0.034, double=0.4, phase=0.5))
     veins = [midrib(0.16, 0.017)] + pinnate(outline, 7, first=0.03, last=0.76, angle=52, bend=10, width=0.0105)
     return paint_blade(outline, veins, petiole=0.16, reticulation=1.3, seed=8)

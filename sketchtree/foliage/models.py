@@ -22,13 +22,15 @@ class LeafModel:
     draw: Callable[[], Painting]
     palettes: dict[str, Palette]  # spring, summer, autumn
     arrangement: str  # where a tree of another species wears it
-    size: float  # metres, blade (or tuft) length
-    spacing: float  # metres between nodes
+    size: float  # metres, length of the blade or of one needle
+    spacing: float  # metres between the nodes of blades or needles
     inclination: float = 55.0  # degrees between twig and leaf
     droop: float = 0.25  # 0 stiff, 1 hangs straight down
     fold: float = 14.0  # degrees that each half rises from the midrib
     curl: float = 0.10  # how far the tip bends down, blade lengths
     planes: int = 0  # 0: one blade; else how many crossed planes a tuft has
+    needle: float = 1.0  # length of a needle, tuft lengths
+    bundle: int = 1  # how many nodes of needles one tuft stands for
     shoot: float = 2.5  # leafy length of a twig, in the habit's twig lengths
     evergreen: bool = False
     roughness: float = 0.6
@@ -132,7 +134,8 @@ _MODELS = {
             ), roughness=0.75,
         ),
         LeafModel(
-            "spruce", needles.spruce_tuft, arrangement="spiral", size=0.11, spacing=0.045, inclination=17, droop=0.05, planes=3,
+            "spruce", needles.spruce_tuft, arrangement="spiral", size=0.018, spacing=0.004, inclination=17, droop=0.05, planes=3,
+            needle=needles.SPRUCE_NEEDLE, bundle=11,
             shoot=6, evergreen=True, curl=0.0, fold=0.0,
             palettes=_seasons(
                 ("#3c5733", "#7f9c4e", "#8ba865", "#7a5a3c"),
@@ -141,7 +144,8 @@ _MODELS = {
             ), roughness=0.65,
         ),
         LeafModel(
-            "pine", needles.pine_tuft, arrangement="fascicled", size=0.13, spacing=0.04, inclination=22, droop=0.04, planes=3,
+            "pine", needles.pine_tuft, arrangement="fascicled", size=0.055, spacing=0.01, inclination=24, droop=0.04, planes=3,
+            needle=needles.PINE_NEEDLE, bundle=5,
             shoot=2.5, evergreen=True, curl=0.0, fold=0.0,
             palettes=_seasons(
                 ("#4a653c", "#809a58", "#8fa670", "#8a6444"),

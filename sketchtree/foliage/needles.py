@@ -12,15 +12,17 @@ import numpy as np
 from sketchtree.foliage.painting import Painting, paint_needles
 from sketchtree.foliage.venation import Vein
 
+SPRUCE_NEEDLE, PINE_NEEDLE = 0.19, 0.46  # needle length, tuft lengths
+
 
 def spruce_tuft() -> Painting:
     """A piece of twig with short stiff needles all round, parted a little below."""
-    return _tuft(axis=0.86, count=190, length=0.19, lean=(58.0, 34.0), width=0.0155, bow=0.02, bare=0.0, twig=0.022, seed=3)
+    return _tuft(axis=0.86, count=300, length=SPRUCE_NEEDLE, lean=(62.0, 38.0), width=0.0165, bow=0.015, bare=0.0, twig=0.024, seed=3)
 
 
 def pine_tuft() -> Painting:
     """The end of a shoot with long needles in pairs, spreading forward like a brush."""
-    return _tuft(axis=0.58, count=150, length=0.46, lean=(62.0, 18.0), width=0.0135, bow=0.05, bare=0.06, twig=0.03, seed=5)
+    return _tuft(axis=0.58, count=150, length=PINE_NEEDLE, lean=(62.0, 18.0), width=0.0135, bow=0.05, bare=0.06, twig=0.03, seed=5)
 
 
 def _tuft(*, axis, count, length, lean, width, bow, bare, twig, seed) -> Painting:
@@ -42,5 +44,5 @@ def _needle(along, azimuth, rng, axis, length, lean, width, bow) -> tuple[Vein, 
     t = np.linspace(0, 1, 6)[:, None]
     side = np.array([reach[1], -reach[0]]) * (bow * np.sign(np.sin(azimuth)))
     path = np.array([0.0, along * axis]) + t * reach - 4 * t * (1 - t) * side
-    shade = 0.98 + 0.30 * np.cos(azimuth) + rng.normal(0, 0.07)
+    shade = 0.96 + 0.30 * np.cos(azimuth) + rng.normal(0, 0.08)
     return Vein(path, width, 0.45 * width), float(np.clip(shade, 0.5, 1.5))

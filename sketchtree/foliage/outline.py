@@ -12,6 +12,7 @@ a sawtooth along the margin's normal, leaning towards the tip:
 
 import numpy as np
 from jaxtyping import Float
+from scipy import ndimage
 
 Curve = Float[np.ndarray, "point 2"]
 
@@ -30,6 +31,19 @@ def smooth(points: list[tuple[float, float]], samples: int = 24) -> Curve:
     t = np.linspace(0, 1, samples, endpoint=False)[None, :, None]
     curve = (2 * t**3 - 3 * t**2 + 1) * p1 + (t**3 - 2 * t**2 + t) * m1 + (3 * t**2 - 2 * t**3) * p2 + (t**3 - t**2) * m2
     return np.vstack([curve.reshape(-1, 2), knots[-1]])
+
+
+def rounded(points: list[tuple[float, float]], radius: float) -> Curve:
+    """A half outline along the points with every corner rounded off at about `radius` (blade lengths)."""
+    knots = np.asarray(points, float)
+    arc = np.r_[0, np.cumsum(np.linalg.norm(np.diff(knots, axis=0), axis=1))]
+    step = radius / 6
+    s = np.linspace(0, arc[-1], int(arc[-1] / step))
+    line = np.stack([np.interp(s, arc, knots[:, axis]) for axis in (0, 1)], axis=1)
+    around = np.vstack([(line * [-1, 1])[::-1][:-1], line, (line * [-1, 1])[::-1][1:]])
+    curve = ndimage.gaussian_filter1d(around, 6.0, axis=0)[len(line) - 1 : 2 * len(line) - 1]
+    curve[[0, -1], 0] = 0.0
+    return curve
 
 
 def pointed(points: list[tuple[float, float]], sag: float, samples: int = 10) -> Curve:

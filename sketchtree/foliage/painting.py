@@ -84,10 +84,8 @@ def paint_blade(outline: Curve, veins: list[Vein], *, petiole: float, reticulati
     canvas.fill(body, outline)
     for vein in veins:
         canvas.stroke(lines, vein.path, vein.start_width, vein.end_width)
-    main = veins[0]
-    below = main.path[main.path[:, 1] <= 0.02]
-    if len(below) > 1:
-        canvas.stroke(stalk, below, main.start_width, main.start_width)
+    if petiole > 0:
+        canvas.stroke(stalk, np.array([[0.0, -petiole], [0.0, 0.08]]), 1.15 * veins[0].start_width, veins[0].start_width)
     blade, stem, vein = (canvas.average(mask) for mask in (body, stalk, lines))
     vein = vein * blade
     stem = np.clip(stem - blade, 0, 1)

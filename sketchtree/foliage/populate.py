@@ -42,8 +42,8 @@ class _Wear:
 
     model: LeafModel
     arrangement: str
-    size: float  # metres
-    spacing: float  # metres between nodes
+    size: float  # metres, of a blade or a whole tuft
+    spacing: float  # metres between nodes, or between tufts
     phyllotaxis: float  # degrees
     whorl: int
 
@@ -88,7 +88,7 @@ def _wear(habit: Habit, model: str | None, density: float) -> _Wear:
         arrangement, size, spacing = worn.arrangement, worn.size, worn.spacing
     leaves_per_node(arrangement)
     turn = habit.phyllotaxis if arrangement == habit.leaf_arrangement == "spiral" else 137.5
-    return _Wear(worn, arrangement, size, spacing / density, turn, habit.whorl)
+    return _Wear(worn, arrangement, size / worn.needle, spacing * worn.bundle / density, turn, habit.whorl)
 
 
 def _leafy_wood(tree: TreeSkeleton, habit: Habit, wear: _Wear) -> Twigs:

@@ -1,0 +1,190 @@
+"""What does a tree look like? One call draws a picture of its meshes with pyvista, off screen.
+
+VTK ends the whole process where no OpenGL can be had, so the drawing happens in a child process
+(`view_child.py`): the caller learns whether there is a picture and, if not, why, and goes on.
+"""
+
+import os
+import subprocess
+import sys
+import tempfile
+from collections.abc import Sequence
+from pathlib import Path
+
+import numpy as np
+from jaxtyping import Float
+
+from sketchtree.errors import ExportError, OptionError
+from sketchtree.geometry.mesh import Mesh
+from sketchtree.view_light import ground_light, openness, transmittance
+
+VIEWS = {"front": (0.0, 4.0), "side": (90.0, 4.0), "back": (180.0, 4.0), "top": (0.0, 89.0), "three-quarter": (32.0, 9.0)}
+"""Azimuth and elevation of the camera, degrees; azimuth 0 looks from +z, 90 from +x."""
+
+NO_OPENGL = (
+    "No picture could be drawn: there is no OpenGL on this machine. Install Mesa's software renderer, "
+    "for example `apt install libgl1 libegl1 libgl1-mesa-dri`."
+)
+
+_FIELD = 26.0  # degrees, vertical
+_MARGIN = 0.06  # of the picture, free on every side
+_CHILD = Path(__file__).with_name("view_child.py")
+_SKY = {"horizon": (0.925, 0.930, 0.915), "zenith": (0.690, 0.775, 0.850), "earth": (0.700, 0.690, 0.630)}  # sRGB
+
+
+def preview(
+    meshes: Sequence[Mesh] | str | Path,
+    png_path: str | Path,
+    *,
+    size: tuple[int, int] = (1200, 900),
+    view: str | Sequence[str] = "three-quarter",
+    azimuth: float | None = None,
+    elevation: float | None = None,
+    focus: tuple[tuple[float, float, float], float] | None = None,
+    ground: bool = True,
+    supersample: int = 2,
+    timeout: float = 180.0,
+) -> tuple[bool, str]:
+    """Draw meshes, or a GLB file, to a PNG. Returns (True, "") or (False, one line that says why not).
+
+    `view` is one of `VIEWS`, or several for a sheet of pictures of that `size` (pixels) each; `azimuth` and
+    `elevation` (degrees) override it. `focus` is a place and a radius (metres) to fill the picture instead of the
+    whole tree. Raises OptionError for an unknown view, ExportError for a file that is no GLB.
+    """
+    angles = [_angles(name, azimuth, elevation) for name in ([view] if isinstance(view, str) else view)]
+    if isinstance(meshes, (str, Path)):
+        from sketchtree.view_glb import read_glb
+
+        meshes = read_glb(meshes)
+    meshes = [mesh for mesh in meshes if len(mesh.triangle)]
+    if not meshes:
+        return False, "No picture was drawn: there is nothing to show."
+    request = _request(meshes, angles, size, focus, ground, supersample)
+    return _in_child(request, Path(png_path), timeout)
+
+
+def _angles(view: str, azimuth, elevation) -> tuple[float, float]:
+    if view not in VIEWS:
+        raise OptionError(f"There is no view called {view!r}.", remedy=f"Choose one of: {', '.join(VIEWS)}.")
+    return VIEWS[view][0] if azimuth is None else azimuth, VIEWS[view][1] if elevation is None else elevation
+
+
+def _request(meshes, angles, size, focus, ground, supersample) -> dict[str, np.ndarray]:
+    points = np.vstack([mesh.position[np.unique(mesh.triangle)] for mesh in meshes])
+    centroid, area = (np.concatenate(column) for column in zip(*map(_surfaces, meshes), strict=True))
+    base = float(points[:, 1].min())
+    shift = np.array([0.5 * (points[:, 0].min() + points[:, 0].max()), base, 0.5 * (points[:, 2].min() + points[:, 2].max())])
+    sun = _direction(angles[0][0] - 48.0, 47.0)
+    request = {"size": np.array(size), "supersample": np.array(supersample), "meshes": np.array(len(meshes)), "sun": sun}
+    request |= {name: np.array(colour) for name, colour in _SKY.items()}
+    request["columns"] = np.array(int(np.ceil(np.sqrt(len(angles)))))
+    around = points - shift if focus is None else np.asarray(focus[0]) - shift + focus[1] * _ball()
+    request["camera"] = np.array([frame_camera(around, *angle, size[0] / size[1]) for angle in angles])
+    for k, mesh in enumerate(meshes):
+        request |= {f"{k}.{name}": value for name, value in _part(mesh, centroid, area, sun, shift).items()}
+    if ground:
+        reach = 2.2 * float(np.linalg.norm(np.ptp(points, axis=0)))
+        light = ground_light(centroid - shift, area, sun, reach, pixels=512)
+        request["reach"] = np.array(reach)
+        request["ground"] = np.repeat(np.round(255 * light).astype(np.uint8)[..., None], 3, axis=2)
+    return request
+
+
+def frame_camera(points: Float[np.ndarray, "point 3"], azimuth: float, elevation: float, aspect: float) -> Float[np.ndarray, " 10"]:
+    """Eye, target, up and field of view (degrees) of the nearest camera in that direction that sees all points
+    with a margin."""
+    back = _direction(azimuth, elevation)
+    right = np.array([np.cos(np.radians(azimuth)), 0.0, -np.sin(np.radians(azimuth))])
+    up = np.cross(back, right)
+    across, along, depth = points @ right, points @ up, points @ back
+    high = np.tan(np.radians(_FIELD / 2)) * (1 - 2 * _MARGIN)
+    distance, x, y = 0.0, 0.0, 0.0
+    for _ in range(4):
+        x_low, x_high = _edges(across, depth, high * aspect)
+        y_low, y_high = _edges(along, depth, high)
+        x, y = (x_low + x_high) / 2, (y_low + y_high) / 2
+        distance = max(np.max(depth + np.abs(across - x) / (high * aspect)), np.max(depth + np.abs(along - y) / high))
+    target = x * right + y * up + depth.mean() * back
+    eye = x * right + y * up + distance * back
+    return np.concatenate([eye, target, up, [_FIELD]])
+
+
+def _edges(value, depth, slope):
+    """Where the two planes through the picture's edges pass, measured in the plane of the eye."""
+    distance = np.max(depth) + (np.ptp(value) / 2 + 1e-9) / slope
+    scale = distance / (distance - depth + 1e-12)
+    return np.min(value * scale), np.max(value * scale)
+
+
+def _surfaces(mesh: Mesh):
+    """Centroid and area (m²; a leaf card counts as the part its drawing fills) of every triangle."""
+    a, b, c = (mesh.position[mesh.triangle[:, i]] for i in range(3))
+    area = np.linalg.norm(np.cross(b - a, c - a), axis=1) / 2
+    texture = mesh.material.base_color_texture
+    if mesh.material.alpha_cutoff is not None and texture is not None and texture.shape[2] == 4:
+        area = area * max(0.2, float(np.mean(texture[..., 3] > 127)))
+    else:
+        area = area * 0.5
+    return (a + b + c) / 3, area
+
+
+def _part(mesh: Mesh, centroid, area, sun, shift) -> dict[str, np.ndarray]:
+    material = mesh.material
+    tint = np.ones((len(mesh.position), 3)) if mesh.color is None else mesh.color[:, :3]
+    leaf = material.alpha_cutoff is not None
+    lift = mesh.position + (0.0 if leaf else 0.02) * mesh.normal
+    light = np.column_stack([transmittance(lift, centroid, area, sun), openness(lift, centroid, area)])
+    return {
+        "position": (mesh.position - shift).astype(np.float32),
+        "normal": mesh.normal.astype(np.float32),
+        "uv": mesh.uv.astype(np.float32),
+        "triangle": mesh.triangle.astype(np.int64),
+        "tint": (tint * material.base_color[:3]).astype(np.float32),
+        "light": light.astype(np.float32),
+        "albedo": _four(material.base_color_texture),
+        "normal_map": np.full((2, 2, 3), (128, 128, 255), np.uint8) if material.normal_texture is None else material.normal_texture,
+        "look": np.array([material.alpha_cutoff or 0.0, float(leaf), 0.25 * (1 - material.roughness)]),
+    }
+
+
+def _four(texture):
+    if texture is None:
+        return np.full((2, 2, 4), 255, np.uint8)
+    return texture if texture.shape[2] == 4 else np.dstack([texture, np.full(texture.shape[:2], 255, np.uint8)])
+
+
+def _in_child(request: dict[str, np.ndarray], png_path: Path, timeout: float) -> tuple[bool, str]:
+    png_path.parent.mkdir(parents=True, exist_ok=True)
+    with tempfile.TemporaryDirectory(prefix="sketchtree-view-") as folder:
+        asked, drawn = Path(folder) / "request.npz", Path(folder) / "picture.png"
+        np.savez(asked, **request)
+        try:
+            child = subprocess.run(_command(asked, drawn), capture_output=True, text=True, timeout=timeout, env=os.environ | {"PYVISTA_OFF_SCREEN": "true"})
+        except subprocess.TimeoutExpired:
+            return False, f"No picture was drawn: it took longer than {timeout:g} s. Ask for a smaller one, or for fewer leaves."
+        if not drawn.exists():
+            return False, _reason(child)
+        png_path.write_bytes(drawn.read_bytes())
+    return True, ""
+
+
+def _command(asked: Path, drawn: Path) -> list[str]:
+    return [sys.executable, "-P", str(_CHILD), str(asked), str(drawn)]
+
+
+def _reason(child: subprocess.CompletedProcess) -> str:
+    """One line: the child died in VTK (a signal, or no usable OpenGL), or what Python said last."""
+    last = next((line for line in reversed(child.stderr.splitlines()) if line.strip()), "")
+    if child.returncode < 0 or "OpenGL" in child.stderr or "vtk" in child.stderr.lower() or "libGL" in child.stderr:
+        return NO_OPENGL
+    return f"No picture could be drawn: {last.strip() or f'the drawing process ended with status {child.returncode}'}."
+
+
+def _direction(azimuth: float, elevation: float) -> Float[np.ndarray, " 3"]:
+    a, e = np.radians(azimuth), np.radians(elevation)
+    return np.array([np.sin(a) * np.cos(e), np.sin(e), np.cos(a) * np.cos(e)])
+
+
+def _ball() -> Float[np.ndarray, "point 3"]:
+    signs = np.array([[x, y, z] for x in (-1, 0, 1) for y in (-1, 0, 1) for z in (-1, 0, 1) if x or y or z], float)
+    return signs / np.linalg.norm(signs, axis=1, keepdims=True)

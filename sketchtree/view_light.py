@@ -1,0 +1,72 @@
+"""How much light reaches each vertex of a picture, and what shadow lies on the ground?
+
+A crown is a cloud of small surfaces, so its own shade follows Beer and Lambert's law. The surfaces are
+sorted into a grid aligned with a light; summed along the light they give the optical depth before a point:
+
+    T = exp(−τ),   τ = Σ G a / A        over the cells between the point and the light
+
+    a   area of the surfaces in a cell      A   cross-section of a cell      G   mean projection, 1/2
+"""
+
+import numpy as np
+from jaxtyping import Float
+from scipy import ndimage
+
+_CELLS = 44  # along the longest side
+_PROJECTION = 0.5
+
+Points = Float[np.ndarray, "point 3"]
+
+
+def transmittance(point: Points, centroid: Points, area: Float[np.ndarray, " triangle"], towards: Float[np.ndarray, " 3"]) -> Float[np.ndarray, " point"]:
+    """The share (0-1) of the light from direction `towards` that reaches each point through the
+    surfaces given by their centroids (metres) and areas (m²)."""
+    axes = aligned(towards)
+    place, seen = centroid @ axes.T, point @ axes.T
+    low = np.minimum(place.min(axis=0), seen.min(axis=0))
+    size = np.maximum(np.maximum(place.max(axis=0), seen.max(axis=0)) - low, 1e-6)
+    cell = size.max() / _CELLS
+    shape = np.ceil(size / cell).astype(int) + 1
+    index = np.minimum(((place - low) / cell).astype(int), shape - 1)
+    flat = np.ravel_multi_index(tuple(index.T), tuple(shape))
+    depth = np.bincount(flat, area, minlength=int(np.prod(shape))).reshape(shape) * _PROJECTION / cell**2
+    depth = ndimage.gaussian_filter(depth, (0.7, 0.7, 0.0), mode="constant")
+    before = np.cumsum(depth[:, :, ::-1], axis=2)[:, :, ::-1] - 0.5 * depth
+    at = ((seen - low) / cell - 0.5).T
+    return np.exp(-ndimage.map_coordinates(before, at, order=1, mode="nearest"))
+
+
+def openness(point: Points, centroid: Points, area: Float[np.ndarray, " triangle"]) -> Float[np.ndarray, " point"]:
+    """The mean transmittance (0-1) towards the sky: straight up and five slanting directions."""
+    turn = 2 * np.pi * np.arange(5) / 5
+    sky = np.vstack([[0, 1, 0], np.stack([np.cos(turn), np.full(5, 0.55), np.sin(turn)], axis=1)])
+    return np.mean([transmittance(point, centroid, area, direction) for direction in sky], axis=0)
+
+
+def ground_light(
+    centroid: Points, area: Float[np.ndarray, " triangle"], sun: Float[np.ndarray, " 3"], reach: float, pixels: int = 256
+) -> Float[np.ndarray, "row column"]:
+    """The light (0-1) on the ground y = 0 within ±`reach` metres of the origin, rows along +z: the sun's
+    shadow, and a soft darkening close to what stands there."""
+    slide = centroid - centroid[:, 1:2] / sun[1] * sun
+    shadow = _splat(slide, area, reach, pixels)
+    contact = _splat(centroid, area * np.exp(-np.abs(centroid[:, 1]) / (0.06 * reach)), reach, pixels)
+    sunlit = np.exp(-ndimage.gaussian_filter(shadow, 1.2))
+    near = np.exp(-1.5 * ndimage.gaussian_filter(contact, 5.0))
+    sky = np.exp(-0.5 * ndimage.gaussian_filter(_splat(centroid, area, reach, pixels), 12.0))
+    return (0.52 * sunlit + 0.48 * sky) * near
+
+
+def aligned(direction: Float[np.ndarray, " 3"]) -> Float[np.ndarray, "3 3"]:
+    """A right-handed orthonormal basis, as rows, whose third row is the unit `direction`."""
+    w = np.asarray(direction, float) / np.linalg.norm(direction)
+    u = np.cross([0.0, 1.0, 0.0] if abs(w[1]) < 0.9 else [1.0, 0.0, 0.0], w)
+    u /= np.linalg.norm(u)
+    return np.stack([u, np.cross(w, u), w])
+
+
+def _splat(point, area, reach, pixels):
+    """Optical depth of the surfaces projected on the ground."""
+    edges = np.linspace(-reach, reach, pixels + 1)
+    total = np.histogram2d(point[:, 2], point[:, 0], bins=(edges, edges), weights=area)[0]
+    return total * _PROJECTION / (2 * reach / pixels) ** 2
