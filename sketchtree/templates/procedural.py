@@ -103,7 +103,7 @@ class _Limb:
         self.recipe, self.rows, self.bud, self.seed, self.limb = recipe, rows, bud, seed, limb
         self.draws = bud.draws
         self.table = recipe.level(bud.level)
-        self.reach = self.draws.log_normal(0.07)  # of the envelope: outlines are not turned on a lathe
+        self.reach = self.draws.log_normal(recipe.crown.outline_sd)  # of the envelope: outlines are not turned on a lathe
         self.azimuth = 0.0 if self.table.planar else self.draws.between(0, 360)
 
     def grow(self) -> list[Bud]:

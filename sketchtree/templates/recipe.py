@@ -41,6 +41,7 @@ class Crown:
 
     height: float = _number("m", 0.3, 120, "height of the tree: the trunk's length follows from it")
     envelope: Profile = _profile("m", 0, 60, "crown radius over height / `height`; limbs stop where they leave it")
+    outline_sd: float = _number("1", 0, 0.5, "sd of the log of the envelope's size, from limb to limb", 0.07)
     stems: float = _number("count", 1, 40, "stems from the ground", 1)
     stem_ring: float = _number("m", 0, 10, "radius of the ring on which several stems stand", 0)
     stem_lean: Profile = _profile("deg", -90, 90, "lean of a stem from the vertical, outwards, over its rank 0-1", 0)
