@@ -1,0 +1,239 @@
+"""Skeletons as files: SWC for other programs, JSON without loss, and a compact form inside a GLB.
+
+SWC (Cannon et al. 1998): one line a node, `id type x y z radius parent`, parents first, ids from 1. Type 5 is a fork,
+6 an end, 0 anything else. Every node of the read polylines is a line, the drawn points between two tips too; their
+radius is interpolated along the curve. Numbers have 9 significant digits.
+"""
+
+import base64
+import json
+import os
+import zlib
+from collections.abc import Mapping
+
+import numpy as np
+
+from sketchtree.axes import NULL
+from sketchtree.errors import ExportError, SkeletonError
+from sketchtree.export.files import check_extension, write_whole
+from sketchtree.export.gltf import read_glb_json
+from sketchtree.skeleton import Kind, TreeSkeleton
+from sketchtree.traverse import generations
+from sketchtree.version import __version__
+
+_FLOATS = ("tip", "radius", "depth_sd", "age", "curve_points")
+_INTEGERS = ("parent", "order", "limb", "stroke", "tree", "kind", "curve_start")
+_FORMAT = 1
+
+
+def write_swc(path: str | os.PathLike, tree: TreeSkeleton, *, header: Mapping[str, object]) -> None:
+    """Write the tree as SWC, all or nothing. Each entry of `header` (units, frame, seed, …) becomes a comment.
+
+    Raises `ExportError` where the file can't be written.
+    """
+    check_extension(path, (".swc",))
+    node = swc_nodes(tree)
+    lines = [f"# SketchTree {__version__}"]
+    lines += [f"# {name}: {str(value).splitlines()[0] if str(value) else ''}" for name, value in header.items()]
+    lines += ["# id type x y z radius parent"]
+    columns = zip(*(column.tolist() for column in (node["type"], *node["point"].T + 0.0, node["radius"], node["parent"])), strict=True)
+    lines += ["%d %d %.9g %.9g %.9g %.9g %d" % (i, *row) for i, row in enumerate(columns, 1)]
+    write_whole(path, ("\n".join(lines) + "\n").encode())
+
+
+def swc_nodes(tree: TreeSkeleton) -> dict[str, np.ndarray]:
+    """Columns `point`, `radius`, `parent` (ids from 1, −1 none), `type`, and `id_of_row` (segment → id of its tip)."""
+    inner = np.diff(tree.curve_start)
+    id_of_row = np.cumsum(inner + 1)  # a row's drawn points come just before its tip
+    size = int(id_of_row[-1]) if len(tree) else 0
+    point, radius, parent = np.empty((size, 3)), np.empty(size), np.arange(size)
+    row = np.repeat(np.arange(len(tree)), inner)
+    place = id_of_row[row] - 1 - inner[row] + (np.arange(len(row)) - tree.curve_start[row])
+    point[place], point[id_of_row - 1] = tree.curve_points, tree.tip
+    share = _share_along(tree, row)
+    start_radius = np.where(tree.is_base, tree.radius, tree.radius[tree.parent])
+    radius[place] = (1 - share) * start_radius[row] + share * tree.radius[row]
+    radius[id_of_row - 1] = tree.radius
+    first = id_of_row - 1 - inner
+    parent[first] = np.where(tree.is_base, NULL, id_of_row[tree.parent])
+    children = np.bincount(parent[parent > 0] - 1, minlength=size)
+    kind = np.where(children > 1, 5, np.where(children == 0, 6, 0))
+    return {"point": point, "radius": radius, "parent": parent, "type": kind, "id_of_row": id_of_row}
+
+
+def _share_along(tree: TreeSkeleton, row):
+    """How far along its segment's drawn curve each curve point lies, 0-1."""
+    if len(row) == 0:
+        return np.zeros(0)
+    first = np.r_[True, np.diff(row) != 0]
+    last = np.r_[first[1:], True]
+    before = np.where(first[:, None], tree.start[row], np.roll(tree.curve_points, 1, axis=0))
+    step = np.linalg.norm(tree.curve_points - before, axis=1)
+    total = np.cumsum(step)
+    gone = total - np.repeat((total - step)[first], np.diff(np.r_[np.flatnonzero(first), len(row)]))
+    rest = np.linalg.norm(tree.tip[row[last]] - tree.curve_points[last], axis=1)
+    whole = np.repeat(gone[last] + rest, np.diff(np.r_[np.flatnonzero(first), len(row)]))
+    return gone / np.where(whole > 0, whole, 1.0)
+
+
+def read_swc(path: str | os.PathLike) -> TreeSkeleton:
+    """The tree of an SWC file: one row a node, in the file's units and axes; kind OBSERVED.
+
+    Ids may be any numbers in any order. Limbs follow the thickest child, the straightest of equals. A radius that is
+    not positive becomes the smallest positive one of the file. Raises `SkeletonError` naming the line at fault.
+    """
+    table, line = _swc_table(path)
+    ids, parent_id = table[:, 0].astype(np.int64), table[:, 6].astype(np.int64)
+    row_of = {node: row for row, node in enumerate(ids.tolist())}
+    if len(row_of) < len(ids):
+        twin = int(np.flatnonzero(np.bincount(np.unique(ids, return_inverse=True)[1]) > 1)[0])
+        raise SkeletonError(f"{path}: the id {np.unique(ids)[twin]} stands twice.", remedy="Number every node once.")
+    parent = np.array([NULL if node < 0 else row_of.get(node, -2) for node in parent_id.tolist()], np.int64)
+    if (parent == -2).any():
+        bad = int(np.flatnonzero(parent == -2)[0])
+        raise SkeletonError(f"{path}, line {line[bad]}: its parent {parent_id[bad]} is not in the file.", remedy="Name an id of the file, or -1.")
+    order = _parents_first(parent, path)
+    renumber = np.argsort(order)
+    parent = parent[order]
+    parent = np.where(parent == NULL, NULL, renumber[parent])
+    tip, radius = table[order, 2:5], table[order, 5]
+    radius = np.where(radius > 0, radius, radius[radius > 0].min(initial=np.inf) if (radius > 0).any() else 1e-3)
+    limb, branching = _limbs(parent, tip, radius)
+    return TreeSkeleton.from_columns(
+        parent, tip, radius, limb=limb, order=branching, tree=_tree_of(parent), kind=np.full(len(parent), int(Kind.OBSERVED))
+    )
+
+
+def _swc_table(path):
+    rows, lines = [], []
+    try:
+        with open(path, encoding="utf-8", errors="replace") as file:
+            text = file.read()
+    except OSError as error:
+        raise SkeletonError(f"Can't read {path}: {(error.strerror or 'unknown error').lower()}.", remedy="Check the path.") from error
+    for number, content in enumerate(text.splitlines(), 1):
+        words = content.split("#")[0].split()
+        if not words:
+            continue
+        try:
+            values = [float(word) for word in words[:7]]
+        except ValueError:
+            values = []
+        if len(values) < 7 or not np.isfinite(values).all():
+            raise SkeletonError(f"{path}, line {number}: expected `id type x y z radius parent`, got `{content.strip()[:60]}`.", remedy="Repair the line or start it with #.")
+        rows.append(values)
+        lines.append(number)
+    if not rows:
+        raise SkeletonError(f"{path} holds no nodes.", remedy="Give an SWC file with at least one line `id type x y z radius parent`.")
+    return np.array(rows), lines
+
+
+def _parents_first(parent, path):
+    """An order of the rows in which every parent precedes its children; kept where it already does."""
+    depth = np.where(parent == NULL, 0, -1)
+    while (depth < 0).any():
+        ready = (depth < 0) & (parent != NULL) & (depth[parent] >= 0)
+        if not ready.any():
+            raise SkeletonError(f"{path}: some nodes hang in a circle.", remedy="Give every branch a path to a node whose parent is -1.")
+        depth[ready] = depth[parent[ready]] + 1
+    if (parent < np.arange(len(parent))).all():
+        return np.arange(len(parent))
+    return np.argsort(depth, kind="stable")
+
+
+def _limbs(parent, tip, radius):
+    """Apical chains by thickness, then straightness; and branching orders."""
+    child = np.flatnonzero(parent != NULL)
+    above = parent[child]
+    along = np.where((parent == NULL)[:, None], [0.0, 1.0, 0.0], tip - tip[parent])
+    along = along / np.maximum(np.linalg.norm(along, axis=1, keepdims=True), 1e-300)
+    straight = np.sum(along[child] * along[above], axis=1)
+    rank = np.lexsort((-straight, -radius[child], above))
+    best = np.r_[True, np.diff(above[rank]) != 0][: len(rank)]
+    apical = np.zeros(len(parent), bool)
+    apical[child[rank[best]]] = True
+    limb, order = np.arange(len(parent)), np.zeros(len(parent), np.int64)
+    for rows in generations(parent)[1:]:
+        limb[rows] = np.where(apical[rows], limb[parent[rows]], rows)
+        order[rows] = order[parent[rows]] + ~apical[rows]
+    return limb, order
+
+
+def _tree_of(parent):
+    tree = np.where(parent == NULL, np.cumsum(parent == NULL) - 1, 0)
+    for rows in generations(parent)[1:]:
+        tree[rows] = tree[parent[rows]]
+    return tree
+
+
+def write_skeleton_json(path: str | os.PathLike, tree: TreeSkeleton, *, header: Mapping[str, object] | None = None) -> None:
+    """Write every column without loss, all or nothing. NaN is written as null."""
+    check_extension(path, (".json",))
+    columns = {name: _plain(getattr(tree, name)) for name in _INTEGERS + _FLOATS}
+    content = {"sketchtree_skeleton": _FORMAT, "version": __version__, "header": dict(header or {}), "columns": columns}
+    write_whole(path, json.dumps(content, allow_nan=False, separators=(",", ":")).encode())
+
+
+def read_skeleton_json(path: str | os.PathLike) -> TreeSkeleton:
+    """The tree that `write_skeleton_json` wrote. Raises `SkeletonError` where the file is not one."""
+    try:
+        with open(path, encoding="utf-8") as file:
+            content = json.load(file)
+        version = content["sketchtree_skeleton"]
+    except OSError as error:
+        raise SkeletonError(f"Can't read {path}: {(error.strerror or 'unknown error').lower()}.", remedy="Check the path.") from error
+    except (ValueError, KeyError, TypeError) as error:
+        raise SkeletonError(f"{path} is not a skeleton of ours.", remedy="Give a JSON file written by `sketchtree`.") from error
+    if version != _FORMAT:
+        raise SkeletonError(f"{path} has skeleton format {version}; this version reads {_FORMAT}.", remedy="Update sketchtree.")
+    columns = {name: np.array(content["columns"][name], float if name in _FLOATS else np.int64) for name in _INTEGERS + _FLOATS}
+    return TreeSkeleton(**_shaped(columns))
+
+
+def skeleton_extras(tree: TreeSkeleton) -> dict:
+    """The tree as small JSON for `write_glb(extras=...)`: positions as 32-bit floats, columns packed by zlib.
+
+    Columns that say nothing (all unknown) are left out. `read_glb_skeleton` reads it back.
+    """
+    columns = {}
+    for name in _INTEGERS + _FLOATS:
+        column = getattr(tree, name)
+        if name in ("depth_sd", "age") and np.isnan(column).all():
+            continue
+        column = column.astype("<f4" if name in _FLOATS else _smallest(column))
+        columns[name] = [column.dtype.str, base64.b64encode(zlib.compress(column.tobytes(), 6)).decode()]
+    return {"sketchtree_skeleton": _FORMAT, "version": __version__, "rows": len(tree), "columns": columns}
+
+
+def skeleton_from_extras(extras: dict) -> TreeSkeleton:
+    """The tree that `skeleton_extras` packed. Raises `SkeletonError` where there is none."""
+    if not isinstance(extras, dict) or extras.get("sketchtree_skeleton") != _FORMAT:
+        raise SkeletonError("There is no skeleton of ours here.", remedy="Give a GLB file written by this version of `sketchtree`.")
+    columns = {name: np.full(extras["rows"], np.nan) for name in ("depth_sd", "age")}
+    for name, (dtype, text) in extras["columns"].items():
+        columns[name] = np.frombuffer(zlib.decompress(base64.b64decode(text)), dtype)
+    return TreeSkeleton(**_shaped(columns))
+
+
+def read_glb_skeleton(path: str | os.PathLike) -> TreeSkeleton:
+    """The skeleton inside a GLB that we wrote. Raises `ExportError` where the file is none or holds none."""
+    extras = read_glb_json(path).get("scenes", [{}])[0].get("extras", {})
+    found = [value for value in (extras, *extras.values()) if isinstance(value, dict) and "sketchtree_skeleton" in value]
+    if not found:
+        raise ExportError(f"{path} holds no skeleton.", remedy="Give a GLB file written by `sketchtree build`.")
+    return skeleton_from_extras(found[0])
+
+
+def _shaped(columns: dict) -> dict:
+    return columns | {name: columns[name].reshape(-1, 3) for name in ("tip", "curve_points")}
+
+
+def _plain(column):
+    if column.dtype.kind == "f" and np.isnan(column).any():
+        return [None if np.isnan(value) else value for value in column.tolist()]
+    return column.tolist()
+
+
+def _smallest(column) -> str:
+    low, high = (int(column.min()), int(column.max())) if column.size else (0, 0)
+    return next(kind for kind in ("<i1", "<i2", "<i4", "<i8") if np.iinfo(kind).min <= low and high <= np.iinfo(kind).max)
