@@ -1,7 +1,8 @@
 """Which stretches of wood carry leaves, and which way do they look?
 
 Leaves grow on the young, thin, outer wood: where the radius is at most `thickest` and the way along the
-limb to its tip at most `reach`. The wood is cut into straight *pieces* (drawn curves keep their points).
+limb to its tip at most `reach`. The wood is cut into straight *pieces* of the centre lines that are rendered,
+so that no leaf floats beside its twig.
 
 Frames are carried along each limb by the smallest rotation from one tangent to the next (parallel
 transport, so leaves do not spin about a bending twig):
@@ -13,8 +14,10 @@ from dataclasses import dataclass
 
 import numpy as np
 from jaxtyping import Bool, Float, Int
+from scipy.spatial import cKDTree
 
 from sketchtree.axes import NULL
+from sketchtree.geometry.limbs import CentreLines, centre_lines
 from sketchtree.skeleton import TreeSkeleton
 from sketchtree.traverse import generations
 
@@ -51,32 +54,33 @@ class Twigs:
 
 
 def wood_pieces(tree: TreeSkeleton) -> Twigs:
-    """All wood of the tree as straight pieces with their frames and their place on their limb."""
-    follows = _follows(tree)
-    start, end, row = _cut(tree)
-    length = np.linalg.norm(end - start, axis=1)
-    row_length = np.bincount(row, length, minlength=len(tree))
-    to_tip, from_foot, foot_radius = _places(tree, follows, row_length)
-    tangent_row, side_row = _frames(tree, follows)
-    tangent = (end - start) / np.maximum(length, 1e-12)[:, None]
-    tangent = np.where((length > 1e-12)[:, None], tangent, tangent_row[row])
-    before = np.cumsum(length) - length
-    first = np.searchsorted(row, row)
-    within = before - before[first]
-    start_row_radius = np.where(follows, tree.radius[tree.parent], tree.radius)
-    along = lambda at: start_row_radius[row] + (tree.radius - start_row_radius)[row] * at / np.maximum(row_length[row], 1e-12)  # noqa: E731
+    """All wood of the tree as straight pieces of its rendered centre lines, with their frames and their
+    place on their limb; the pieces of a limb stand in order."""
+    lines = centre_lines(tree)
+    if len(lines) == 0:
+        return Twigs(*(np.zeros((0, 3) if name in ("start", "end", "tangent", "side") else 0) for name in Twigs.__dataclass_fields__))
+    first = np.flatnonzero(np.diff(lines.of_point) == 0)
+    row = _row_of_point(tree, lines)[first + 1]
+    first, row = first[row != NULL], row[row != NULL]
+    limb = lines.of_point[first]
+    span = lines.point[first + 1] - lines.point[first]
+    tangent_row, side_row = _frames(tree)
+    tangent = _unit(span)
+    stands = lines.parent != NULL
+    foot_radius = np.zeros(len(lines))
+    foot_radius[stands] = lines.at(lines.parent[stands], lines.parent_s[stands])[1]
     return Twigs(
         row=row,
-        start=start,
-        end=end,
-        start_radius=along(within),
-        end_radius=along(within + length),
+        start=lines.point[first],
+        end=lines.point[first + 1],
+        start_radius=lines.radius[first],
+        end_radius=lines.radius[first + 1],
         tangent=tangent,
         side=transport(side_row[row], tangent_row[row], tangent),
-        to_tip=to_tip[row] + row_length[row] - within - length,
-        from_foot=from_foot[row] + within,
-        foot_radius=foot_radius[row],
-        limb_length=(from_foot + row_length + to_tip)[row],
+        to_tip=lines.length[limb] - lines.s[first + 1],
+        from_foot=lines.s[first],
+        foot_radius=foot_radius[limb],
+        limb_length=lines.length[limb],
     )
 
 
@@ -116,41 +120,32 @@ def _follows(tree: TreeSkeleton) -> Bool[np.ndarray, " segment"]:
     return first
 
 
-def _cut(tree: TreeSkeleton):
-    """Start, end and row of every straight piece, rows in order."""
+def _row_of_point(tree: TreeSkeleton, lines: CentreLines) -> Int[np.ndarray, " point"]:
+    """The row whose wood ends at or after each point of the centre lines: a row's tip is a point of its limb's
+    line, never the first one."""
+    names = np.unique(np.concatenate([lines.limb_id, tree.limb]))
+    apart = 10.0 * (1.0 + np.abs(lines.point).max())
+    of_point = lines.of_point
+    inner = np.setdiff1d(np.arange(len(of_point)), lines.start[:-1])
+    place = np.column_stack([lines.point, apart * np.searchsorted(names, lines.limb_id)[of_point]])
     rows = np.flatnonzero(~tree.is_base)
-    inner = np.diff(tree.curve_start)[rows]
-    row = np.repeat(rows, inner + 1)
-    rank = np.arange(len(row)) - np.repeat(np.cumsum(inner + 1) - inner - 1, inner + 1)
-    points = np.vstack([tree.curve_points, np.zeros((1, 3))])
-    at = tree.curve_start[row] + rank
-    last = len(points) - 1
-    start = np.where((rank == 0)[:, None], tree.start[row], points[np.clip(at - 1, 0, last)])
-    end = np.where((rank == np.repeat(inner, inner + 1))[:, None], tree.tip[row], points[np.clip(at, 0, last)])
-    return start, end, row
+    tips = np.column_stack([tree.tip[rows], apart * np.searchsorted(names, tree.limb[rows])])
+    gap, near = cKDTree(place[inner]).query(tips)
+    found = gap < 1e-6 * apart
+    row = np.full(len(of_point), NULL)
+    row[inner[near[found]]] = rows[found]
+    after = np.minimum.accumulate(np.where(row != NULL, np.arange(len(row)), len(row))[::-1])[::-1]
+    held = np.append(row, NULL)[after]
+    ends = np.append(of_point, NULL)[after]
+    return np.where(ends == of_point, held, NULL)
 
 
-def _places(tree: TreeSkeleton, follows, length):
-    """Way from each row's tip to its limb's tip, from the limb's foot to its start, and the radius of the
-    wood that the limb stands on."""
-    to_tip, from_foot = np.zeros(len(tree)), np.zeros(len(tree))
-    on_wood = (tree.parent != NULL) & ~tree.is_base[tree.parent]
-    foot_radius = np.where(on_wood, tree.radius[tree.parent], 0.0)
-    passes = [rows[follows[rows]] for rows in generations(tree.parent)]
-    for rows in passes:
-        above = tree.parent[rows]
-        from_foot[rows] = from_foot[above] + length[above]
-        foot_radius[rows] = foot_radius[above]
-    for rows in reversed(passes):
-        to_tip[tree.parent[rows]] = to_tip[rows] + length[rows]
-    return to_tip, from_foot, foot_radius
-
-
-def _frames(tree: TreeSkeleton, follows):
+def _frames(tree: TreeSkeleton):
     """Tangent and side of every row, carried along each limb."""
     tangent = _unit(tree.vector)
     tangent[np.linalg.norm(tangent, axis=1) < 0.5] = _UP
     side = level_side(tangent)
+    follows = _follows(tree)
     for rows in generations(tree.parent):
         rows = rows[follows[rows]]
         above = tree.parent[rows]
