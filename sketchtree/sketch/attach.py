@@ -1,0 +1,116 @@
+"""What does every stroke grow from? One minimum spanning arborescence over strokes and the ground.
+
+An attachment's cost depends on which end of the parent is its foot, and that on the parent's own attachment. So
+the arborescence is solved first with the kinder of both, then again with the directions it gave, until nothing
+changes; the cheapest consistent tree of all rounds is kept. The ground may feed every stroke:
+
+    cost of standing on the ground   1.5 + 50 |y − y_ground| / H + (1 − up) / 2     for strokes that rise from the ground
+                                     the same with 8 for 50, + FORBIDDEN            for all others
+
+    up   cosine between the stroke leaving that end and the vertical
+
+First only one stroke may stand on the ground (all are forbidden alike): its foot is y_ground. Then others may join it.
+"""
+
+from dataclasses import dataclass
+
+import numpy as np
+from jaxtyping import Float, Int
+
+from sketchtree.axes import NULL
+from sketchtree.sketch.arborescence import arborescence
+from sketchtree.sketch.candidates import REACH, Arcs, candidate_arcs
+from sketchtree.sketch.lines import Line, extent, unit
+
+FORBIDDEN = 1e4  # dearer than any tree of sensible attachments
+GROUND = 0.04  # of H: a foot this near to the ground's height may stand on it
+ROUNDS = 8
+
+
+@dataclass(frozen=True, eq=False)
+class Hanging:
+    """How every line hangs: by which end, on which line, where."""
+
+    parent: Int[np.ndarray, " line"]  # NULL: it stands on the ground
+    end: Int[np.ndarray, " line"]  # its foot: 0 first, 1 last point
+    s: Float[np.ndarray, " line"]  # length along the parent, from the parent's foot
+    gap: Float[np.ndarray, " line"]  # sketch units
+    cost: Float[np.ndarray, " line"]
+    alternatives: tuple[tuple[tuple[int, float], ...], ...]  # next best (line, cost)
+
+
+def attach(lines: list[Line]) -> Hanging:
+    """The least costly rooted tree (or several) over the lines."""
+    height = extent(lines)
+    arcs = candidate_arcs(lines, height)
+    rising, foot_y = _rising(lines, height)
+    lowest = float(foot_y.min())
+    alone = 8 * (foot_y - lowest) / height + 0.5 * (1 - rising) + _smallness(lines)[:, None]
+    solution = _solve(lines, arcs, alone + FORBIDDEN)
+    stem = int(np.argmin(np.where(solution.parent == NULL, solution.cost, np.inf)))
+    ground = foot_y[stem, solution.end[stem]]
+    standing = 1.5 + 50 * np.abs(foot_y - ground) / height + 0.5 * (1 - rising)
+    allowed = (np.abs(foot_y - ground) <= GROUND * height) & (rising > 0.2)
+    standing = np.where(allowed, standing, alone + FORBIDDEN)
+    return _solve(lines, arcs, standing, first=solution.end)
+
+
+def _solve(lines: list[Line], arcs: Arcs, standing: Float[np.ndarray, "line 2"], first=None) -> Hanging:
+    count = len(lines)
+    tail = np.r_[arcs.parent, np.full(2 * count, count)]
+    head = np.r_[arcs.child, np.repeat(np.arange(count), 2)]
+    end = np.r_[arcs.end, np.tile([0, 1], count)]
+    both = np.concatenate([arcs.cost, np.repeat(standing.reshape(-1, 1), 2, 1)])
+    cost = both.min(1) if first is None else both[np.arange(len(both)), np.r_[first, 0][tail]]
+    best, least = None, np.inf
+    for _ in range(ROUNDS):
+        chosen = arborescence(tail, head, cost, count + 1, count)[:count]
+        foot = end[chosen]
+        cost = both[np.arange(len(both)), np.r_[foot, 0][tail]]
+        total = float(cost[chosen].sum())
+        if total >= least - 1e-9:
+            break
+        best, least = (chosen, foot, cost), total
+    return _hanging(lines, arcs, tail, head, *best)
+
+
+def _hanging(lines, arcs: Arcs, tail, head, chosen, foot, cost) -> Hanging:
+    count = len(lines)
+    parent = np.where(tail[chosen] == count, NULL, tail[chosen])
+    length = np.array([line.length for line in lines])
+    s, gap = (np.r_[column, np.zeros(2 * count)][chosen] for column in (arcs.s, arcs.gap))
+    turned = (parent != NULL) & (foot[parent] == 1)
+    s = np.where(turned, length[parent] - s, s)
+    return Hanging(parent, foot, s, gap, cost[chosen], _alternatives(tail, head, cost, chosen, count))
+
+
+def _alternatives(tail, head, cost, chosen, count: int) -> tuple:
+    """The two next best parents of every line, with what they would cost."""
+    order = np.lexsort((cost, head))
+    order = order[tail[order] < count]
+    bounds = np.searchsorted(head[order], np.arange(count + 1))
+    rows = []
+    for line in range(count):
+        best: dict[int, float] = {}
+        for arc in order[bounds[line] : bounds[line + 1]]:
+            if tail[arc] != tail[chosen[line]] and tail[arc] not in best:
+                best[int(tail[arc])] = float(cost[arc])
+            if len(best) == 2:
+                break
+        rows.append(tuple(best.items()))
+    return tuple(rows)
+
+
+def _rising(lines: list[Line], height: float) -> tuple[Float[np.ndarray, "line 2"], Float[np.ndarray, "line 2"]]:
+    """(cosine with the vertical of each line leaving each end, height of that end)."""
+    reach = [min(2 * REACH * height, 0.5 * line.length) for line in lines]
+    first = np.array([line.at(r) - line.points[0] for line, r in zip(lines, reach, strict=True)])
+    last = np.array([line.at(line.length - r) - line.points[-1] for line, r in zip(lines, reach, strict=True)])
+    y = np.array([[line.points[0, 1], line.points[-1, 1]] for line in lines])
+    return np.stack([unit(first)[:, 1], unit(last)[:, 1]], 1), y
+
+
+def _smallness(lines: list[Line]) -> Float[np.ndarray, " line"]:
+    """0 for the longest line, towards 2 for the shortest: a trunk is seldom the smallest stroke."""
+    length = np.array([line.length for line in lines])
+    return 2 * (1 - length / length.max())

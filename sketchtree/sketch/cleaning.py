@@ -1,0 +1,118 @@
+"""Which strokes are lines in their own right? Doubled points, dots, retraced and repeated strokes taken out.
+
+Shaky hands draw a line twice, go back over it, or leave dots. A stroke that lies wholly along another is part of it. The
+lines come back in an order and direction of their own, so that the order of the file decides nothing.
+"""
+
+from dataclasses import dataclass
+
+import numpy as np
+import shapely
+from jaxtyping import Float, Int
+
+from sketchtree.sketch.lines import Line, angle_between, extent
+
+DOT = 0.005  # of H: a smaller stroke is a dot
+ALONG = 0.01  # of H: a stroke this near to another over its whole length was drawn over it …
+SLANT = 0.15  # … if it is also nearer than this part of its own length (a twig leaves its parent at 9° or more)
+CUSP = np.radians(150)  # a sharper turn is a change of mind
+
+
+@dataclass(frozen=True, eq=False)
+class Cleaned:
+    """The lines that remain, and what became of the others."""
+
+    lines: list[Line]
+    merged: tuple[tuple[Line, int], ...]  # (line, row of the stroke it lies along)
+    dots: tuple[str, ...]  # ids
+
+
+def clean(lines: list[Line]) -> Cleaned:
+    """Drop dots, cut strokes that turn back on themselves, merge repeated ones."""
+    height = extent(lines)
+    kept = [line for line in lines if float(np.ptp(line.points, axis=0).max()) >= DOT * height]
+    kept_ids = {line.id for line in kept}
+    dots = tuple(line.id for line in lines if line.id not in kept_ids)
+    unfolded = [part for line in kept for part in _unfold(line, height)]
+    ordered = sorted((_upward(line) for line in unfolded), key=lambda line: _rank(line, height))
+    owner = _owners(ordered, height)
+    merged = tuple((line, ordered[o].row) for line, o in zip(ordered, owner, strict=True) if o >= 0)
+    return Cleaned([line for line, o in zip(ordered, owner, strict=True) if o < 0], merged, dots)
+
+
+def without_doubles(points: Float[np.ndarray, "point 2"], size: float) -> Float[np.ndarray, " point"]:
+    """Mask of the points that differ from the one kept before them."""
+    step = np.hypot(*np.diff(points, axis=0).T)
+    if (step > 1e-9 * size).all():
+        return np.ones(len(points), bool)
+    mask, last = np.ones(len(points), bool), points[0]
+    for k in range(1, len(points)):
+        mask[k] = np.hypot(*(points[k] - last)) > 1e-9 * size
+        last = points[k] if mask[k] else last
+    return mask
+
+
+def _unfold(line: Line, height: float) -> list[Line]:
+    """The line, or its parts between cusps without those that lie along the others (gone over twice)."""
+    cusps = _cusps(line, height)
+    if len(cusps) == 0:
+        return [line]
+    bounds = np.r_[0.0, cusps, line.length]
+    parts = [line.cut(a, b) for a, b in zip(bounds[:-1], bounds[1:], strict=True)]
+    owner = _owners(sorted(parts, key=lambda part: -part.length), height)
+    if (owner < 0).all():
+        return [line]
+    return [part for part, o in zip(sorted(parts, key=lambda part: -part.length), owner, strict=True) if o < 0]
+
+
+def _cusps(line: Line, height: float) -> Float[np.ndarray, " cusp"]:
+    reach = min(DOT * height, 0.2 * line.length)
+    s = line.along[1:-1]
+    here = line.points[1:-1]
+    turn = angle_between(here - line.at(np.maximum(s - reach, 0.0)), line.at(np.minimum(s + reach, line.length)) - here)
+    found: list[float] = []
+    for k in np.flatnonzero(turn > CUSP):
+        if s[k] > reach and s[k] < line.length - reach and (not found or s[k] - found[-1] > reach):
+            found.append(float(s[k]))
+    return np.array(found)
+
+
+def _upward(line: Line) -> Line:
+    """The line drawn from its lower end (from the left one if they are level)."""
+    first, last = line.points[0], line.points[-1]
+    return line if (first[1], first[0]) <= (last[1], last[0]) else line.reversed()
+
+
+def _rank(line: Line, height: float) -> tuple:
+    """A place in the order that depends on the line's shape alone."""
+    rounded = np.round(np.r_[-line.length, line.points[0, 1], line.points[-1, 1]] / height, 9)
+    return (*rounded.tolist(), line.points[0, 0], line.points[-1, 0])
+
+
+def _owners(lines: list[Line], height: float) -> Int[np.ndarray, " line"]:
+    """For every line the earlier line that it lies along, else -1. An owner is no one's own."""
+    owner = np.full(len(lines), -1)
+    shapes = np.array([line.shape for line in lines], object)
+    tolerance = np.minimum(ALONG * height, SLANT * np.array([line.length for line in lines]))
+    middle = shapely.line_interpolate_point(shapes, 0.5, normalized=True)
+    inner, outer = shapely.STRtree(shapes).query(middle, predicate="dwithin", distance=tolerance)
+    for a, b in sorted(zip(inner.tolist(), outer.tolist(), strict=True)):
+        if b < a and owner[a] < 0 and owner[b] < 0 and _lies_along(lines[a], shapes[b], tolerance[a]):
+            owner[a] = b
+    return owner
+
+
+def _lies_along(line: Line, shape: shapely.LineString, tolerance: float) -> bool:
+    s = np.union1d(line.along, np.linspace(0, line.length, 9))
+    return bool((shapely.distance(shapely.points(line.at(s)), shape) <= tolerance).all())
+
+
+def as_line(row: int, stroke_id: str, points, width) -> Line | None:
+    """A line from the points of a stroke; None where they are all one point."""
+    size = float(np.ptp(points, axis=0).max())
+    mask = without_doubles(points, size) if size > 0 else np.zeros(1, bool)
+    if mask.sum() < 2:
+        return None
+    return Line(row, stroke_id, np.ascontiguousarray(points[mask]), np.broadcast_to(np.asarray(width, float), len(points))[mask].copy())
+
+

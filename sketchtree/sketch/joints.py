@@ -1,0 +1,180 @@
+"""Which lines make one limb, and where exactly do limbs meet?
+
+Every line is turned foot first. An overshoot at its foot is cut where it crosses its parent, a gap is bridged: to where the
+line would meet its parent if drawn on, else to the parent's nearest point. A line that starts at the foot of another
+is its sibling. Where lines start at the tip of another, the one that bends least carries that limb on (Chen §7 takes
+the smallest angle for the apical child).
+"""
+
+from dataclasses import dataclass, field
+
+import numpy as np
+import shapely
+from jaxtyping import Float, Int
+
+from sketchtree.axes import NULL
+from sketchtree.sketch.attach import Hanging
+from sketchtree.sketch.candidates import REACH, foot_reach
+from sketchtree.sketch.lines import Line, angle_between, extent
+
+OVERSHOOT = 0.025  # of H: how far past its parent a foot may have been drawn
+RISING = 0.2  # cosine with the vertical above which a line that starts at a foot on the ground is a stem
+STRAIGHT_ON = np.radians(75)  # a line that leaves a tip at more is a lateral there
+
+
+@dataclass(eq=False)
+class Limb:
+    """One branch: lines end to end. `parent` NULL for a stem."""
+
+    lines: list[int]
+    points: Float[np.ndarray, "point 2"]
+    width: Float[np.ndarray, " point"]
+    row: Int[np.ndarray, " point"]  # stroke that drew each point
+    parent: int = NULL
+    s: float = 0.0  # where it sits, length along the parent limb
+    joins: list[float] = field(default_factory=list)  # lengths at which the next line begins
+
+    def __post_init__(self):
+        self.along = np.r_[0.0, np.cumsum(np.hypot(*np.diff(self.points, axis=0).T))]
+
+    def line_at(self, s: float) -> int:
+        """The line of this limb that drew length `s` (the earlier one at a join)."""
+        return self.lines[int(np.searchsorted(self.joins, s - 1e-9 * self.along[-1]))]
+
+
+def limbs_of(lines: list[Line], hanging: Hanging) -> list[Limb]:
+    """The limbs, parents before children; lengths along a limb are from its foot."""
+    height = extent(lines)
+    oriented = [line.reversed() if end else line for line, end in zip(lines, hanging.end, strict=True)]
+    parent, s = hanging.parent.copy(), hanging.s.copy()
+    oriented, s = _meet(oriented, parent, s, height)
+    order = _parents_first(parent)
+    _siblings(oriented, parent, s, order, height)
+    order = _parents_first(parent)
+    heir = _heirs(oriented, parent, s, height)
+    return _assemble(oriented, parent, s, order, heir, height)
+
+
+def _meet(lines: list[Line], parent, s, height: float) -> tuple[list[Line], Float[np.ndarray, " line"]]:
+    """Cut overshoots and find the meeting points. Lengths on a line whose foot was cut count from the cut."""
+    met, place, cut = list(lines), s.copy(), np.zeros(len(lines))
+    for k, line in enumerate(lines):
+        if parent[k] == NULL:
+            continue
+        shape = lines[parent[k]].shape
+        crossing = _last_crossing(line, shape, height)
+        if crossing is not None:
+            cut[k] = crossing
+            met[k] = line.cut(crossing, line.length)
+            place[k] = shape.project(shapely.Point(line.at(crossing)))
+        else:
+            place[k] = _drawn_on(line, shape, s[k], height)
+    inner = parent != NULL
+    place[inner] = np.maximum(place[inner] - cut[parent[inner]], 0.0)
+    return met, place
+
+
+def _last_crossing(line: Line, shape: shapely.LineString, height: float) -> float | None:
+    reach = min(OVERSHOOT * height, 0.3 * line.length)
+    start = line.cut(0.0, reach).shape
+    points = shapely.get_coordinates(start.intersection(shape))
+    if len(points) == 0:
+        return None
+    farthest = max(float(start.project(shapely.Point(point))) for point in points)
+    return farthest if farthest > 0 else None
+
+
+def _drawn_on(line: Line, shape: shapely.LineString, s: float, height: float) -> float:
+    """Where the line drawn on backwards from its foot meets its parent, if that is not far; else `s`."""
+    foot = line.points[0]
+    gap = float(np.hypot(*(shape.interpolate(s).coords[0] - foot)))
+    if gap <= 1e-9 * height:
+        return s
+    reach = min(REACH * height, 0.5 * line.length)
+    back = -line.direction(0.0, reach)
+    points = shapely.get_coordinates(shapely.LineString([foot, foot + back * 2.0 * gap]).intersection(shape))
+    if len(points) == 0:
+        return s
+    return float(shape.project(shapely.Point(points[np.argmin(np.hypot(*(points - foot).T))])))
+
+
+def _siblings(lines: list[Line], parent, s, order: list[int], height: float) -> None:
+    """Hang what starts at the foot of a line onto that line's parent; in place."""
+    for k in order:
+        above = parent[k]
+        if above == NULL or s[k] > foot_reach(lines[above], height):
+            continue
+        if parent[above] != NULL:
+            parent[k], s[k] = parent[above], s[above]
+        elif lines[k].direction(0.0, REACH * height)[1] > RISING:
+            parent[k] = NULL  # a second stem from the same foot
+        else:
+            s[k] = 0.0
+
+
+def _heirs(lines: list[Line], parent, s, height: float) -> list[int]:
+    """For every line the one that carries it on from its tip, else NULL. Moves children near a tip onto it."""
+    heir, least = [NULL] * len(lines), [STRAIGHT_ON] * len(lines)
+    for k, line in enumerate(lines):
+        above = parent[k]
+        if above == NULL or s[k] < lines[above].length - foot_reach(lines[above], height):
+            continue
+        s[k] = lines[above].length
+        reach = REACH * height
+        bend = float(angle_between(lines[above].direction(s[k], reach), line.direction(0.0, reach)))
+        if bend < least[above] - 1e-9:
+            heir[above], least[above] = k, bend
+    return heir
+
+
+def _assemble(lines: list[Line], parent, s, order: list[int], heir: list[int], height: float) -> list[Limb]:
+    limb_of, offset = [NULL] * len(lines), np.zeros(len(lines))
+    limbs: list[Limb] = []
+    for first in order:
+        if parent[first] != NULL and heir[parent[first]] == first:
+            continue
+        chain = [first]
+        while heir[chain[-1]] != NULL:
+            chain.append(heir[chain[-1]])
+        above = parent[first]
+        limb = _chain(lines, chain, offset, height)
+        if above != NULL:
+            limb.parent, limb.s = limb_of[above], float(offset[above] + s[first])
+        for k in chain:
+            limb_of[k] = len(limbs)
+        limbs.append(limb)
+    return limbs
+
+
+def _chain(lines: list[Line], chain: list[int], offset, height: float) -> Limb:
+    """Lines end to end as one limb; writes the length at which each begins to `offset`."""
+    line = lines[chain[0]]
+    points, width, row, joins = line.points, line.width, np.full(len(line.points), line.row), []
+    length = line.length
+    for k in chain[1:]:
+        offset[k] = length
+        joins.append(length)
+        start = beyond(lines[k].points, lines[k].along, points[-1], height)
+        points = np.concatenate([points, lines[k].points[start:]])
+        width = np.concatenate([width, lines[k].width[start:]])
+        row = np.concatenate([row, np.full(len(lines[k].points) - start, lines[k].row)])
+        length = float(np.hypot(*np.diff(points, axis=0).T).sum())
+    return Limb(list(chain), points, width, row, joins=joins)
+
+
+def beyond(points, along, junction, height: float) -> int:
+    """The first point to keep when a line is made to start at `junction`: all, if the gap is wide and worth bridging."""
+    gap = float(np.hypot(*(points[0] - junction)))
+    if gap > 0.012 * height:
+        return 0
+    return int(min(np.searchsorted(along, gap, side="right"), len(points) - 1))
+
+
+def _parents_first(parent) -> list[int]:
+    children: list[list[int]] = [[] for _ in parent]
+    order = []
+    for k, above in enumerate(parent.tolist()):
+        (order if above == NULL else children[above]).append(k)
+    for k in order:
+        order.extend(children[k])
+    return order

@@ -1,0 +1,70 @@
+"""The strokes as clean polylines, measured along their length: what attaching works on."""
+
+import dataclasses
+from dataclasses import dataclass
+from functools import cached_property
+
+import numpy as np
+import shapely
+from jaxtyping import Float
+
+
+@dataclass(frozen=True, eq=False)
+class Line:
+    """One branch line: a stroke, or what was left of it after cleaning. At least two points, none doubled."""
+
+    row: int  # of its stroke in the sketch
+    id: str  # of its stroke
+    points: Float[np.ndarray, "point 2"]  # sketch units, y up
+    width: Float[np.ndarray, " point"]  # drawn width; NaN where it says nothing
+
+    @cached_property
+    def along(self) -> Float[np.ndarray, " point"]:
+        """Length of the line up to each point."""
+        return np.r_[0.0, np.cumsum(np.hypot(*np.diff(self.points, axis=0).T))]
+
+    @property
+    def length(self) -> float:
+        """Length of the whole line, sketch units."""
+        return float(self.along[-1])
+
+    @cached_property
+    def shape(self) -> shapely.LineString:
+        """The same line for shapely."""
+        return shapely.LineString(self.points)
+
+    def at(self, s) -> Float[np.ndarray, "*s 2"]:
+        """The point(s) at length `s`."""
+        return np.stack([np.interp(s, self.along, self.points[:, axis]) for axis in (0, 1)], -1)
+
+    def direction(self, s: float, reach: float) -> Float[np.ndarray, " 2"]:
+        """Unit direction at `s`, taken over `reach` to either side as far as the line goes."""
+        return unit(self.at(min(s + reach, self.length)) - self.at(max(s - reach, 0.0)))
+
+    def reversed(self) -> "Line":
+        """The same line drawn the other way."""
+        return dataclasses.replace(self, points=self.points[::-1], width=self.width[::-1])
+
+    def cut(self, low: float, high: float) -> "Line":
+        """The part between two lengths (low < high)."""
+        inner = (self.along > low) & (self.along < high)
+        s = np.r_[low, self.along[inner], high]
+        points = np.concatenate([self.at(low)[None], self.points[inner], self.at(high)[None]])
+        return dataclasses.replace(self, points=points, width=np.interp(s, self.along, self.width))
+
+
+def unit(vector: Float[np.ndarray, "*row 2"]) -> Float[np.ndarray, "*row 2"]:
+    """Vectors scaled to length 1; a zero vector stays zero."""
+    norm = np.hypot(vector[..., 0], vector[..., 1])[..., None]
+    return vector / np.where(norm > 0, norm, 1.0)
+
+
+def angle_between(a: Float[np.ndarray, "*row 2"], b: Float[np.ndarray, "*row 2"]) -> Float[np.ndarray, "*row"]:
+    """Angle between directions, radians, 0 to π."""
+    return np.abs(np.arctan2(a[..., 0] * b[..., 1] - a[..., 1] * b[..., 0], (a * b).sum(-1)))
+
+
+def extent(lines: list[Line]) -> float:
+    """H: the lines' height, or their width where that is larger."""
+    points = np.concatenate([line.points for line in lines])
+    return float(np.ptp(points, axis=0).max())

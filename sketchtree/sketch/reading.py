@@ -1,0 +1,85 @@
+"""What tree do the strokes make? From a sketch to its rooted segment graph, one step after the other.
+
+    strokes → crown and obstacles apart → clean lines → what each grows from → limbs → nodes and segments
+"""
+
+import numpy as np
+from jaxtyping import Int
+
+from sketchtree.errors import OptionError, SketchError
+from sketchtree.keys import stroke_limb_id
+from sketchtree.sketch.attach import attach
+from sketchtree.sketch.attachments import describe
+from sketchtree.sketch.cleaning import as_line, clean
+from sketchtree.sketch.crown import crown_strokes, has_area, outline
+from sketchtree.sketch.graph import SketchGraph
+from sketchtree.sketch.joints import Limb, limbs_of
+from sketchtree.sketch.lines import Line, extent
+from sketchtree.sketch.segments import columns
+from sketchtree.sketch.strokes import Sketch, StrokeKind
+from sketchtree.sketch.widths import drawn_widths
+
+
+def sketch_graph(sketch: Sketch, *, crown: str = "auto") -> SketchGraph:
+    """The rooted segment tree(s) that a sketch shows, in the sketch's units, y up.
+
+    `crown` "auto": outlines known by label or by shape bound the tree; "off": they are left out.
+    The graph depends neither on the order of the strokes nor on the direction in which each was drawn.
+    Raises SketchError when there is nothing to make a tree of.
+    """
+    if crown not in ("auto", "off"):
+        raise OptionError(f"crown={crown!r}; 'auto' or 'off' was expected.", remedy="Leave it out for 'auto'.")
+    parts = _sorted_strokes(sketch)
+    cleaned = clean(_lines(sketch, parts[StrokeKind.BRANCH]))
+    height = extent(cleaned.lines)
+    hanging = attach(cleaned.lines)
+    limbs = limbs_of(cleaned.lines, hanging)
+    table, rows = columns(limbs, height)
+    ids = tuple(stroke.id for stroke in sketch.strokes)
+    attachments, doubts = describe(cleaned, hanging, limbs, rows, table["xy"], ids, height)
+    outlines = {kind: tuple(outline(sketch.strokes[k].points) for k in parts[kind]) for kind in StrokeKind}
+    return SketchGraph(
+        **table,
+        limb_id=_limb_ids(limbs, cleaned.lines),
+        stroke_ids=ids,
+        crown=outlines[StrokeKind.CROWN] if crown == "auto" else (),
+        obstacles=outlines[StrokeKind.OBSTACLE],
+        attachments=attachments,
+        warnings=(*sketch.warnings, *doubts),
+    )
+
+
+def _sorted_strokes(sketch: Sketch) -> dict[StrokeKind, list[int]]:
+    """Rows of the strokes of each kind, crowns found by shape included."""
+    parts = {kind: [k for k, s in enumerate(sketch.strokes) if s.kind == kind] for kind in StrokeKind}
+    for kind in (StrokeKind.CROWN, StrokeKind.OBSTACLE):
+        parts[kind] = [k for k in parts[kind] if has_area(sketch.strokes[k])]
+    branch = parts[StrokeKind.BRANCH]
+    if not parts[StrokeKind.CROWN]:
+        parts[StrokeKind.CROWN] = [branch[k] for k in crown_strokes([sketch.strokes[k] for k in branch])]
+        parts[StrokeKind.BRANCH] = [k for k in branch if k not in parts[StrokeKind.CROWN]]
+    return parts
+
+
+def _lines(sketch: Sketch, rows: list[int]) -> list[Line]:
+    strokes = [sketch.strokes[row] for row in rows]
+    widths = drawn_widths(strokes)
+    lines = [as_line(row, stroke.id, stroke.points, width) for row, stroke, width in zip(rows, strokes, widths, strict=True)]
+    lines = [line for line in lines if line is not None]
+    if not lines:
+        raise SketchError(
+            f"{sketch.name} has no branch strokes" + (": only dots." if rows else "."),
+            remedy="Draw at least a trunk, as a line.",
+        )
+    return lines
+
+
+def _limb_ids(limbs: list[Limb], lines: list[Line]) -> Int[np.ndarray, " limb"]:
+    """Ids from the first stroke of every limb; a stroke that gave several limbs numbers them."""
+    seen: dict[str, int] = {}
+    ids = []
+    for limb in limbs:
+        name = lines[limb.lines[0]].id
+        seen[name] = seen.get(name, 0) + 1
+        ids.append(stroke_limb_id(name if seen[name] == 1 else f"{name}#{seen[name]}"))
+    return np.array(ids, np.int64)
