@@ -16,7 +16,7 @@ from sketchtree.templates.columns import to_columns
 from sketchtree.templates.database import Database, write_database
 from sketchtree.templates.exemplar import Exemplar, Views, measure
 from sketchtree.templates.procedural import grow
-from sketchtree.templates.recipe import parse_recipe, read_recipe
+from sketchtree.templates.recipe import Recipe, parse_recipe, read_recipe
 from sketchtree.version import __version__
 
 ROUND = 7919  # between the seeds of two rounds of variants
@@ -28,7 +28,8 @@ class Order:
 
     text: str  # of the recipe
     file: str  # its name, for errors
-    round: int  # 0 the recipe's own seed, then variants
+    name: str  # of the exemplar
+    seed: int
 
 
 def recipe_folder() -> Path:
@@ -36,12 +37,12 @@ def recipe_folder() -> Path:
     return Path(__file__).resolve().parents[2] / "template_db"
 
 
-def orders(folder: Path, *, only: tuple[str, ...] = (), count: int | None = None) -> list[Order]:
-    """What to make from the recipes in `folder`, in the order of their names."""
+def orders(folder: Path, *, only: tuple[str, ...] = (), count: int | None = None, seed: int = 0) -> list[Order]:
+    """What to make from the recipes in `folder`, in the order of their names. `seed` is added to the recipes' own."""
     files = sorted(Path(folder).glob("*.toml"))
     if not files:
         raise TemplateError(f"There are no recipes (*.toml) in {folder}.", remedy="Run it in a checkout, or name a folder.")
-    recipes = {recipe.name: (recipe.text, file.name) for file, recipe in ((f, read_recipe(f)) for f in files)}
+    recipes = {recipe.name: (recipe, file.name) for file, recipe in ((f, read_recipe(f)) for f in files)}
     if len(recipes) < len(files):
         raise TemplateError(f"Two recipes in {folder} have the same `name`.", remedy="Give each a name of its own.")
     for name in only:
@@ -49,16 +50,20 @@ def orders(folder: Path, *, only: tuple[str, ...] = (), count: int | None = None
             raise TemplateError(f"There is no recipe called {name!r}.", remedy=f"Use one of: {', '.join(sorted(recipes))}.")
     chosen = [recipes[name] for name in sorted(recipes) if not only or name in only]
     wanted = len(chosen) if count is None else count
-    return [Order(*chosen[i % len(chosen)], i // len(chosen)) for i in range(wanted)]
+    return [_order(*chosen[i % len(chosen)], i // len(chosen), seed) for i in range(wanted)]
+
+
+def _order(recipe: Recipe, file: str, turn: int, seed: int) -> Order:
+    name = recipe.name + (f"_{turn + 1}" if turn else "")
+    return Order(recipe.text, file, name, (recipe.seed + seed + ROUND * turn) % 2**32)
 
 
 def make(order: Order) -> tuple[Exemplar, Views]:
     """One exemplar, grown and measured."""
     recipe = parse_recipe(order.text, file=order.file)
-    seed = (recipe.seed + ROUND * order.round) % 2**32
     return measure(
-        grow(recipe, seed), name=recipe.name + (f"_{order.round + 1}" if order.round else ""), title=recipe.title,
-        habit=recipe.habit, recipe=recipe.text, source=recipe.source, seed=seed, version=__version__,
+        grow(recipe, order.seed), name=order.name, title=recipe.title, habit=recipe.habit,
+        recipe=recipe.text, source=recipe.source, seed=order.seed, version=__version__,
     )  # fmt: skip
 
 
