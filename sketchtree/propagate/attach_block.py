@@ -27,7 +27,9 @@ from sketchtree.propagate.open_branch import Frame, OpenBranches, turn
 
 RANKS = 64  # ranks along a limb are 64 · node + 1 + number of the lateral at that node
 MINIMUM_LENGTH = 0.6  # of the habit's twig length: shorter laterals are not grown
+LARGEST_REACH = 1.5  # of the habit's ratio of lateral to limb: longer children of a block are forks of it
 _LENGTH_SD = 0.1
+_STOUTNESS = 0.02  # radius over length of a new limb, at most
 
 
 @dataclass(frozen=True, eq=False)
@@ -42,6 +44,7 @@ class Nodes:
     tree: Int[np.ndarray, " node"]
     number: Int[np.ndarray, " node"]  # along the limb
     position: Float[np.ndarray, " node"]  # 0-1 along the limb
+    zone: Float[np.ndarray, " node"]  # 0-1 from where the limb may bear laterals to its tip; < 0 before
     whole: Float[np.ndarray, " node"]  # length of the whole limb once grown, metres
     radius: Float[np.ndarray, " node"]
 
@@ -74,7 +77,8 @@ def attach(
     """
     at, child, rank = _laterals(blocks, block)
     limb = keys.child_limb_id(nodes.limb[at], nodes.number[at] * RANKS + 1 + rank)
-    length = blocks.reach[child] * nodes.whole[at] * np.exp(_LENGTH_SD * keys.normal(key, limb, 0))
+    reach = np.minimum(blocks.reach[child], LARGEST_REACH * habit.lateral_ratio)
+    length = reach * nodes.whole[at] * np.exp(_LENGTH_SD * keys.normal(key, limb, 0))
     keep = length >= MINIMUM_LENGTH * habit.twig_length
     at, child, rank, limb, length = (column[keep] for column in (at, child, rank, limb, length))
 
@@ -92,7 +96,7 @@ def attach(
         length=length,
         grown=np.zeros(len(at)),
         node=np.zeros(len(at), np.int64),
-        radius=nodes.radius[at] * np.clip(length / nodes.whole[at], 0.15, 0.65),
+        radius=np.minimum(nodes.radius[at] * np.clip(length / nodes.whole[at], 0.15, 0.65), _STOUTNESS * length),
         bends=np.zeros(len(at), bool),
     )
 

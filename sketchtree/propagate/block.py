@@ -9,9 +9,11 @@ in the parent's frame by the parameters of §4, so that it can be scaled, orient
     φ   divergence    angle between child and parent, radians         `divergence`
     ϕ   orientation   azimuth about the parent from its z to its x    `orientation`
 
-Beyond the paper, a block remembers where it sat: the order of its parent and its `position` along the
-limb; and a lateral child remembers its `reach`, the length of its whole limb over that of the limb it
-sits on. Segment lengths alone say little: they are where laterals happened to be drawn.
+Beyond the paper, a block remembers where it sat: the order of its parent, its `position` along the limb and
+along the `zone` of that limb that bears laterals. A lateral child remembers its `reach`, the length of its
+whole limb over that of the limb it sits on: segment lengths alone say little, they are where laterals happened to
+be drawn. An apical child remembers its `droop`, how far it turned towards the ground per metre: plants bend by
+the vertical, whichever way they are attached.
 """
 
 from dataclasses import dataclass
@@ -27,21 +29,27 @@ from sketchtree.skeleton import TreeSkeleton
 from sketchtree.traverse import children
 
 POSITIONS = (np.arange(10) + 0.5) / 10  # where along a limb the synthetic blocks sit
+_HANGS = np.radians(-65.0)  # elevation of a segment that hangs: it is held there, turning or not
+_PLUMB = np.radians(90.0)  # a metre towards the ground, at least, for what hangs
+_GRAVITY = np.array([0.0, 0.2, 1.0])  # share of a habit's gravitropism on limbs of order 0, 1 and 2+
 
 
 @dataclass(frozen=True, eq=False)
 class Blocks:
-    """Replication blocks, each with at least one lateral; children ragged, the apical one first."""
+    """Replication blocks, each with one child or more; children ragged, the apical one first."""
 
     id: Int[np.ndarray, " block"]  # 63 bits, from the limbs that make it: stable when strokes are added
     order: Int[np.ndarray, " block"]  # branching order of the parent segment
     position: Float[np.ndarray, " block"]  # 0-1, where the node lies along the parent's limb
+    zone: Float[np.ndarray, " block"]  # 0-1, where it lies between that limb's first lateral and its tip
     start: Int[np.ndarray, " block+1"]  # block i owns children start[i]:start[i + 1]
     apical: Bool[np.ndarray, " child"]
     scale: Float[np.ndarray, " child"]
     divergence: Float[np.ndarray, " child"]  # radians
     orientation: Float[np.ndarray, " child"]  # radians
     reach: Float[np.ndarray, " child"]  # limb length / parent limb length; NaN for an apical child
+    length: Float[np.ndarray, " child"]  # of the segment, metres; what `droop` was measured over
+    droop: Float[np.ndarray, " child"]  # radians a metre towards the ground; NaN for a lateral one
 
     def __len__(self) -> int:
         return len(self.id)
@@ -51,50 +59,72 @@ class Blocks:
         """The block of every child."""
         return np.repeat(np.arange(len(self)), np.diff(self.start))
 
+    @property
+    def lateral_count(self) -> Int[np.ndarray, " block"]:
+        """Laterals of every block."""
+        return np.bincount(self.owner[~self.apical], minlength=len(self))
+
+    @property
+    def has_apical(self) -> Bool[np.ndarray, " block"]:
+        """Blocks whose limb goes on."""
+        return np.bincount(self.owner[self.apical], minlength=len(self)) > 0
+
     def select(self, keep: Bool[np.ndarray, " block"]) -> "Blocks":
         """Only the blocks where `keep` is true."""
         child = keep[self.owner]
         count = np.diff(self.start)[keep]
-        columns = {name: getattr(self, name)[keep] for name in ("id", "order", "position")}
+        columns = {name: getattr(self, name)[keep] for name in ("id", "order", "position", "zone")}
         columns |= {name: getattr(self, name)[child] for name in _CHILD}
         return Blocks(**columns, start=np.r_[0, np.cumsum(count)])
 
 
-_CHILD = ("apical", "scale", "divergence", "orientation", "reach")
+_CHILD = ("apical", "scale", "divergence", "orientation", "reach", "length", "droop")
 
 
 def blocks_of(tree: TreeSkeleton) -> Blocks:
-    """Every replication block of a tree: each node that bears at least one lateral (Chen §6)."""
+    """Every replication block of a tree: each segment with children, and those children (Chen §6)."""
     frame = frames(tree)
     position, limb_length = limb_positions(tree)
-    child, start = children(tree.parent)
-    parent = tree.parent[child]
-    apical = tree.limb[child] == tree.limb[parent]
-    length = tree.length
+    child, _ = children(tree.parent)
+    parent, length, vector = tree.parent[child], tree.length, tree.vector
     usable = (tree.parent[parent] != NULL) & (length[child] > 0) & (length[parent] > 0)
-    laterals = np.bincount(parent[usable & ~apical], minlength=len(tree))
-    keep = usable & (laterals[parent] > 0)
-    child, parent, apical = child[keep], parent[keep], apical[keep]
+    child, parent = child[usable], parent[usable]
+    apical = tree.limb[child] == tree.limb[parent]
     first = np.argsort(2 * parent + ~apical, kind="stable")
     child, parent, apical = child[first], parent[first], apical[first]
 
     at = np.unique(parent)
-    local = np.einsum("cji,cj->ci", frame[parent], tree.vector[child])
-    divergence, orientation = polar(local)
-    with np.errstate(divide="ignore", invalid="ignore"):
-        reach = np.where(apical, np.nan, limb_length[child] / limb_length[parent])
     owner = np.searchsorted(at, parent)
+    divergence, orientation = polar(np.einsum("cji,cj->ci", frame[parent], vector[child]))
+    sinks = _elevation(vector[parent]) - _elevation(vector[child])
+    sinks = np.where(_elevation(vector[child]) < _HANGS, np.maximum(sinks, _PLUMB * length[child]), sinks)
     return Blocks(
         id=_block_id(owner, np.where(apical, 0, tree.limb[child]), tree.limb[at]),
         order=tree.order[at],
         position=position[at],
+        zone=_zone(tree, position, parent[~apical])[at],
         start=np.r_[0, np.cumsum(np.bincount(owner, minlength=len(at)))].astype(np.int64),
         apical=apical,
         scale=length[child] / length[parent],
         divergence=divergence,
         orientation=orientation,
-        reach=reach,
+        reach=np.where(apical, np.nan, limb_length[child] / limb_length[parent]),
+        length=length[child],
+        droop=np.where(apical, sinks / length[child], np.nan),
     )
+
+
+def _elevation(vector):
+    return np.arctan2(vector[:, 1], np.hypot(vector[:, 0], vector[:, 2]))
+
+
+def _zone(tree, position, bearing):
+    """Place between the first lateral of each row's limb and its tip, 0-1; 0 on limbs without laterals."""
+    _, limb = np.unique(tree.limb, return_inverse=True)
+    first = np.ones(limb.max(initial=-1) + 1)
+    np.minimum.at(first, limb[bearing], position[bearing])
+    begin = first[limb]
+    return np.clip((position - begin) / np.maximum(1.0 - begin, 1e-9), 0.0, 1.0)
 
 
 def blocks_of_parameters(theta: TreeParameters, habit: Habit) -> Blocks:
@@ -106,7 +136,7 @@ def blocks_of_parameters(theta: TreeParameters, habit: Habit) -> Blocks:
     """
     count = {"opposite": 2, "whorled": max(habit.whorl, 3)}.get(habit.arrangement, max(habit.whorl, 1))
     order, position, turn = (
-        axis.ravel() for axis in np.meshgrid(np.arange(habit.max_order), POSITIONS, np.arange(4), indexing="ij")
+        axis.ravel() for axis in np.meshgrid(np.arange(habit.max_order + 1), POSITIONS, np.arange(4), indexing="ij")
     )
     labels = np.arange(1, count + 2)
     angle = np.array([theta.child(int(label), count + 1) for label in labels])
@@ -115,16 +145,20 @@ def blocks_of_parameters(theta: TreeParameters, habit: Habit) -> Blocks:
     divergence = np.where(labels == 1, angle[:, 0], lean + (turn[:, None] % 2 - 0.5) * theta.sigma_beta)
     apical = np.broadcast_to(labels == 1, divergence.shape)
     reach = np.where(apical, np.nan, habit_reach(habit, position)[:, None])
+    weight = _GRAVITY[np.minimum(np.arange(habit.max_order + 1), 2)]
     return Blocks(
         id=child_limb_id(order * 100 + turn, (position * 1000).astype(np.int64)),
         order=order,
         position=position,
+        zone=position,
         start=np.arange(len(order) + 1) * (count + 1),
         apical=apical.ravel(),
         scale=np.full(divergence.size, float(np.clip(theta.mu_s, 0.6, 1.0))),
         divergence=np.clip(divergence, 0.02, 2.4).ravel(),
         orientation=(angle[:, 2] + swing).ravel(),
         reach=reach.ravel(),
+        length=np.zeros(divergence.size),
+        droop=np.where(apical, np.radians(habit.gravitropism) * weight[order][:, None], np.nan).ravel(),
     )
 
 

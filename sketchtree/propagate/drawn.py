@@ -26,6 +26,7 @@ from sketchtree.skeleton import TreeSkeleton
 from sketchtree.traverse import is_tip
 
 EXTENSION = np.array([0.04, 0.12])  # of a drawn limb's length, without a crown; by order 0, 1+
+_EXTENSION_TWIGS = 3.5  # twig lengths, at most, without a crown
 CROWN_EXTENSION = 0.5  # of a drawn limb's length, at most, towards the crown
 _BEGINS = 0.06  # of the trunk's length: new limbs may start this far below the first drawn one
 _APART = np.cos(np.radians(35.0))  # a new lateral this close to a drawn one's direction is not grown
@@ -40,6 +41,7 @@ def open_tips(
     rows = np.flatnonzero(is_tip(tree.parent) & ~tree.is_base & (tree.order < max(habit.max_order, 1)))
     frame = frames(tree)[rows]
     length = EXTENSION[np.minimum(tree.order[rows], 1)] * whole[rows] * (0.7 + 0.6 * keys.uniform(key, tree.limb[rows], 8))
+    length = np.minimum(length, _EXTENSION_TWIGS * habit.twig_length)
     if envelope is not None:
         far = CROWN_EXTENSION * whole[rows]
         reach = envelope.exit_fraction(tree.tip[rows], tree.tip[rows] + far[:, None] * frame[:, :, 1])
@@ -70,7 +72,8 @@ def drawn_nodes(
     grows = dict(zip(open_.limb.tolist(), open_.length.tolist(), strict=True))
     whole = whole + np.array([grows.get(limb, 0.0) for limb in tree.limb.tolist()])
     rows = np.flatnonzero((split.number != NULL) & (tree.order < len(library.bare)))
-    rows = rows[arc[rows] >= (bare_length(tree, library) - 1e-9)[rows]]
+    bare = bare_length(tree, library)
+    rows = rows[arc[rows] >= bare[rows] - 1e-9]
     if envelope is not None:
         rows = rows[envelope.inside(tree.tip[rows])]
     return Nodes(
@@ -82,6 +85,7 @@ def drawn_nodes(
         tree=tree.tree[rows],
         number=split.number[rows],
         position=arc[rows] / whole[rows],
+        zone=np.clip((arc[rows] - bare[rows]) / (whole[rows] - bare[rows]), 0.0, 1.0),
         whole=whole[rows],
         radius=tree.radius[rows],
     )

@@ -31,7 +31,9 @@ GENERATIONS = 5  # without a crown (Chen §6)
 CROWN_GENERATIONS = 12  # with one, at most
 _BEARING = 2.5  # twig lengths: a shorter limb bears no laterals
 _TRUNK_SPACING = 1.6  # of the habit's spacing of laterals
+_SPACING = (0.8, 2.5)  # times the habit's spacing: the least and the most that an exemplar may say
 _LARGEST_SCALE = 1.25
+_GROUND = 0.015  # of the tree's height: nothing undrawn grows lower
 _LIKE_DRAWN = 1.1  # times the drawn laterals around it, a new one on a drawn limb is no longer
 
 
@@ -107,10 +109,9 @@ class _Growth:
         self.habit, self.theta, self.key, self.max_segments = habit, theta, key, max_segments
         self.warnings = []
         self.envelope = Envelope.from_outlines(crown) if len(crown) else None
-        supplement = blocks_of(exemplar) if exemplar is not None else blocks_of_parameters(theta, habit)
-        if len(supplement) == 0:
-            supplement = blocks_of_parameters(theta, habit)
-        self.library = library(blocks_of(tree), supplement, theta, habit.max_order)
+        self.library = _library(tree, habit, theta, exemplar)
+        self.scale = tree.height
+        self.ground = float(tree.tip[tree.is_base, 1].min()) + _GROUND * tree.height
         self.drawn = self._split(tree)
         self.parts, self.rows, self.done, self.stopped_by = [], len(self.drawn.tree), 0, "generations"
         self.segments = self.drawn.tree.segment_count
@@ -118,12 +119,12 @@ class _Growth:
 
     def _split(self, tree):
         _, whole = limb_arcs(tree)
-        self.spacing = limb_spacing(self.habit, tree.order, whole)
+        self.spacing = self._spacing(tree.order, whole)
         arc, _ = limb_arcs(tree)
         bears = (tree.order < self.habit.max_order) & (arc > bare_length(tree, self.library))
         split = split_long(tree, self.spacing, bears)
         _, whole = limb_arcs(split.tree)
-        self.spacing = limb_spacing(self.habit, split.tree.order, whole)
+        self.spacing = self._spacing(split.tree.order, whole)
         return split
 
     def _first_generation(self) -> OpenBranches:
@@ -136,36 +137,46 @@ class _Growth:
         new = replace(new, length=length)
         return tips.join(new.select(~drawn.beside(new, self.spacing)))
 
+    def _spacing(self, order, whole):
+        """Metres between the nodes of limbs of these orders and whole lengths: as on the exemplar, within a
+        factor of the habit's; never more than a hundred or so nodes a limb."""
+        habit = self.habit.lateral_spacing
+        wide = np.where((order == 0) & (self.habit.arrangement != "whorled"), _TRUNK_SPACING, 1.0) * habit
+        lent = self.library.spacing[np.minimum(order, self.habit.max_order)] * self.scale
+        lent = np.clip(lent, _SPACING[0] * habit, _SPACING[1] * habit)
+        return np.maximum(np.where(np.isnan(lent), wide, lent), whole / (4 * NODES))
+
     def generation(self) -> bool:
         """Grow all open branches; False where there was nothing to grow."""
         if len(self.open) == 0:
             self.stopped_by = "habit"
             return False
         whole = self.open.length + self.open.grown
-        nodes = plan(self.open, self.library, limb_spacing(self.habit, self.open.order, whole), self.key)
+        nodes = plan(self.open, self.library, self._spacing(self.open.order, whole), self.key)
         keep = self._within_limit(nodes.count)
         if not keep.all():
             self.open = self.open.select(keep)
-            nodes = plan(self.open, self.library, limb_spacing(self.habit, self.open.order, whole[keep]), self.key)
+            nodes = plan(self.open, self.library, self._spacing(self.open.order, whole[keep]), self.key)
             self.stopped_by = "max_segments"
-        grown, parent, block = grow(
-            self.open, nodes, self.library, self.habit, self.theta, self.envelope, self.key, first_row=self.rows
-        )
+        grown, parent = grow(
+            self.open, nodes, self.library, self.habit, self.theta, self.envelope, self.ground, self.key,
+            first_row=self.rows,
+        )  # fmt: skip
         self.parts.append((grown, parent))
         self.rows, self.segments, self.done = self.rows + len(grown), self.segments + len(grown), self.done + 1
         if self.stopped_by == "max_segments":
             self.open = self.open.select(slice(0, 0))
             return False
-        self.open = self._laterals(grown, block)
+        self.open = self._laterals(grown)
         return True
 
-    def _laterals(self, nodes: Nodes, block=None) -> OpenBranches:
+    def _laterals(self, nodes: Nodes) -> OpenBranches:
         """The branches that the blocks on these nodes open."""
-        if block is None:
-            block = self.library.choose(nodes.order, nodes.position, keys.uniform(self.key, nodes.id, 6))
+        lib = self.library
         bears = (nodes.order < self.habit.max_order) & (nodes.whole >= _BEARING * self.habit.twig_length)
-        bears &= nodes.position >= np.r_[self.library.bare, 1.0][np.minimum(nodes.order, len(self.library.bare))]
-        opened = attach(nodes.select(bears), block[bears], self.library.blocks, self.habit, self.theta, self.key)
+        nodes = nodes.select(bears & (nodes.zone >= 0))
+        block = lib.choose(lib.lateral, nodes.order, nodes.zone, keys.uniform(self.key, nodes.id, 10))
+        opened = attach(nodes, block, lib.blocks, self.habit, self.theta, self.key)
         if self.envelope is None:
             return opened
         end = opened.origin + opened.length[:, None] * opened.frame[:, :, 1]
@@ -205,13 +216,12 @@ class _Growth:
         return np.concatenate([part.tree for part, _ in self.parts])
 
 
-def limb_spacing(
-    habit: Habit, order: Int[np.ndarray, " limb"], whole: Float[np.ndarray, " limb"]
-) -> Float[np.ndarray, " limb"]:
-    """Metres between the nodes of a limb of this order and length: the habit's, wider on trunks, whose
-    laterals are large, and never more than `NODES` nodes a limb."""
-    wide = np.where((order == 0) & (habit.arrangement != "whorled"), _TRUNK_SPACING, 1.0)
-    return np.maximum(habit.lateral_spacing * wide, whole / (3 * NODES))
+def _library(tree, habit, theta, exemplar):
+    """The tree's own blocks and those of the exemplar; the habit's where there is none to lend."""
+    supplement = None if exemplar is None else blocks_of(exemplar)
+    if supplement is None or not (supplement.lateral_count.any() and supplement.has_apical.any()):
+        exemplar, supplement = None, blocks_of_parameters(theta, habit)
+    return library(blocks_of(tree), supplement, theta, habit.max_order, exemplar)
 
 
 def _columns(parts, tree):

@@ -5,12 +5,13 @@ Chen et al. 2008, §6: blocks are picked at random. Here the odds follow
     w(block | node) = exp(−Δo²/2τ_o²) exp(−Δu²/2τ_u²) max(P(angles | Θ), floor)
 
     Δo   difference of branching orders          τ_o   `ORDER_SD`, wider where there is no exemplar
-    Δu   difference of positions along the limb  τ_u   `POSITION_SD`
+    Δu   difference of places along the limb     τ_u   `POSITION_SD`
     P    likelihood of the block's angles under Θ, relative to its mode (§4)
 
 Self-similarity needs enough to be similar to: a sketch of a trunk and four limbs says nothing about twigs. So the
 tree's own blocks *claim* some of the slots of a table, each its own by hash, and an exemplar's (or the habit's)
-blocks fill the rest. One more stroke claims a few slots and leaves all other choices as they were.
+blocks fill the rest. An own block claims the less, the fewer laterals it has for its order: of a whorl of
+five one is drawn. One more stroke claims a few slots and leaves all other choices as they were.
 """
 
 from dataclasses import dataclass
@@ -21,69 +22,96 @@ from jaxtyping import Float, Int
 from sketchtree.keys import child_limb_id
 from sketchtree.parameters import TreeParameters
 from sketchtree.propagate.block import Blocks, log_likelihood
+from sketchtree.skeleton import TreeSkeleton
 
 SLOTS = 256  # of each cell of the table
 POSITION_BINS = 10  # of a limb
-POSITION_SD = 0.1  # of the limb's length
+POSITION_SD = 0.05  # of the limb's length
 ORDER_SD = 0.5  # where a supplement has blocks of every order
 OWN_SHARE = 1 / 8  # of a cell's slots that one fitting block of the tree's own claims
+_OWN_POSITION_SD = 0.2  # a sketch has few blocks, so each serves a longer stretch
+_ENOUGH = 12  # blocks of an order: with fewer, those of the neighbouring orders serve too
 _LEAST = 0.2  # an own block that fits a cell less than this claims nothing there, if there is a supplement
 
 
 @dataclass(frozen=True, eq=False)
 class Library:
-    """Blocks, and for every order and position along a limb a table of slots to pick them from."""
+    """Blocks, and for every order and place on a limb a table of slots to pick them from."""
 
     blocks: Blocks
-    table: Int[np.ndarray, "order bin slot"]  # block of each slot
+    lateral: Int[np.ndarray, "order bin slot"]  # blocks that bear laterals, by place in the bearing zone
+    apical: Int[np.ndarray, "order bin slot"]  # blocks whose limb goes on, by position along the limb
     bare: Float[np.ndarray, " order"]  # fraction of a limb before its first lateral
+    spacing: Float[np.ndarray, " order"]  # between bearing nodes, over the tree's height; NaN unknown
 
     def choose(
         self,
+        table: Int[np.ndarray, "order bin slot"],
         order: Int[np.ndarray, " node"],
-        position: Float[np.ndarray, " node"],
+        place: Float[np.ndarray, " node"],
         draw: Float[np.ndarray, " node"],
     ) -> Int[np.ndarray, " node"]:
-        """A block for every node, by its order, its position along its limb (0-1) and a number in [0, 1)."""
-        orders, bins, slots = self.table.shape
-        return self.table[
+        """A block for every node out of `lateral` or `apical`, by its order, its place (0-1) and a number in [0, 1)."""
+        orders, bins, slots = table.shape
+        return table[
             np.minimum(order, orders - 1),
-            np.clip((position * bins).astype(np.int64), 0, bins - 1),
+            np.clip((place * bins).astype(np.int64), 0, bins - 1),
             (draw * slots).astype(np.int64),
         ]
 
 
-def library(own: Blocks, supplement: Blocks, theta: TreeParameters, max_order: int) -> Library:
+def library(own: Blocks, supplement: Blocks, theta: TreeParameters, max_order: int, lender: TreeSkeleton | None) -> Library:
     """The library of one run: the tree's own blocks, and those that fill in for what it lacks.
 
-    `supplement` must not be empty. Cells of orders that the supplement does not know are filled from its
-    nearest order.
+    `supplement` holds at least one block with a lateral and one that goes on; `lender` is the exemplar it was taken
+    from, if any. Orders that the supplement does not know are served by its nearest one.
     """
-    orders = max(max_order, 1)
+    orders = max_order + 1
+    typical = np.array([_mean_laterals(supplement, order) for order in range(orders)])
+    whole = np.minimum(own.lateral_count / np.maximum(typical[np.minimum(own.order, max_order)], 1.0), 1.0)
+    fit, own_fit = _fit(supplement, theta), _fit(own, theta)
+    blocks = _concatenate(own, supplement)
+    return Library(
+        blocks=blocks,
+        lateral=_table(own, own_fit * whole, supplement, np.where(supplement.lateral_count > 0, fit, 0.0), orders, "zone"),
+        apical=_table(
+            own, own_fit * own.has_apical, supplement, np.where(supplement.has_apical, 1.0, 0.0), orders, "position"
+        ),
+        bare=np.array([_first_lateral(supplement, order) for order in range(orders)]),
+        spacing=np.array([_spacing(supplement, lender, order) for order in range(orders)]),
+    )
+
+
+def _table(own, own_fit, supplement, fit, orders, place):
+    """Blocks for every slot of every (order, place): the supplement's, but where an own block claims one."""
     table = np.empty((orders, POSITION_BINS, SLOTS), np.int64)
-    known = np.unique(supplement.order)
-    spare_fit, own_fit = _fit(supplement, theta), _fit(own, theta)
-    claim = _hash_uniform(own.id, SLOTS)
+    known = np.unique(supplement.order[fit > 0])
+    own_rows = np.flatnonzero(own_fit > 0)
+    claim = _hash_uniform(own.id[own_rows], SLOTS)
     for order in range(orders):
         nearest = known[np.argmin(np.abs(known - order))]
+        rows = np.flatnonzero((supplement.order == nearest) & (fit > 0))
+        if len(rows) < _ENOUGH:
+            rows = np.flatnonzero((np.abs(supplement.order - nearest) <= 1) & (fit > 0))
+        base = fit[rows] * _near(supplement.order[rows] - nearest, ORDER_SD)
+        own_base = own_fit[own_rows] * _near(own.order[own_rows] - order, ORDER_SD)
         for cell in range(POSITION_BINS):
             at = (cell + 0.5) / POSITION_BINS
-            weight = spare_fit * _near(supplement.order - nearest, ORDER_SD) * _near(supplement.position - at, POSITION_SD)
-            slots = len(own) + _systematic(weight, order * POSITION_BINS + cell)
-            near = own_fit * _near(own.order - order, ORDER_SD) * _near(own.position - at, 2 * POSITION_SD)
+            weight = base * _near(getattr(supplement, place)[rows] - at, POSITION_SD)
+            slots = len(own) + rows[_systematic(weight, order * POSITION_BINS + cell)]
+            near = own_base * _near(getattr(own, place)[own_rows] - at, _OWN_POSITION_SD)
             near = np.where(near < _LEAST, 0.0, near)
-            table[order, cell] = _claimed(slots, claim, near * OWN_SHARE)
-    bare = np.array([_first_lateral(supplement, order) for order in range(orders)])
-    return Library(_concatenate(own, supplement), table, bare)
+            table[order, cell] = _claimed(slots, own_rows, claim, near * OWN_SHARE)
+    return table
 
 
-def _claimed(slots, claim, share):
+def _claimed(slots, rows, claim, share):
     """The slots after each own block took the slots whose hash lies below its share; the lowest wins."""
     if len(share) == 0:
         return slots
     bid = np.where(claim < share[:, None], claim / np.maximum(share, 1e-12)[:, None], np.inf)
     best = np.argmin(bid, axis=0)
-    return np.where(np.isfinite(bid[best, np.arange(SLOTS)]), best, slots)
+    return np.where(np.isfinite(bid[best, np.arange(SLOTS)]), rows[best], slots)
 
 
 def _systematic(weight, cell):
@@ -107,13 +135,31 @@ def _fit(blocks, theta):
     return np.exp(np.maximum(log_likelihood(blocks, theta), -4.0))
 
 
+def _bearing(blocks, order):
+    return (blocks.order == order) & (blocks.lateral_count > 0)
+
+
+def _mean_laterals(blocks, order):
+    count = blocks.lateral_count[_bearing(blocks, order)]
+    return float(count.mean()) if len(count) else 1.0
+
+
 def _first_lateral(blocks, order):
     """Where the first laterals sit on limbs of this order; 15 % of the limb where nothing is known."""
-    at = blocks.position[blocks.order == order]
+    at = blocks.position[_bearing(blocks, order)]
     return float(np.quantile(at, 0.03)) if len(at) >= 8 else 0.15
 
 
+def _spacing(blocks, lender, order):
+    """Metres of limb per bearing node beyond the bare base, over the lender's height."""
+    bearing = np.sum(_bearing(blocks, order))
+    if lender is None or bearing < 4:
+        return np.nan
+    length = lender.length[lender.order == order].sum()
+    return float(length * (1.0 - _first_lateral(blocks, order)) / bearing / lender.height)
+
+
 def _concatenate(a: Blocks, b: Blocks) -> Blocks:
-    names = ("id", "order", "position", "apical", "scale", "divergence", "orientation", "reach")
+    names = ("id", "order", "position", "zone", "apical", "scale", "divergence", "orientation", "reach", "length", "droop")
     joined = {name: np.concatenate([getattr(a, name), getattr(b, name)]) for name in names}
     return Blocks(**joined, start=np.concatenate([a.start, a.start[-1] + b.start[1:]]))

@@ -5,11 +5,10 @@ child turns the limb and its laterals will open new branches in the next generat
 
     d ← gravity(R_y(ϕ) R_x(φ) d)          then   p ← p + min(ℓ, exit) d
 
-    d, p      direction and end of the limb
-    φ, ϕ      the block's apical angles, φ + κ σ_α ε
-    gravity   turns d towards the ground by `gravitropism` · ℓ (or towards the sky, if negative), never
-              past it; in full from order 2 on, little on the limbs that carry the crown
-    exit      where the crown's surface is met: the branch is scaled back to touch it and stops there
+    d, p      direction and end of the limb;  ℓ  length of the step
+    φ, ϕ      the block's apical angles: φ the bend that is not by the vertical, + κ σ_α ε
+    gravity   turns d towards the ground by the block's `droop` · ℓ (towards the sky, if negative), never past it
+    exit      where the crown's surface or the ground is met: the branch is scaled back to touch it and stops
 """
 
 from dataclasses import dataclass
@@ -18,6 +17,7 @@ import numpy as np
 from jaxtyping import Array, Float, Int, Key
 
 from sketchtree import keys
+from sketchtree.axes import NULL
 from sketchtree.parameters import Habit, TreeParameters
 from sketchtree.propagate.attach_block import RANKS, Nodes
 from sketchtree.propagate.envelope import Envelope
@@ -25,7 +25,7 @@ from sketchtree.propagate.library import Library
 from sketchtree.propagate.open_branch import OpenBranches, direction, polar, turn
 
 NODES = 24  # of one limb, at most
-_GRAVITY = np.array([0.0, 0.2, 1.0])  # share of the gravitropism by order 0, 1, 2+
+_LARGEST_TURN = np.radians(60.0)  # of one step by gravity
 _TAPER = 0.85  # share of a limb's radius that is lost towards its tip
 _SHORTEST = 0.05  # of a step: a step cut shorter than this at the crown is not made
 _TOUCH = 1.0 - 1e-9  # of the way to the surface, so that rounding never leaves a tip outside
@@ -40,14 +40,15 @@ class Plan:
     number: Int[np.ndarray, " node"]  # along the limb
     step: Float[np.ndarray, " node"]  # metres from the node before
     arc: Float[np.ndarray, " node"]  # metres from the limb's insertion
-    block: Int[np.ndarray, " node"]
+    zone: Float[np.ndarray, " node"]  # 0-1 from where the limb bears laterals to its tip; < 0 before
+    bend: Int[np.ndarray, " node"]  # block whose apical child the step to the node follows; NULL at an insertion
 
 
 def plan(
     open_: OpenBranches, library: Library, spacing: Float[np.ndarray, " branch"], key: Key[Array, ""]
 ) -> Plan:
     """Where the nodes of each branch will lie: about `spacing` apart, closing up a little towards the
-    tip, at least two and at most `NODES`; and the block of each."""
+    tip, at least two and at most `NODES`; and the block that bends each step."""
     count = np.clip(np.ceil(open_.length / spacing - 0.25).astype(np.int64), 2, NODES)
     owner = np.repeat(np.arange(len(open_)), count)
     along = np.arange(len(owner)) - np.repeat(np.cumsum(count) - count, count)
@@ -59,9 +60,11 @@ def plan(
     run = np.cumsum(step)
     before = np.r_[0.0, run][np.cumsum(count) - count]
     arc = open_.grown[owner] + run - before[owner]
-    whole = (open_.grown + open_.length)[owner]
-    block = library.choose(open_.order[owner], arc / whole, keys.uniform(key, node_id, 6))
-    return Plan(count, owner, number, step, arc, block)
+    position = arc / (open_.grown + open_.length)[owner]
+    bare = library.bare[np.minimum(open_.order, len(library.bare) - 1)][owner]
+    bend = library.choose(library.apical, open_.order[owner], position, keys.uniform(key, node_id, 6))
+    bend = np.where((along == 0) & ~open_.bends[owner], NULL, bend)
+    return Plan(count, owner, number, step, arc, (position - bare) / (1.0 - bare), bend)
 
 
 def grow(
@@ -71,55 +74,61 @@ def grow(
     habit: Habit,
     theta: TreeParameters,
     envelope: Envelope | None,
+    ground: float,
     key: Key[Array, ""],
     *,
     first_row: int,
     spread: float = 0.35,
-) -> Nodes:
-    """The rows of the grown limbs, as nodes numbered from `first_row`, and `parent` rows with them.
+) -> tuple[Nodes, Int[np.ndarray, " node"]]:
+    """The rows of the grown limbs, as nodes numbered from `first_row`, and the parent row of each.
 
-    Returns (nodes, parent, block): parents precede children; limbs that met the crown are shorter than planned.
+    Parents precede children. Limbs that met the crown or the ground (its height in metres) are shorter than planned.
     """
     total = len(nodes.owner)
     offset = np.cumsum(nodes.count) - nodes.count
-    divergence, orientation = _bends(open_, nodes, library, theta, key, spread)
-    weight = _GRAVITY[np.minimum(open_.order, 2)]
-    pull = np.radians(habit.gravitropism) * weight
+    divergence, orientation, droop = _bends(open_, nodes, library, theta, key, spread)
     tip, frame, made = np.empty((total, 3)), np.empty((total, 3, 3)), np.zeros(total, bool)
     at, axes = open_.origin.copy(), open_.frame.copy()
     alive = np.arange(len(open_))
     for k in range(int(nodes.count.max(initial=0))):
         alive = alive[nodes.count[alive] > k]
         flat = offset[alive] + k
-        step = nodes.step[flat]
-        bent = _turned(axes[alive], divergence[flat], orientation[flat], pull[alive] * step)
-        end = at[alive] + step[:, None] * bent[:, :, 1]
-        keep = np.ones(len(alive), bool)
-        if envelope is not None:
-            fraction = envelope.exit_fraction(at[alive], end)
-            keep = fraction > _SHORTEST
-            cut = fraction < 1.0
-            end = np.where(cut[:, None], at[alive] + (fraction * _TOUCH * step)[:, None] * bent[:, :, 1], end)
-            keep_on = keep & ~cut
-        else:
-            keep_on = keep
-        flat, rows = flat[keep], alive[keep]
-        tip[flat], frame[flat], made[flat] = end[keep], bent[keep], True
-        at[rows], axes[rows] = end[keep], bent[keep]
-        alive = alive[keep_on]
+        turned = _turned(axes[alive], divergence[flat], orientation[flat], droop[flat])
+        fraction, end = _stopped(at[alive], turned[:, :, 1] * nodes.step[flat][:, None], envelope, ground)
+        keep = fraction > _SHORTEST
+        tip[flat[keep]], frame[flat[keep]], made[flat[keep]] = end[keep], turned[keep], True
+        at[alive[keep]], axes[alive[keep]] = end[keep], turned[keep]
+        alive = alive[fraction == 1.0]
     return _as_nodes(open_, nodes, tip, frame, made, habit, first_row)
 
 
+def _stopped(start, step, envelope, ground):
+    """(the fraction of each step that is free, where it ends): 1 and the whole step, or up to the crown or ground."""
+    end = start + step
+    fraction = np.ones(len(start)) if envelope is None else envelope.exit_fraction(start, end)
+    sinks = (end[:, 1] < ground) & (step[:, 1] < 0)
+    above = np.maximum(start[:, 1] - ground, 0.0)
+    fraction[sinks] = np.minimum(fraction[sinks], above[sinks] / -step[sinks, 1])
+    cut = fraction < 1.0
+    end[cut] = start[cut] + (fraction[cut] * _TOUCH)[:, None] * step[cut]
+    return fraction, end
+
+
 def _bends(open_, nodes, library, theta, key, spread):
-    """Apical (divergence, orientation) with which every step starts, from the block of the node before it."""
-    blocks, owner = library.blocks, nodes.owner
-    first = nodes.number == open_.node[owner]
-    before = nodes.block[np.maximum(np.arange(len(owner)) - 1, 0)]
-    child = blocks.start[before]
-    has = blocks.apical[child] & ~(first & ~open_.bends[owner])
-    noise = keys.normal(key, keys.child_limb_id(open_.limb[owner], nodes.number * RANKS), 7)
-    divergence = np.where(has, blocks.divergence[child] + spread * theta.sigma_alpha * noise, 0.0)
-    return np.clip(divergence, -0.8, 0.8), np.where(has, blocks.orientation[child], 0.0)
+    """(divergence, orientation, droop) of every step: the block's bend, split by what the vertical explains."""
+    blocks = library.blocks
+    has = nodes.bend != NULL
+    child = blocks.start[np.where(has, nodes.bend, 0)]
+    noise = keys.normal(key, keys.child_limb_id(open_.limb[nodes.owner], nodes.number * RANKS), 7)
+    bend = blocks.divergence[child]
+    turned = np.nan_to_num(blocks.droop[child] * blocks.length[child])
+    bend = np.sqrt(np.maximum(bend**2 - turned**2, 0.0)) + spread * theta.sigma_alpha * noise
+    droop = np.clip(np.nan_to_num(blocks.droop[child]) * nodes.step, -_LARGEST_TURN, _LARGEST_TURN)
+    return (
+        np.where(has, np.clip(bend, -_LARGEST_TURN, _LARGEST_TURN), 0.0),
+        blocks.orientation[child],
+        np.where(has, droop, 0.0),
+    )
 
 
 def _turned(frame, divergence, orientation, pull):
@@ -160,7 +169,8 @@ def _as_nodes(open_, nodes, tip, frame, made, habit, first_row):
         tree=open_.tree[owner],
         number=nodes.number,
         position=nodes.arc / whole,
+        zone=nodes.zone,
         whole=whole,
         radius=np.maximum(open_.radius[owner] * taper, habit.twig_radius),
     )
-    return grown.select(made), parent[made], nodes.block[made]
+    return grown.select(made), parent[made]
