@@ -260,8 +260,10 @@ def _propagated(drawn: DrawnTree, options: TreeOptions, key) -> tuple[TreeSkelet
         max_segments=options.max_segments,
         exemplar=drawn.exemplar.skeleton if drawn.exemplar else None,
     )
-    skeleton = stage(drawn.skeleton, key=key)
-    return PipeRadii(drawn.habit)(skeleton, key=key), ()
+    grown = stage.run(drawn.skeleton, key=key)
+    radius = np.full(len(grown.skeleton), np.nan)
+    radius[grown.drawn_row] = drawn_radius(drawn.graph, drawn.similarity)
+    return PipeRadii(drawn.habit, radius)(grown.skeleton, key=key), grown.warnings
 
 
 @dataclass(frozen=True)

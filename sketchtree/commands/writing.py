@@ -2,17 +2,14 @@
 
 import dataclasses
 import json
-import os
 import time
 from dataclasses import dataclass
 from pathlib import Path
 
 from sketchtree.errors import ExportError
+from sketchtree.export.files import MESHES, SKELETONS, check_extension, check_writable, write_whole
 
-MESHES = (".glb", ".obj", ".ply", ".stl")
-SKELETONS = (".swc", ".json")
 PICTURES = (".png",)
-_LATER = (".gltf", ".usd", ".usda", ".usdz", ".mtg", ".h5", ".sketchtree")
 
 
 @dataclass(frozen=True)
@@ -27,38 +24,22 @@ class Run:
     options: dict
 
 
-def check_outputs(sketch: Path, output: Path, report=None, skeleton=None, preview=None, *, kinds=MESHES + SKELETONS + PICTURES) -> None:
+def check_outputs(
+    sketch: Path, output: Path, report: Path | None = None, skeleton: Path | None = None, preview: Path | None = None,
+    *, kinds: tuple[str, ...] = MESHES + SKELETONS + PICTURES,
+) -> None:
     """Refuse, before any work, an output that can't be written. Raises ExportError."""
-    _check_kind(output, "-o", kinds)
-    _check_kind(skeleton, "--skeleton", SKELETONS)
-    _check_kind(preview, "--preview", PICTURES)
-    taken: dict[Path, str] = {sketch.resolve(): "the sketch itself"}
-    for path, option in ((output, "-o"), (report, "--report"), (skeleton, "--skeleton"), (preview, "--preview")):
+    taken = {sketch.resolve(): "the sketch itself"}
+    wanted = (("-o", output, kinds), ("--report", report, None), ("--skeleton", skeleton, SKELETONS), ("--preview", preview, PICTURES))
+    for option, path, allowed in wanted:
         if path is None:
             continue
+        if allowed is not None:
+            check_extension(path, allowed)
         if path.resolve() in taken:
             raise ExportError(f"`{option} {path}` would overwrite {taken[path.resolve()]}.", remedy="Give it another name.")
         taken[path.resolve()] = f"what `{option}` writes"
-        _check_place(path, option)
-
-
-def _check_kind(path: Path | None, option: str, kinds: tuple[str, ...]) -> None:
-    if path is None or path.suffix.lower() in kinds:
-        return
-    known = " ".join(kinds)
-    if path.suffix.lower() in _LATER:
-        raise ExportError(f"`{option} {path}`: {path.suffix} files are not written by this version.", remedy=f"Use one of {known}; docs/roadmap.md says when others come.")
-    raise ExportError(f"`{option} {path}`: the extension decides what is written, and “{path.suffix}” names nothing.", remedy=f"End the name in one of {known}.")
-
-
-def _check_place(path: Path, option: str) -> None:
-    folder = path.resolve().parent
-    if path.is_dir():
-        raise ExportError(f"`{option} {path}` is a folder.", remedy="Name a file in it.")
-    if not folder.is_dir():
-        raise ExportError(f"`{option} {path}`: the folder {folder} does not exist.", remedy="Make it first, or write elsewhere.")
-    if not os.access(folder, os.W_OK) or (path.exists() and not os.access(path, os.W_OK)):
-        raise ExportError(f"`{option} {path}` can't be written: permission is denied.", remedy="Choose a place you may write to.")
+        check_writable(path)
 
 
 def split_options(wanted: dict, *records: type) -> list:
@@ -108,10 +89,9 @@ def _write_skeleton(path: Path, tree, run: Run, *, units: str = "metres", frame:
     from sketchtree.export.skeletons import write_skeleton_json, write_swc
     from sketchtree.version import __version__
 
-    if path.suffix.lower() == ".swc":
-        write_swc(path, tree, header={"units": units, "frame": frame, "version": __version__, "seed": run.seed})
-    else:
-        write_skeleton_json(path, tree, units=units, frame=frame)
+    header = {"units": units, "frame": frame, "version": __version__, "seed": run.seed}
+    write = write_swc if path.suffix.lower() == ".swc" else write_skeleton_json
+    write(path, tree, header=header)
 
 
 def record(run: Run, drawn, model=None, *, extra_warnings: tuple[str, ...] = ()) -> dict:
@@ -127,9 +107,7 @@ def write_report(path: Path | None, record: dict) -> None:
     """The report as a file, whole or not at all."""
     if path is None:
         return
-    from sketchtree.export.atomic import atomic_write
-
-    atomic_write(path, (json.dumps(record, indent=1, ensure_ascii=False) + "\n").encode())
+    write_whole(path, (json.dumps(record, indent=1, ensure_ascii=False) + "\n").encode())
 
 
 def summary(record: dict, output: Path) -> str:

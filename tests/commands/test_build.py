@@ -140,9 +140,10 @@ def test_bad_input_gets_one_paragraph_and_status_2_and_no_file(case, tmp_path, c
     ("output", "message"),
     [
         ("no/such/folder/tree.glb", "does not exist"),
-        ("tree.usdz", "not written by this version"),
-        ("tree.xyz", "names nothing"),
-        ("", "is a folder"),
+        ("tree.usdz", "`.usdz` files are not written"),
+        ("tree.xyz", "`.xyz` files are not written"),
+        ("tree", "no extension to tell the format"),
+        ("", "it is a folder"),
     ],
 )
 def test_an_unwritable_output_is_refused_before_the_work(output, message, tmp_path, capfd):
