@@ -13,12 +13,13 @@ from dataclasses import dataclass
 
 import numpy as np
 from jaxtyping import Array, Bool, Float, Int, Key
+from scipy.spatial import ConvexHull
 
 from sketchtree import keys
 from sketchtree.axes import NULL
 from sketchtree.parameters import Habit
 from sketchtree.propagate.attach_block import Nodes
-from sketchtree.propagate.envelope import Envelope
+from sketchtree.propagate.envelope import Envelope, Lobe
 from sketchtree.propagate.laterals import Split
 from sketchtree.propagate.library import Library
 from sketchtree.propagate.open_branch import OpenBranches, frames, limb_arcs
@@ -28,6 +29,9 @@ from sketchtree.traverse import is_tip
 EXTENSION = np.array([0.04, 0.12])  # of a drawn limb's length, without a crown; by order 0, 1+
 _EXTENSION_TWIGS = 3.5  # twig lengths, at most, without a crown
 CROWN_EXTENSION = 0.5  # of a drawn limb's length, at most, towards the crown
+_MARGIN = 0.12  # of the smaller side of the drawing's branches
+_MARGIN_TWIGS = 2.0  # twig lengths, at least
+_WEEPING = 30.0  # degrees a metre: with more, twigs hang to the ground
 _BEGINS = 0.06  # of the trunk's length: new limbs may start this far below the first drawn one
 _APART = np.cos(np.radians(35.0))  # a new lateral this close to a drawn one's direction is not grown
 
@@ -38,11 +42,12 @@ def open_tips(
     """The ends of drawn limbs as open branches. Tips outside the crown are closed, and so are limbs of
     the deepest order: what was drawn there is their whole length."""
     arc, whole = limb_arcs(tree)
-    rows = np.flatnonzero(is_tip(tree.parent) & ~tree.is_base & (tree.order < max(habit.max_order, 1)))
+    grows = (tree.order < habit.max_order) & ((tree.order > 0) | (habit.max_order > 1))
+    rows = np.flatnonzero(is_tip(tree.parent) & ~tree.is_base & grows)
     frame = frames(tree)[rows]
     length = EXTENSION[np.minimum(tree.order[rows], 1)] * whole[rows] * (0.7 + 0.6 * keys.uniform(key, tree.limb[rows], 8))
     length = np.minimum(length, _EXTENSION_TWIGS * habit.twig_length)
-    if envelope is not None:
+    if envelope is not None and envelope.binding:
         far = CROWN_EXTENSION * whole[rows]
         reach = envelope.exit_fraction(tree.tip[rows], tree.tip[rows] + far[:, None] * frame[:, :, 1])
         length = np.where(envelope.inside(tree.tip[rows]), reach * far, 0.0)
@@ -74,7 +79,12 @@ def drawn_nodes(
     rows = np.flatnonzero((split.number != NULL) & (tree.order < len(library.bare)))
     bare = bare_length(tree, library)
     rows = rows[arc[rows] >= bare[rows] - 1e-9]
-    if envelope is not None:
+    end = whole
+    if len(library.bare) == 2:  # a palm: what its trunk's stroke draws beyond the last frond is a frond
+        last = _drawn_laterals_end(tree, arc)
+        end = np.where((tree.order == 0) & np.isfinite(last), last, whole)
+    rows = rows[arc[rows] <= end[rows] + 1e-9]
+    if envelope is not None and envelope.binding:
         rows = rows[envelope.inside(tree.tip[rows])]
     return Nodes(
         row=rows,
@@ -84,9 +94,9 @@ def drawn_nodes(
         order=tree.order[rows],
         tree=tree.tree[rows],
         number=split.number[rows],
-        position=arc[rows] / whole[rows],
-        zone=np.clip((arc[rows] - bare[rows]) / (whole[rows] - bare[rows]), 0.0, 1.0),
-        whole=whole[rows],
+        position=arc[rows] / end[rows],
+        zone=np.clip((arc[rows] - bare[rows]) / np.maximum(end[rows] - bare[rows], 1e-9), 0.0, 1.0),
+        whole=end[rows],
         radius=tree.radius[rows],
     )
 
@@ -101,15 +111,53 @@ def bare_length(tree: TreeSkeleton, library: Library) -> Float[np.ndarray, " seg
     return np.where(tree.order == 0, begins, bare)
 
 
+def implied_crown(tree: TreeSkeleton, habit: Habit) -> Envelope | None:
+    """Where no crown was drawn: the convex hull of the drawn limbs on the page, widened by `_MARGIN`.
+
+    What grows from within keeps to it, so that the drawing's outline stays the tree's; it does not bind what was
+    drawn outside it in depth. A weeping habit's reaches down to the ground. None for a tree without drawn limbs, and
+    for palms, whose fronds have their length from the exemplar.
+    """
+    limbs = tree.order > 0
+    if habit.max_order < 2 or np.sum(limbs) < 3:
+        return None
+    arc, _ = limb_arcs(tree)
+    on_trunk = (tree.order == 0) & ~tree.is_base & (arc >= _first_drawn_lateral(tree, arc))
+    points = np.concatenate([tree.tip[limbs | on_trunk][:, :2], tree.start[limbs][:, :2]])
+    if np.ptp(points[:, 0]) <= 0 or np.ptp(points[:, 1]) <= 0:
+        return None
+    width = max(_MARGIN * np.ptp(points, axis=0).min(), _MARGIN_TWIGS * habit.twig_length)
+    turn = np.linspace(0.0, 2 * np.pi, 16, endpoint=False)
+    ring = width * np.column_stack([np.cos(turn), np.sin(turn)])
+    cloud = (points[:, None, :] + ring[None]).reshape(-1, 2)
+    if habit.gravitropism > _WEEPING:
+        cloud = np.concatenate([cloud, np.column_stack([cloud[:, 0], np.full(len(cloud), tree.tip[tree.is_base, 1].min())])])
+    hull = cloud[ConvexHull(cloud).vertices]
+    return Envelope((Lobe.from_outline(hull),), binding=False)
+
+
+def _drawn_laterals_end(tree, arc):
+    """Arc of the last drawn lateral of every row's limb, metres; -inf where there is none."""
+    at, limbs, of_row = _lateral_nodes(tree)
+    last = np.full(limbs, -np.inf)
+    np.maximum.at(last, of_row[at], arc[at])
+    return last[of_row]
+
+
 def _first_drawn_lateral(tree, arc):
     """Arc of the first drawn lateral of every row's limb, metres; inf where there is none."""
+    at, limbs, of_row = _lateral_nodes(tree)
+    first = np.full(limbs, np.inf)
+    np.minimum.at(first, of_row[at], arc[at])
+    return first[of_row]
+
+
+def _lateral_nodes(tree):
+    """(rows that bear a drawn lateral, number of limbs, dense limb number of every row)."""
     above = np.where(tree.parent == NULL, 0, tree.parent)
     lateral = np.flatnonzero((tree.parent != NULL) & (tree.limb != tree.limb[above]))
     limbs, of_row = np.unique(tree.limb, return_inverse=True)
-    first = np.full(len(limbs), np.inf)
-    at = tree.parent[lateral]
-    np.minimum.at(first, of_row[at], arc[at])
-    return first[of_row]
+    return tree.parent[lateral], len(limbs), of_row
 
 
 @dataclass(frozen=True, eq=False)

@@ -88,6 +88,7 @@ class Envelope:
     """The space the tree may fill: the union of one or several lobes."""
 
     lobes: tuple[Lobe, ...]
+    binding: bool = True  # what starts outside may not grow there; else (an implied crown) it grows freely
 
     @classmethod
     def from_outlines(cls, outlines, centre_z: float = 0.0) -> "Envelope":
@@ -105,12 +106,14 @@ class Envelope:
         self, start: Float[np.ndarray, "branch 3"], end: Float[np.ndarray, "branch 3"]
     ) -> Float[np.ndarray, " branch"]:
         """The fraction of each segment from `start` to `end` that stays inside: 1 where the end and the middle
-        are inside, else where the surface is first found by bisection; 0 where the start is outside and the
-        end is too. A branch that starts outside and ends inside may grow."""
+        are inside, else where the surface is first found by bisection. A branch that starts outside may grow
+        if it ends inside (or if the envelope does not bind); else it is 0."""
         end_inside = self.inside(end)
         middle_inside = self.inside(0.5 * (start + end))
         start_inside = self.inside(start)
         fraction = np.where(end_inside & (middle_inside | ~start_inside), 1.0, 0.0)
+        if not self.binding:
+            fraction[~start_inside] = 1.0
         rows = np.flatnonzero(start_inside & (fraction == 0.0))
         if len(rows):
             low = np.zeros(len(rows))
@@ -126,10 +129,11 @@ class Envelope:
 
 def _centroid_x(a, b):
     """x of the polygon's centroid; of its middle if its area vanishes (a curve that crosses itself evenly)."""
+    middle, level = 0.5 * (a.min(axis=0) + a.max(axis=0))
+    a, b = a - (middle, level), b - (middle, level)
     cross = a[:, 0] * b[:, 1] - b[:, 0] * a[:, 1]
     area = cross.sum()
-    middle = 0.5 * (a[:, 0].min() + a[:, 0].max())
     if abs(area) < 1e-9 * np.ptp(a[:, 0]) * np.ptp(a[:, 1]):
         return float(middle)
     x = float(((a[:, 0] + b[:, 0]) * cross).sum() / (3 * area))
-    return x if a[:, 0].min() < x < a[:, 0].max() else float(middle)
+    return float(middle) + (x if a[:, 0].min() < x < a[:, 0].max() else 0.0)

@@ -19,7 +19,7 @@ from sketchtree.errors import OptionError
 from sketchtree.parameters import Habit, TreeParameters
 from sketchtree.propagate.attach_block import MINIMUM_LENGTH, Nodes, attach
 from sketchtree.propagate.block import blocks_of, blocks_of_parameters
-from sketchtree.propagate.drawn import DrawnLaterals, bare_length, drawn_nodes, open_tips
+from sketchtree.propagate.drawn import DrawnLaterals, bare_length, drawn_nodes, implied_crown, open_tips
 from sketchtree.propagate.envelope import Envelope
 from sketchtree.propagate.laterals import split_long
 from sketchtree.propagate.library import library
@@ -31,7 +31,7 @@ GENERATIONS = 5  # without a crown (Chen §6)
 CROWN_GENERATIONS = 12  # with one, at most
 _BEARING = 2.5  # twig lengths: a shorter limb bears no laterals
 _TRUNK_SPACING = 1.6  # of the habit's spacing of laterals
-_SPACING = (0.8, 2.5)  # times the habit's spacing: the least and the most that an exemplar may say
+_SPACING = (0.8, 4.0)  # times the habit's spacing: the least and the most that an exemplar may say
 _LARGEST_SCALE = 1.25
 _GROUND = 0.015  # of the tree's height: nothing undrawn grows lower
 _LIKE_DRAWN = 1.1  # times the drawn laterals around it, a new one on a drawn limb is no longer
@@ -108,7 +108,7 @@ class _Growth:
     def __init__(self, tree, habit, theta, exemplar, crown, max_segments, key):
         self.habit, self.theta, self.key, self.max_segments = habit, theta, key, max_segments
         self.warnings = []
-        self.envelope = Envelope.from_outlines(crown) if len(crown) else None
+        self.envelope = Envelope.from_outlines(crown) if len(crown) else implied_crown(tree, habit)
         self.library = _library(tree, habit, theta, exemplar)
         self.scale = tree.height
         self.ground = float(tree.tip[tree.is_base, 1].min()) + _GROUND * tree.height
@@ -138,12 +138,12 @@ class _Growth:
         return tips.join(new.select(~drawn.beside(new, self.spacing)))
 
     def _spacing(self, order, whole):
-        """Metres between the nodes of limbs of these orders and whole lengths: as on the exemplar, within a
-        factor of the habit's; never more than a hundred or so nodes a limb."""
+        """Metres between the nodes of limbs of these orders and whole lengths: midway (as a ratio) between the
+        exemplar's and the habit's; never more than a hundred or so nodes a limb."""
         habit = self.habit.lateral_spacing
         wide = np.where((order == 0) & (self.habit.arrangement != "whorled"), _TRUNK_SPACING, 1.0) * habit
         lent = self.library.spacing[np.minimum(order, self.habit.max_order)] * self.scale
-        lent = np.clip(lent, _SPACING[0] * habit, _SPACING[1] * habit)
+        lent = np.clip(np.sqrt(lent * habit), _SPACING[0] * habit, _SPACING[1] * habit)
         return np.maximum(np.where(np.isnan(lent), wide, lent), whole / (4 * NODES))
 
     def generation(self) -> bool:
@@ -177,6 +177,8 @@ class _Growth:
         nodes = nodes.select(bears & (nodes.zone >= 0))
         block = lib.choose(lib.lateral, nodes.order, nodes.zone, keys.uniform(self.key, nodes.id, 10))
         opened = attach(nodes, block, lib.blocks, self.habit, self.theta, self.key)
+        longest = lib.longest[np.minimum(opened.order, len(lib.longest) - 1)] * self.scale
+        opened = replace(opened, length=np.minimum(opened.length, longest))
         if self.envelope is None:
             return opened
         end = opened.origin + opened.length[:, None] * opened.frame[:, :, 1]

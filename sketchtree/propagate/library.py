@@ -22,6 +22,7 @@ from jaxtyping import Float, Int
 from sketchtree.keys import child_limb_id
 from sketchtree.parameters import TreeParameters
 from sketchtree.propagate.block import Blocks, log_likelihood
+from sketchtree.propagate.open_branch import limb_positions
 from sketchtree.skeleton import TreeSkeleton
 
 SLOTS = 256  # of each cell of the table
@@ -43,6 +44,7 @@ class Library:
     apical: Int[np.ndarray, "order bin slot"]  # blocks whose limb goes on, by position along the limb
     bare: Float[np.ndarray, " order"]  # fraction of a limb before its first lateral
     spacing: Float[np.ndarray, " order"]  # between bearing nodes, over the tree's height; NaN unknown
+    longest: Float[np.ndarray, " order"]  # limb, over the tree's height; inf unknown
 
     def choose(
         self,
@@ -79,6 +81,7 @@ def library(own: Blocks, supplement: Blocks, theta: TreeParameters, max_order: i
         ),
         bare=np.array([_first_lateral(supplement, order) for order in range(orders)]),
         spacing=np.array([_spacing(supplement, lender, order) for order in range(orders)]),
+        longest=_longest(lender, orders),
     )
 
 
@@ -157,6 +160,16 @@ def _spacing(blocks, lender, order):
         return np.nan
     length = lender.length[lender.order == order].sum()
     return float(length * (1.0 - _first_lateral(blocks, order)) / bearing / lender.height)
+
+
+def _longest(lender, orders):
+    """All but the longest twentieth of the lender's limbs are shorter; deeper orders as its deepest."""
+    if lender is None:
+        return np.full(orders, np.inf)
+    _, whole = limb_positions(lender)
+    known = [order for order in range(orders) if np.sum(lender.order == order) >= _ENOUGH]
+    longest = {order: np.quantile(whole[lender.order == order], 0.95) / lender.height for order in known}
+    return np.array([longest[max(k for k in known if k <= order)] if 0 in longest else np.inf for order in range(orders)])
 
 
 def _concatenate(a: Blocks, b: Blocks) -> Blocks:
