@@ -129,21 +129,23 @@ def default_path() -> Path:
 def write_database(path: Path | str, columns: dict[str, np.ndarray]) -> None:
     """Writes the file in one go; whatever stood at `path` is replaced only when all is on disk."""
     path = Path(path)
+    temporary = None
     try:
         handle, temporary = tempfile.mkstemp(dir=path.parent, prefix=f".{path.name}.", suffix=".part")
-    except OSError as error:
-        raise TemplateError(
-            f"{path}: it can't be written ({error.strerror}).", remedy="Choose a folder that exists and is writable."
-        ) from error
-    try:
         os.close(handle)
         _write(temporary, columns)
         with open(temporary, "rb+") as file:
             os.fsync(file.fileno())
         os.chmod(temporary, 0o644)
         os.replace(temporary, path)
-    except BaseException:
-        Path(temporary).unlink(missing_ok=True)
+    except BaseException as error:
+        if temporary is not None:
+            Path(temporary).unlink(missing_ok=True)
+        if isinstance(error, OSError):
+            raise TemplateError(
+                f"{path}: it can't be written ({error.strerror or error}).",
+                remedy="Choose a folder that exists, is writable and has room.",
+            ) from error
         raise
 
 

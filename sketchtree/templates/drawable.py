@@ -6,7 +6,8 @@ exemplar is brought to a sketch's granularity:
   - the stems, and along each kept limb at most `ALONG_STEM` (a stem) or `ALONG_LIMB` (another limb)
     laterals: its insertions are cut into that many runs and the longest of each run is kept;
   - only limbs of order 3 or less, longer than `SHORTEST` of the tree's height above order 1;
-  - a limb keeps its junctions, its tip, and points where it bends by more than `TOLERANCE` of the height.
+  - a limb keeps its junctions, its tip, and points where it bends by more than `TOLERANCE` of the height;
+    a junction nearer than that to the one before it becomes one with it, as the reading of a sketch does.
 
 `Drawing` is the flat form that exemplars (under many views) and sketches (one view) share.
 """
@@ -91,28 +92,46 @@ def _main_limbs(tree, chains, length, owner, above, order, limits) -> list[int]:
 
 def _simplify(tree: TreeSkeleton, chains, above, kept) -> TreeSkeleton:
     """Only the kept limbs; of their rows only bases, junctions of kept limbs, tips and bends."""
+    tolerance = TOLERANCE * tree.height
     junction = np.zeros(len(tree), bool)
-    junction[above[[limb for limb in kept if above[limb] != NULL]].astype(int)] = True
-    keep = np.zeros(len(tree), bool)
-    for limb in kept:
+    junction[[above[limb] for limb in kept if above[limb] != NULL]] = True
+    stands_for = np.full(len(tree), NULL)  # row that a row is drawn as; NULL: it is not drawn
+    for limb in sorted(kept, key=lambda limb: tree.order[chains[limb][-1]]):
         rows = chains[limb]
         path = rows if above[limb] == NULL else np.r_[above[limb], rows]
-        fixed = np.flatnonzero(junction[path] | tree.is_base[path])
-        marks = np.unique(np.r_[0, fixed, len(path) - 1])
-        for first, last in zip(marks[:-1], marks[1:], strict=True):
-            marks = np.union1d(marks, first + bends(tree.tip[path[first : last + 1]], TOLERANCE * tree.height))
-        keep[path[marks]] = True
-    rows = np.flatnonzero(keep)
-    parent = tree.parent.copy()
-    for row in rows:  # climb to the nearest kept ancestor
-        while parent[row] != NULL and not keep[parent[row]]:
-            parent[row] = tree.parent[parent[row]]
+        marks = _marks(tree.tip[path], junction[path] | tree.is_base[path], tolerance)
+        if stands_for[path[0]] == NULL:
+            stands_for[path[0]] = path[0]
+        last = stands_for[path[0]]
+        for mark in marks[1:]:
+            near = np.linalg.norm(tree.tip[path[mark]] - tree.tip[last]) < tolerance
+            if not near or mark == len(path) - 1:
+                last = path[mark]
+            stands_for[path[mark]] = last
+    return _only(tree, stands_for)
+
+
+def _marks(point, fixed, tolerance: float):
+    """Points of a limb to keep: its ends, those that are `fixed`, and its bends between."""
+    marks = np.unique(np.r_[0, np.flatnonzero(fixed), len(point) - 1])
+    inner = [a + bends(point[a : b + 1], tolerance) for a, b in zip(marks[:-1], marks[1:], strict=True)]
+    return np.unique(np.concatenate([marks, *inner]))
+
+
+def _only(tree: TreeSkeleton, stands_for) -> TreeSkeleton:
+    """The rows that stand for themselves, each under the nearest ancestor that is drawn."""
+    rows = np.flatnonzero(stands_for == np.arange(len(tree)))
     renumber = np.full(len(tree) + 1, NULL)
     renumber[rows] = np.arange(len(rows))
+    parent = np.full(len(rows), NULL)
+    for i, row in enumerate(rows):
+        at = tree.parent[row]
+        while at != NULL and (stands_for[at] == NULL or stands_for[at] == row):
+            at = tree.parent[at]
+        parent[i] = NULL if at == NULL else renumber[stands_for[at]]
     return TreeSkeleton.from_columns(
-        renumber[parent[rows]], tree.tip[rows], tree.radius[rows],
-        order=tree.order[rows], limb=tree.limb[rows], tree=tree.tree[rows],
-    )  # fmt: skip
+        parent, tree.tip[rows], tree.radius[rows], order=tree.order[rows], limb=tree.limb[rows], tree=tree.tree[rows]
+    )
 
 
 def bends(point: Float[np.ndarray, "point axis"], tolerance: float) -> Int[np.ndarray, " bend"]:

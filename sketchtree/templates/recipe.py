@@ -8,6 +8,7 @@ below; `template_db/README.md` lists them.
 """
 
 import dataclasses
+import json
 import tomllib
 from dataclasses import dataclass, field
 from pathlib import Path
@@ -65,7 +66,7 @@ class Limbs:
     spacing: float = _number("m", 0.01, 20, "between nodes that bear laterals", 0.4)
     bare: float = _number("1", 0, 1, "share of the limb without laterals, from its base", 0)
     end: float = _number("1", 0, 1, "no laterals beyond this share of the limb", 1)
-    whorl: float = _number("count", 0, 60, "laterals a node", 1)
+    whorl: float = _number("count", 1, 60, "laterals a node", 1)
     phyllotaxis: float = _number("deg", 0, 360, "azimuth from one node to the next", 137.5)
     azimuth_sd: float = _number("deg", 0, 180, "sd of a lateral's azimuth", 12)
     planar: bool = field(
@@ -73,7 +74,7 @@ class Limbs:
     )
     shed: Profile = _profile("1", 0, 1, "chance that a lateral has been shed, over place on the limb", 0)
     shed_below: float = _number("1", 0, 1, "chance that a lateral on the underside has been shed", 0)
-    forks: Profile | None = _profile("1", 0, 1, "places where the limb splits: [[place, limbs], ...]", None)
+    forks: Profile | None = _profile("count", 2, 8, "where the limb splits and into how many: [[place, limbs], ...]", None)
     fork_angle: float = _number("deg", 0, 120, "angle between the limb and a fork's branch", 40)
 
 
@@ -122,13 +123,16 @@ def parse_recipe(text: str, *, file: str) -> Recipe:
     seed = _require(table, "seed", int, file, "")
     if not 0 <= seed < 2**32:
         _fail(file, "seed", f"{seed} is out of range.", "Give an integer from 0 to 2³² − 1.")
+    levels = tuple(_record(Limbs, level, file, f"limbs[{i}]") for i, level in enumerate(limbs))
+    if min(levels[0].ratio.values) <= 0:
+        _fail(file, "limbs[0].ratio", "the trunk has no length.", "Give it a ratio above 0.")
     return Recipe(
         name=name,
         title=_require(table, "title", str, file, ""),
         source=_require(table, "source", str, file, ""),
         seed=seed,
         crown=_record(Crown, _require(table, "crown", dict, file, ""), file, "crown"),
-        limbs=tuple(_record(Limbs, level, file, f"limbs[{i}]") for i, level in enumerate(limbs)),
+        limbs=levels,
         habit=_habit(_require(table, "habit", dict, file, ""), file),
         text=text,
     )
@@ -152,19 +156,18 @@ def _value(value, key: dataclasses.Field, file: str, where: str):
         if not isinstance(value, bool):
             _fail(file, where, f"{value!r} is not true or false.", f"It says: {meaning}.")
         return value
-    if _is_number(value):
+    if _is_number(value) and key.name != "forks":
         _in_range(value, key, file, where)
         return Profile.constant(value) if _is_profile(key) else float(value)
     pairs = isinstance(value, list) and value and all(isinstance(p, list) and len(p) == 2 for p in value)
     if not (_is_profile(key) and pairs and all(_is_number(x) for p in value for x in p)):
-        wanted = "a number or [[place, value], ...]" if _is_profile(key) else "a number"
+        wanted = "[[place, value], ...]" if key.name == "forks" else "a number or [[place, value], ...]" if _is_profile(key) else "a number"
         _fail(file, where, f"{value!r} is not {wanted}.", f"It is: {meaning} ({unit}).")
     place = [p[0] for p in value]
     if not all(0 <= at <= 1 for at in place) or any(b <= a for a, b in zip(place, place[1:], strict=False)):
         _fail(file, where, f"its places {place} do not rise from 0 to 1.", "Give places in rising order, from 0 to 1.")
     for _, x in value:
-        if not key.name == "forks":
-            _in_range(x, key, file, where)
+        _in_range(x, key, file, where)
     return Profile(tuple((float(a), float(b)) for a, b in value))
 
 
@@ -180,6 +183,8 @@ def _in_range(value, key, file, where) -> None:
     low, high, unit = (key.metadata[k] for k in ("low", "high", "unit"))
     if not low <= value <= high:
         _fail(file, where, f"{value} is out of range.", f"Give {low:g} to {high:g} ({unit}): {key.metadata['meaning']}.")
+    if unit == "count" and value != int(value):
+        _fail(file, where, f"{value} is no whole number.", f"It is: {key.metadata['meaning']}.")
 
 
 ARRANGEMENTS = ("alternate", "opposite", "whorled", "spiral")
@@ -206,6 +211,10 @@ def _habit(table: dict, file: str) -> Habit:
         choices = {"arrangement": ARRANGEMENTS, "leaf_arrangement": LEAF_ARRANGEMENTS}.get(name)
         if choices and value not in choices:
             _fail(file, where, f"{value!r} is not known.", f"Give one of: {', '.join(choices)}.")
+    try:
+        json.dumps(table)
+    except (TypeError, ValueError):
+        _fail(file, "habit.extra", "it holds a value that the database can't keep.", "Use numbers, text, lists and tables.")
     return Habit(**{k: float(v) if isinstance(getattr(Habit(), k), float) else v for k, v in table.items()})
 
 

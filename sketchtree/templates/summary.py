@@ -33,7 +33,7 @@ def summary(exemplar: Exemplar) -> dict[str, str]:
 def _parameters(theta) -> str:
     value = theta.as_dict(degrees=True)
     scale = f"s {value['mu_s']:.2f} ± {value['sigma_s']:.2f}"
-    angles = [f"{sign} {value[f'mu_{k}']:.0f}° ± {value[f'sigma_{k}']:.0f}°" for k, sign in _SIGNS.items()]
+    angles = [f"{sign} {round(value[f'mu_{k}'])}° ± {round(value[f'sigma_{k}'])}°" for k, sign in _SIGNS.items()]
     return ", ".join([scale, *angles])
 
 
