@@ -1,24 +1,50 @@
-"""Which bark does the wood wear?"""
+"""Which bark does the wood wear?
+
+Barks are drawn by code: a relief (`bark_furrowed`, `bark_smooth`, `bark_scaly`) gives colour, normals and roughness of one
+tile that repeats without a seam and stands for half a metre of stem.
+"""
 
 from functools import lru_cache
 
-import numpy as np
-
 from sketchtree.errors import OptionError
+from sketchtree.geometry import bark_furrowed, bark_scaly, bark_smooth
+from sketchtree.geometry.bark_relief import albedo, normal_map, roughness_map
 from sketchtree.geometry.mesh import Material
 
-_NAMES = ("oak", "beech", "birch", "willow", "poplar", "apple", "spruce", "pine", "palm")
+_BARKS = {
+    "oak": bark_furrowed.oak,
+    "beech": bark_smooth.beech,
+    "birch": bark_smooth.birch,
+    "willow": bark_furrowed.willow,
+    "poplar": bark_furrowed.poplar,
+    "apple": bark_scaly.apple,
+    "spruce": bark_scaly.spruce,
+    "pine": bark_scaly.pine,
+    "palm": bark_smooth.palm,
+}
 
 
 def bark_names() -> tuple[str, ...]:
     """Names of all barks."""
-    return _NAMES
+    return tuple(_BARKS)
 
 
-@lru_cache
+@lru_cache(maxsize=32)
 def bark_material(name: str, pixels: int = 512) -> Material:
-    """The bark called `name`, as a material called `wood_<name>`."""
-    if name not in _NAMES:
-        raise OptionError(f"There is no bark called `{name}`.", remedy=f"Choose one of: {', '.join(_NAMES)}.")
-    color = np.full((64, 64, 3), (116, 96, 78), np.uint8)
-    return Material(f"wood_{name}", base_color_texture=color)
+    """The bark called `name`, as a material called `wood_<name>`; kept, so that it is drawn once.
+
+    `pixels` is the side of its textures (64-4096). Raises `OptionError` for an unknown name.
+    """
+    if name not in _BARKS:
+        raise OptionError(f"There is no bark called `{name}`.", remedy=f"Choose one of: {', '.join(_BARKS)}.")
+    if not 64 <= pixels <= 4096:
+        raise OptionError(f"`pixels` is {pixels}, outside 64 to 4096.", remedy="Choose a size in that range, such as 512.")
+    relief = _BARKS[name](pixels)
+    textures = {
+        "base_color_texture": albedo(relief),
+        "normal_texture": normal_map(relief),
+        "roughness_texture": roughness_map(relief),
+    }
+    for texture in textures.values():
+        texture.flags.writeable = False
+    return Material(f"wood_{name}", roughness=1.0, **textures)

@@ -21,7 +21,8 @@ from sketchtree.geometry.detail import Detail
 from sketchtree.geometry.limbs import CentreLines
 from sketchtree.geometry.rings import COLLAR_RINGS, Rings
 
-_WIDTH = 0.9  # of a collar, / radius of the limb
+_WIDTH = 1.1  # of a collar, / radius of the limb
+_SINK = 0.10  # depth of its edge below the parent's surface, / its width
 _MARCH = 32  # places tried along a limb to find where it leaves its parent
 _FAR = 12.0  # how far it may run inside its parent, / radius of the parent
 _BEHIND, _AHEAD, _PIECES = 5.0, 10.0, 14  # stretch of the parent that is looked at, / its radius
@@ -82,10 +83,13 @@ def raise_collars(
     rings: Rings,
     lines: CentreLines,
     tolerance: float,
-) -> None:
-    """Shape the collars in place. `first` is each collar's first ring in `vertex`; `s` becomes the length along each generator."""
+) -> Float[np.ndarray, "collar 2 side 3"]:
+    """Shape the collars in place. `first` is each collar's first ring in `vertex`; `s` becomes the length along each generator.
+
+    Returns the parent's normals at the two lowest rings of each collar, so that the light does not break where they part.
+    """
     if len(first) == 0:
-        return
+        return np.zeros((0, 2, vertex.shape[1], 3))
     ring = first[:, None] + np.arange(COLLAR_RINGS)
     tube, length = vertex[ring], s[ring[:, -1], 0]
     r = rings.radius[rings.start[limb] + COLLAR_RINGS - 1]
@@ -94,7 +98,7 @@ def raise_collars(
     width = _WIDTH * r[:, None]
     shoulder = np.minimum(foot + width, 0.97 * length[:, None])
     at_foot, at_shoulder = _along(tube, foot, length), _along(tube, shoulder, length)
-    low, deep = _skirt(surface, at_foot, at_shoulder, rings, limb, width, tolerance)
+    low, deep, normal = _skirt(surface, at_foot, at_shoulder, rings, limb, width, tolerance)
     t = np.array([0.0, 0.25, 0.5, 0.75, 1.0])[:, None, None]
     bow = (1 - t) ** 2 * low[:, None] + 2 * (1 - t) * t * at_foot[:, None] + t**2 * at_shoulder[:, None]
     rise = (length[:, None] - shoulder)[:, None] * np.array([1.0, 2.0])[:, None] / 3.0 + shoulder[:, None]
@@ -103,6 +107,7 @@ def raise_collars(
     skirt = foot - 0.9 * width
     curve = (1 - t[..., 0]) * skirt[:, None] + t[..., 0] * shoulder[:, None]
     s[ring] = np.concatenate([(skirt - 0.5 * width)[:, None], curve, rise, np.broadcast_to(length[:, None, None], rise[:, :1].shape)], axis=1)
+    return np.stack([normal, normal], axis=1)
 
 
 def _skirt(surface: _Surface, foot, shoulder, rings: Rings, limb, width, tolerance: float):
@@ -112,10 +117,10 @@ def _skirt(surface: _Surface, foot, shoulder, rings: Rings, limb, width, toleran
     ahead = _unit(shoulder - foot)
     outward = _unit(_flat(shoulder - centre, ahead))
     aside = _unit(_flat(outward, normal) - 0.35 * _flat(ahead, normal))
-    low = foot + np.minimum(width, 0.7 * thick)[..., None] * aside
-    gap, normal, thick = surface.nearest(low)
-    low = low - (gap + tolerance + 0.01 * thick)[..., None] * normal
-    return low, low - (0.25 * thick)[..., None] * normal
+    width = np.minimum(width, 0.8 * thick)
+    gap, normal, thick = surface.nearest(foot + width[..., None] * aside)
+    low = foot + width[..., None] * aside - (gap + tolerance + _SINK * width)[..., None] * normal
+    return low, low - (0.25 * thick)[..., None] * normal, normal
 
 
 def _feet(surface: _Surface, tube, length):

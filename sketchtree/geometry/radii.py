@@ -36,8 +36,8 @@ _FROND_BASE = 4.0  # radius of a frond's foot / radius of its tip
 class PipeRadii:
     """A stage that fills in the `radius` column. Nothing else of the tree changes.
 
-    Afterwards no row is thicker than its parent. Without drawn radii, the bases of one tree hold
-    together Σ r^n = (trunk_ratio × height)^n.
+    Afterwards no row is thicker than its parent. Without drawn radii, the stem of each tree that carries the most
+    wood has the radius trunk_ratio × height at the ground.
     """
 
     habit: Habit
@@ -62,21 +62,22 @@ def pipe_radii(tree: TreeSkeleton, habit: Habit) -> Float[np.ndarray, " segment"
     for name in np.unique(tree.tree):
         rows = np.flatnonzero(tree.tree == name)
         bases = rows[tree.is_base[rows]]
+        stem = bases[np.argmax(beyond[bases])]
         ground = max(habit.trunk_ratio * _extent(tree, rows), 1.01 * habit.twig_radius)
-        radius[rows] = _one_tree(tips[rows], beyond[rows], tips[bases].sum(), beyond[bases].sum(), ground, habit)
+        radius[rows] = _one_tree(tips[rows], beyond[rows], tips[stem], beyond[stem], ground, habit)
         if habit.leaf_arrangement == "frond":
             radius[rows] = _palm(tree, rows, ground, beyond, habit)
     return radius
 
 
-def _one_tree(tips, beyond, all_tips: float, all_wood: float, ground: float, habit: Habit):
+def _one_tree(tips, beyond, stem_tips: float, stem_wood: float, ground: float, habit: Habit):
     """ρ (N + λ L)^(1/n), with λ, or else n, from the radius at the ground."""
     twig, exponent = habit.twig_radius, habit.pipe_exponent
     pipes = (ground / twig) ** exponent
-    if pipes < all_tips:
-        exponent = np.log(all_tips) / np.log(ground / twig)
-        pipes = all_tips
-    per_metre = (pipes - all_tips) / all_wood if all_wood > 0 else 0.0
+    if pipes < stem_tips:
+        exponent = np.log(stem_tips) / np.log(ground / twig)
+        pipes = stem_tips
+    per_metre = (pipes - stem_tips) / stem_wood if stem_wood > 0 else 0.0
     return twig * (tips + per_metre * beyond) ** (1.0 / exponent)
 
 

@@ -71,8 +71,9 @@ def _sweep_alike(lines, ring: Rings, limbs, n: int, collar_top, offset, bark, de
     vertex = _circles(ring, rows, theta, flare(lines, ring, rows, theta, detail.flare))
     s = np.repeat(ring.s[rows, None], n, axis=1)
     collared = np.flatnonzero(collar_top[limbs] > 0)
-    raise_collars(vertex, s, start[collared], limbs[collared], ring, lines, tolerance)
+    skirt = raise_collars(vertex, s, start[collared], limbs[collared], ring, lines, tolerance)
     normal = _normals(vertex, start)
+    _light_skirts(normal, start[collared], skirt)
     repeat, paces, along = (column[rows] for column in bark)
     v = along[:, None] + paces[:, None] * (s - ring.s[rows, None])
     v[(start[collared, None] + np.arange(COLLAR_RINGS)).ravel()] = _collar_v(s, paces, along, start[collared])
@@ -102,6 +103,13 @@ def _normals(vertex, start):
     behind[start[:-1]] += 1
     normal = np.cross(around, vertex[ahead] - vertex[behind])
     return normal / np.maximum(np.linalg.norm(normal, axis=-1, keepdims=True), 1e-300)
+
+
+def _light_skirts(normal, first, skirt) -> None:
+    """The parent's normals at the foot of each collar, most of them one ring further up."""
+    normal[first[:, None] + np.arange(2)] = skirt
+    bent = normal[first + 2] + 3.0 * skirt[:, 1]
+    normal[first + 2] = bent / np.maximum(np.linalg.norm(bent, axis=-1, keepdims=True), 1e-12)
 
 
 def _assemble(vertex, normal, v, repeat, start, offset, ring: Rings, limbs, tile: float) -> Surface:

@@ -1,26 +1,36 @@
 """Which part of the bark lies where?
 
-One tile of bark covers `tile` × `tile` metres. Around a limb of circumference c it repeats k times, a power of
-two (so that it closes without a seam where k ≥ 1), and along it
+On thick wood one tile of bark covers `tile` × `tile` metres. Young bark is finer: a limb that is four times thinner than
+`_THICK` at its foot has tiles half as large, and so on, in steps of two (a limb's grain g = 1, 2, 4, …). Around a limb of
+circumference c the tile repeats k times, a power of two (so that it closes without a seam where k ≥ 1), and along it
 
-    u = k θ / 2π + u₀        dv/ds = −ρ^½ / tile        ρ = k tile / c
+    u = k θ / 2π + u₀        dv/ds = −g ρ^½ / tile        ρ = k tile / (g c)
 
-    ρ    density of the bark around the limb, 1 = as on the tile
+    ρ    density of the bark around the limb, 1 = as on the limb's own tile
     θ    angle from the seam, which starts at the back of the tree
 
-The largest stretch of a texel is max(ρ^½, ρ^−½). k starts at the power of two nearest to c / tile, so ρ starts within
-½√2 … √2; where thinning makes ρ pass 4, k falls by 4. So stretch stays ≤ 2 and density within ½√2 … 2√2 of the tile's.
+The largest stretch of a texel is max(ρ^½, ρ^−½). k starts at the power of two nearest to g c / tile, so ρ starts within
+½√2 … √2; where thinning makes ρ pass 4, k falls by 4. So stretch stays ≤ 2, and within a limb density varies by 4 at most.
 """
 
 import numpy as np
-from jaxtyping import Float, Int
+from jaxtyping import Float
 
 from sketchtree.geometry.rings import Rings
 
 
+_THICK = 0.08  # metres, radius from which on bark is full grown
+
+
+def grain(ring: Rings) -> Float[np.ndarray, " ring"]:
+    """g of every ring's limb: 1 on thick limbs, 2 on those four times thinner, …"""
+    foot = ring.radius[ring.start[:-1]]
+    return 2.0 ** np.round(0.5 * np.log2(np.maximum(_THICK / foot, 1.0)))[ring.limb]
+
+
 def repeats(ring: Rings, tile: float) -> Float[np.ndarray, " ring"]:
     """k of every ring: it never rises towards the tip."""
-    around = 2.0 * np.pi * ring.radius / tile
+    around = 2.0 * np.pi * ring.radius * grain(ring) / tile
     foot = around[ring.start[:-1]]
     level = np.round(np.log2(foot))[ring.limb]
     falls = np.maximum(np.floor((level - np.log2(around)) / 2.0), 0.0)
@@ -31,8 +41,9 @@ def repeats(ring: Rings, tile: float) -> Float[np.ndarray, " ring"]:
 
 def pace(ring: Rings, repeat: Float[np.ndarray, " ring"], tile: float) -> Float[np.ndarray, " ring"]:
     """−dv/ds at every ring, tiles a metre."""
-    density = repeat * tile / (2.0 * np.pi * ring.radius)
-    return np.sqrt(np.clip(density, 0.5, 4.0)) / tile
+    fineness = grain(ring)
+    density = repeat * tile / (2.0 * np.pi * ring.radius * fineness)
+    return fineness * np.sqrt(np.clip(density, 0.5, 4.0)) / tile
 
 
 def lengthwise(ring: Rings, paces: Float[np.ndarray, " ring"]) -> Float[np.ndarray, " ring"]:
@@ -41,10 +52,3 @@ def lengthwise(ring: Rings, paces: Float[np.ndarray, " ring"]) -> Float[np.ndarr
     step[ring.start[:-1]] = 0.0
     total = np.cumsum(step)
     return total - np.repeat(total[ring.start[:-1]], np.diff(ring.start))
-
-
-def first_of_limb(start: Int[np.ndarray, " limb+1"], size: int):
-    """Bool[ring]: the first ring of each limb."""
-    first = np.zeros(size, bool)
-    first[start[:-1]] = True
-    return first
