@@ -1,0 +1,135 @@
+"""What do the limbs say about Θ, and what remains of the posterior when Θ is integrated out?
+
+Divergences and log length ratios of order o = 1, 2+ are Gaussian with unknown mean and variance under a
+Normal-Inverse-Gamma prior (m0, κ0, ν0, s0²); bends of order o = 0, 1, 2+ are Gaussian in two directions with an unknown
+variance τ² under a scaled Inverse-χ² prior (ν0, s0²). Given n observations x with mean x̄ and sum of squares S
+about it:
+
+    κn = κ0 + n      mn = (κ0 m0 + n x̄)/κn      νn = ν0 + n      νn sn² = ν0 s0² + S + κ0 n (x̄ − m0)²/κn
+    bends:           νn = ν0 + 2n               νn sn² = ν0 s0² + Σ a²
+
+Means are m, variances s² (Θ at its posterior mean); σ²_MAP = (νn sn²/2)/(νn/2 + 1). For any Θ Bayes' rule says
+
+    log p(ψ) = log p(ψ | Θ) + log p(Θ) − log p(Θ | ψ)
+
+so the posterior without Θ is the factors' sum at one convenient Θ and two densities (Chib 1995 uses it so).
+The default hyperparameters come from 24 synthetic exemplars; a template's own statistics move m0 and s0².
+"""
+
+from typing import NamedTuple
+
+import equinox as eqx
+import jax.numpy as jnp
+import numpy as np
+from jaxtyping import Array, Float
+
+from sketchtree.mrf.prior import Prior
+
+
+class LimbTheta(NamedTuple):
+    """Θ of the default method, per branching order."""
+
+    divergence_mean: Float[Array, " 2"]  # μ_o, radians, o = 1, 2+
+    divergence_sd: Float[Array, " 2"]  # σ_o
+    length_mean: Float[Array, " 2"]  # a_o, log ratio of limb lengths
+    length_sd: Float[Array, " 2"]  # ς_o
+    bend_sd: Float[Array, " 3"]  # τ_o, radians, o = 0, 1, 2+
+
+
+class LimbData(NamedTuple):
+    """Sufficient statistics of one assignment: counts, means, and sums of squares about the means
+    (bends: about 0)."""
+
+    divergence: tuple[Array, Array, Array]
+    length: tuple[Array, Array, Array]
+    bend: tuple[Array, Array]
+
+
+class LimbBelief(eqx.Module):
+    """A Normal-Inverse-Gamma for divergence and for length, and an Inverse-χ² for bends."""
+
+    divergence: Float[Array, "4 2"]  # m, κ, ν, s² per order 1, 2+
+    length: Float[Array, "4 2"]
+    bend: Float[Array, "2 3"]  # ν, s² per order 0, 1, 2+
+
+    def mean(self) -> LimbTheta:
+        """Θ with means m and variances s²."""
+        return LimbTheta(
+            self.divergence[0], jnp.sqrt(self.divergence[3]), self.length[0], jnp.sqrt(self.length[3]), jnp.sqrt(self.bend[1])
+        )
+
+    def mode(self) -> LimbTheta:
+        """Θ at the joint mode, σ²_MAP = (ν s²/2)/(ν/2 + 1) (the Normal's own σ in the joint density left out)."""
+        sd = [jnp.sqrt(nu * s2 / (nu + 2)) for nu, s2 in (self.divergence[2:], self.length[2:], self.bend)]
+        return LimbTheta(self.divergence[0], sd[0], self.length[0], sd[1], sd[2])
+
+    def updated(self, data: LimbData) -> "LimbBelief":
+        """The posterior given one assignment's statistics."""
+        count, square = data.bend
+        nu = self.bend[0] + 2 * count
+        bend = jnp.stack([nu, (self.bend[0] * self.bend[1] + square) / nu])
+        return LimbBelief(_normal_update(self.divergence, *data.divergence), _normal_update(self.length, *data.length), bend)
+
+    def log_density(self, theta: LimbTheta) -> Float[Array, " 7"]:
+        """log density of (mean, variance) of each kind and order at Θ, up to terms of κ0, ν0 and counts alone."""
+        return jnp.concatenate(
+            [
+                _normal_inverse_gamma(self.divergence, theta.divergence_mean, theta.divergence_sd**2),
+                _normal_inverse_gamma(self.length, theta.length_mean, theta.length_sd**2),
+                _inverse_chi2(self.bend[0], self.bend[1], theta.bend_sd**2),
+            ]
+        )
+
+
+GENERIC_BELIEF = {
+    "divergence": [[1.045, 0.893], [0.42, 1.37], [6.0, 6.0], [0.039, 0.040]],
+    "length": [[-1.35, -1.09], [0.69, 0.36], [6.0, 6.0], [0.075, 0.026]],
+    "bend": [[6.0, 6.0, 6.0], [0.016, 0.051, 0.165]],
+}
+
+
+def limb_prior(prior: Prior, dtype=np.float32) -> LimbBelief:
+    """The conjugate prior: the generic one, moved by the template's own statistics where it has any.
+
+    With n of the template's observations m0 moves as by data, κ0 + n is held to at most 8, ν0 = 12 and s0² is
+    the template's own, shrunk to the generic one with weight 6.
+    """
+    generic = {name: np.array(value) for name, value in GENERIC_BELIEF.items()}
+    limbs = prior.limbs
+    if limbs is not None:
+        for name in ("divergence", "length"):
+            count, mean, variance = (getattr(limbs, f"{name}_{part}") for part in ("count", "mean", "variance"))
+            generic[name] = _moved(generic[name], np.asarray(count, float), np.asarray(mean), np.asarray(variance))
+        n = np.asarray(limbs.bend_count, float)
+        nu, s2 = generic["bend"]
+        moved = (nu * s2 + n * np.asarray(limbs.bend_square)) / (nu + 2 * n)
+        generic["bend"] = np.stack([np.where(n > 0, 12.0, nu), np.where(n > 0, moved, s2)])
+    return LimbBelief(**{name: np.asarray(value, dtype) for name, value in generic.items()})
+
+
+def _moved(belief, n, mean, variance):
+    m, kappa, nu, s2 = belief
+    some = n > 0
+    moved = (kappa * m + n * mean) / (kappa + n)
+    shrunk = (nu * s2 + n * variance) / (nu + n)
+    return np.stack(
+        [np.where(some, moved, m), np.where(some, np.minimum(kappa + n, 8.0), kappa), np.where(some, 12.0, nu), np.where(some, shrunk, s2)]
+    )
+
+
+def _normal_update(belief, count, mean, square):
+    m, kappa, nu, s2 = belief
+    kappa_n, nu_n = kappa + count, nu + count
+    total = nu * s2 + square + kappa * count * (mean - m) ** 2 / kappa_n
+    return jnp.stack([(kappa * m + count * mean) / kappa_n, kappa_n, nu_n, total / nu_n])
+
+
+def _normal_inverse_gamma(belief, mean, variance):
+    m, kappa, nu, s2 = belief
+    normal = 0.5 * jnp.log(kappa / variance) - 0.5 * kappa * (mean - m) ** 2 / variance
+    return normal + _inverse_chi2(nu, s2, variance)
+
+
+def _inverse_chi2(nu, s2, variance):
+    half = nu / 2
+    return half * jnp.log(half * s2) - (half + 1) * jnp.log(variance) - half * s2 / variance

@@ -1,0 +1,158 @@
+"""The default method: elevations, sampled with mirror moves, Θ learnt on the way.
+
+Many chains start from random limbs, warm → T = 1 (burn-in), are kept for a while at T = 1 (samples), and are cooled to the best
+tree. The model is `log_posterior`, a step `chains`, what is shown `typical`; Θ is integrated out in `conjugate`.
+
+One step of this solver is a block of 40 chain steps at one temperature, so that a bucket needs one small program.
+"""
+
+from typing import NamedTuple
+
+import jax
+import numpy as np
+import optimistix
+from jaxtyping import Array, Float, Key
+
+from sketchtree.axes import NULL
+from sketchtree.keys import normal
+from sketchtree.mrf import chains
+from sketchtree.mrf.ascend import ascend
+from sketchtree.mrf.chains import Chains
+from sketchtree.mrf.compilation import compiled
+from sketchtree.mrf.factor_graph import FactorGraph
+from sketchtree.mrf.interpenetration import moved_apart
+from sketchtree.mrf.log_posterior import LogPosterior, bucket, log_posterior
+from sketchtree.mrf.prior import Prior
+from sketchtree.mrf.proposals import Moves, moves
+from sketchtree.mrf.solver import AbstractSolver
+from sketchtree.mrf.typical import depth_of, typical_elevation
+
+BLOCK = 40  # chain steps a block
+THIN = 10  # chain steps between kept samples
+START_SD = 0.5  # radians, of a lateral's first ψ
+
+
+class State(NamedTuple):
+    """The chains, what was kept of them, and where in the schedule they are."""
+
+    posterior: LogPosterior | None  # None: nothing to infer
+    moves: Moves | None
+    chains: Chains | None
+    samples: tuple[Float[np.ndarray, "sample segment"], ...]
+    block: int
+    best: Float[np.ndarray, " segment"]  # ψ of the best tree so far
+    best_value: float  # its E
+
+
+class Info(NamedTuple):
+    """What a block did."""
+
+    log_posterior: float  # of the best chain, nats
+    median_log_posterior: float
+    temperature: float
+    step_length: float  # ε, median over the chains
+    moved: float  # Σ|ψ(t+1) − ψ(t)| over a chain, mean over the chains
+
+
+class Elevation(AbstractSolver):
+    """The model of repaired factors over elevations ψ; the default."""
+
+    theta_mode: str = "fit"  # "fit": Θ is learnt; "fixed": it stays the prior's
+    planar: bool = False  # the tree grew flat
+    typical: bool = True  # show median steepness and stretch; False: the best tree itself
+    chain_count: int = 32  # fewer on drawings above 256 segments
+    burn: tuple[float, ...] = (3.0, 2.0, 1.4, 1.0)  # temperature of each block
+    keep: int = 5  # blocks at temperature 1 whose states are samples
+    cool: tuple[float, ...] = (0.5, 0.2, 0.06, 0.01, 1e-4)
+    polish: optimistix.AbstractMinimiser | None = None  # after cooling; costs a second program
+
+    @property
+    def name(self) -> str:
+        return "elevation"
+
+    @property
+    def schedule(self) -> tuple[float, ...]:
+        """Temperature of every block."""
+        return (*self.burn, *(1.0,) * self.keep, *self.cool)
+
+    @property
+    def default_steps(self) -> int:
+        return len(self.schedule)
+
+    def compile(self, graph: FactorGraph, prior: Prior) -> None:
+        if (graph.limb_parent != NULL).any():
+            state = self.init(graph, prior, jax.random.key(0))
+            self._program(state, jax.random.key(0), 1.0)
+
+    def init(self, graph: FactorGraph, prior: Prior, key: Key[Array, ""]) -> State:
+        nothing = np.zeros(len(graph))
+        if not (graph.limb_parent != NULL).any():
+            return State(None, None, None, (), 0, nothing, 0.0)
+        segments, limbs = bucket(graph)
+        posterior = log_posterior(graph, prior, learns=self.theta_mode == "fit", planar=self.planar)
+        start = _random_limbs(graph, key, self._chain_count(segments), segments)
+        return State(posterior, moves(graph, segments, limbs), chains.start(start), (), 0, nothing, -np.inf)
+
+    def step(self, graph: FactorGraph, prior: Prior, state: State, key: Key[Array, ""]) -> tuple[State, Info]:
+        temperature = self.schedule[state.block]
+        program, arguments = self._program(state, key, temperature)
+        after, path = program(*arguments)
+        value = np.asarray(after.value)
+        leader = int(np.argmax(value))
+        samples = state.samples
+        if len(self.burn) <= state.block < len(self.burn) + self.keep:
+            kept = np.asarray(path)[THIN - 1 :: THIN, :, : len(graph)]
+            samples = (*samples, kept.reshape(-1, len(graph)))
+        best, best_value = state.best, state.best_value
+        if value[leader] >= best_value:
+            best, best_value = np.asarray(after.elevation[leader], np.float64)[: len(graph)], float(value[leader])
+        moved = float(np.abs(np.asarray(after.elevation) - np.asarray(state.chains.elevation)).sum(axis=1).mean())
+        state = State(state.posterior, state.moves, after, samples, state.block + 1, best, best_value)
+        if state.block == len(self.schedule) and self.polish is not None:
+            state = self._polished(graph, state)
+        info = Info(
+            state.best_value, float(np.median(value)), temperature, float(np.exp(np.median(np.asarray(after.log_step)))), moved
+        )
+        return state, info
+
+    def terminate(self, graph: FactorGraph, prior: Prior, state: State) -> bool:
+        return state.posterior is None or state.block >= len(self.schedule)
+
+    def depth(self, graph: FactorGraph, state: State) -> Float[np.ndarray, " segment"]:
+        psi = state.best
+        if self.typical and state.samples:
+            psi = typical_elevation(graph, np.concatenate(state.samples), state.best)
+        return moved_apart(graph, depth_of(graph, psi))
+
+    def depth_sd(self, graph: FactorGraph, state: State) -> Float[np.ndarray, " segment"]:
+        """Standard deviation of |z| over the samples: the mirror image left out."""
+        if not state.samples:
+            return np.full(len(graph), np.nan)
+        return np.std(np.abs(depth_of(graph, np.concatenate(state.samples).T)), axis=1)
+
+    def log_posterior(self, graph: FactorGraph, prior: Prior, state: State) -> float | None:
+        return None if state.posterior is None else state.best_value
+
+    def _chain_count(self, segments: int) -> int:
+        return max(4, min(self.chain_count, self.chain_count * 256 // segments))
+
+    def _program(self, state: State, key, temperature: float):
+        keys = jax.random.split(key, len(state.chains.value))
+        hot = np.full(BLOCK, temperature, np.float32)
+        langevin = (np.arange(BLOCK) % 2).astype(np.float32)
+        arguments = (state.posterior, state.moves, state.chains, keys, hot, langevin)
+        return compiled(chains.run, *arguments, name="chains"), arguments
+
+    def _polished(self, graph: FactorGraph, state: State) -> State:
+        best, value = ascend(state.posterior, state.best, self.polish)
+        return state._replace(best=best, best_value=value) if value > state.best_value else state
+
+
+def _random_limbs(graph: FactorGraph, key, chain_count: int, segments: int) -> Float[np.ndarray, "chain segment"]:
+    """One ψ a limb, N(0, .5); 0 on stems."""
+    start = np.zeros((chain_count, segments), np.float32)
+    limb = np.arange(graph.limb_count)
+    for chain in range(chain_count):
+        psi = np.clip(START_SD * normal(key, limb, chain), -1.2, 1.2) * (graph.limb_order > 0)
+        start[chain, : len(graph)] = np.where(graph.is_base, 0.0, psi[graph.limb])
+    return start

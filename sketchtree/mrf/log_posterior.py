@@ -1,0 +1,215 @@
+"""How likely are these elevations? All factors of one drawing, Θ integrated out.
+
+    E(ψ) = Σ_kinds Σ log_potential(assignment(ψ), Θ) + log p(Θ) − log p(Θ | ψ)        (any Θ; see `conjugate`)
+
+The columns are padded to a bucket, so that drawings of like size share one compiled program: segments to a
+power of two, limbs to a quarter, a half or all of that, sibling pairs to three a limb, competition pairs to sixteen.
+"""
+
+import equinox as eqx
+import jax
+import jax.numpy as jnp
+import numpy as np
+from jaxtyping import Array, Float
+
+from sketchtree.axes import NULL
+from sketchtree.mrf.assignment import STEEPEST, Assignment, Page, page
+from sketchtree.mrf.conjugate import LimbBelief, LimbData, LimbTheta, limb_prior
+from sketchtree.mrf.factor_graph import FactorGraph
+from sketchtree.mrf.factors.apical import Apical
+from sketchtree.mrf.factors.competition import Competition
+from sketchtree.mrf.factors.crown import MEAN, NARROWEST, SD, Crown
+from sketchtree.mrf.factors.extent import Extent
+from sketchtree.mrf.factors.lateral import Lateral
+from sketchtree.mrf.factors.limb_length import LimbLength
+from sketchtree.mrf.factors.plane import Plane
+from sketchtree.mrf.factors.siblings import DECAY, KAPPA, Siblings
+from sketchtree.mrf.factors.solid_angle import SolidAngle
+from sketchtree.mrf.factors.stem import Stem
+from sketchtree.mrf.prior import Prior
+
+SMALLEST_BUCKET = 32
+COMPETITION_PER_LIMB = 16
+ONE_SIDED = (0.7, 0.9)  # |mean dx| / rms dx at which extent and crown begin to weaken, and have
+
+
+class LogPosterior(eqx.Module):
+    """E(ψ) of one drawing; the factor kinds are its fields."""
+
+    page: Page
+    solid_angle: SolidAngle
+    lateral: Lateral
+    apical: Apical
+    stem: Stem
+    limb_length: LimbLength
+    siblings: Siblings
+    competition: Competition
+    extent: Extent
+    crown: Crown
+    plane: Plane
+    belief: LimbBelief
+    learns: Float[Array, ""]  # 1: Θ is learnt; 0: it stays the prior's
+    learns_trunk: Float[Array, ""]  # 0 where too few laterals say what a trunk's bend means
+
+    @property
+    def factors(self) -> tuple:
+        """Every kind of factor."""
+        return (
+            self.solid_angle, self.lateral, self.apical, self.stem, self.limb_length,
+            self.siblings, self.competition, self.extent, self.crown, self.plane,
+        )  # fmt: skip
+
+    def __call__(self, elevation: Float[Array, " segment"]) -> Float[Array, ""]:
+        """E(ψ), nats; −inf beyond ±80°."""
+        inside = jnp.max(jnp.abs(elevation)) < STEEPEST
+        assignment = self.page.assign(jnp.clip(elevation, -STEEPEST, STEEPEST))
+        posterior = self.belief.updated(self.data(assignment))
+        theta = jax.lax.stop_gradient(posterior.mean())
+        bayes = self.belief.log_density(theta) - posterior.log_density(theta)
+        return jnp.where(inside, self.given(assignment, theta) + jnp.sum(bayes), -jnp.inf)
+
+    def given(self, assignment: Assignment, theta: LimbTheta) -> Float[Array, ""]:
+        """Σ log_potential at one Θ."""
+        return sum(jnp.sum(kind.log_potential(assignment, theta)) for kind in self.factors)
+
+    def theta(self, elevation: Float[Array, " segment"]) -> LimbTheta:
+        """Θ at its posterior mean given ψ."""
+        return self.belief.updated(self.data(self.page.assign(elevation))).mean()
+
+    def data(self, assignment: Assignment) -> LimbData:
+        """What these depths say about Θ."""
+        weight = self.learns * self.lateral.present
+        bend_weight = self.apical.present * jnp.where(self.apical.order == 0, self.learns_trunk, 1.0)
+        apical_kind = jax.nn.one_hot(self.apical.order, 3) * (self.learns * bend_weight)[:, None]
+        return LimbData(
+            divergence=_moments(self.lateral.divergence(assignment), self.lateral.order, weight),
+            length=_moments(self.limb_length.excess(assignment), self.limb_length.order, weight),
+            bend=(jnp.sum(apical_kind, axis=0), self.apical.bend(assignment) ** 2 @ apical_kind),
+        )
+
+
+def _moments(value, order, weight):
+    kind = jax.nn.one_hot(order, 2) * weight[:, None]
+    count = jnp.sum(kind, axis=0)
+    mean = value @ kind / jnp.maximum(count, 1.0)
+    return count, mean, jnp.sum(kind * (value[:, None] - mean) ** 2, axis=0)
+
+
+def bucket(graph: FactorGraph) -> tuple[int, int]:
+    """(segments, limbs) that the columns are padded to."""
+    segments = SMALLEST_BUCKET
+    while segments < len(graph):
+        segments *= 2
+    limbs = segments // 4
+    while limbs < graph.limb_count:
+        limbs *= 2
+    return segments, limbs
+
+
+def log_posterior(
+    graph: FactorGraph, prior: Prior, *, learns: bool = True, planar: bool = False, dtype=np.float32
+) -> LogPosterior:
+    """Compile a drawing and a prior to padded columns."""
+    segments, limbs = bucket(graph)
+    pad = _Padding(segments, limbs, dtype)
+    lateral = np.flatnonzero(graph.limb_parent != NULL)
+    stem = np.flatnonzero(graph.limb_parent == NULL)
+    first = graph.limb_first
+    apical = np.flatnonzero(graph.is_apical)
+    order = np.minimum(graph.limb_order[lateral], 2) - 1
+    shape = 0.0 if planar else 1.0
+    return LogPosterior(
+        page=page(graph, segments, limbs, dtype),
+        solid_angle=SolidAngle(pad.real(~graph.is_base, segments)),
+        lateral=Lateral(
+            row=pad.index(first[lateral], limbs), parent=pad.index(graph.parent[first[lateral]], limbs),
+            order=pad.index(order, limbs), present=pad.real(np.ones(len(lateral)), limbs),
+        ),
+        apical=Apical(
+            row=pad.index(apical, segments), parent=pad.index(graph.parent[apical], segments),
+            order=pad.index(np.minimum(graph.order[apical], 2), segments), present=pad.real(np.ones(len(apical)), segments),
+        ),
+        stem=Stem(row=pad.index(first[stem], limbs), present=pad.real(np.ones(len(stem)), limbs)),
+        limb_length=LimbLength(
+            limb=pad.index(lateral, limbs), parent=pad.index(graph.limb_parent[lateral], limbs), order=pad.index(order, limbs),
+            insertion=pad.real(graph.insertion[lateral], limbs), present=pad.real(np.ones(len(lateral)), limbs),
+        ),
+        siblings=Siblings(
+            row=pad.index(first, limbs), parent=pad.index(graph.parent[first], limbs),
+            pair=pad.index(graph.sibling, 3 * limbs),
+            strength=pad.real(shape * KAPPA * np.array(DECAY)[graph.rank_gap], 3 * limbs),
+        ),
+        competition=_competition(graph, pad, shape),
+        extent=_extent(graph, pad, shape),
+        crown=_crown(graph, pad, shape),
+        plane=Plane(pad.real((1 - shape) * ~graph.is_base, segments)),
+        belief=limb_prior(prior, dtype),
+        learns=np.asarray(float(learns), dtype),
+        learns_trunk=np.asarray(float(len(lateral) >= 3), dtype),
+    )  # fmt: skip
+
+
+class _Padding:
+    """Columns as jax arrays of a given length; index columns are filled with 0, others with 0.0."""
+
+    def __init__(self, segments: int, limbs: int, dtype):
+        self.limbs, self.dtype = limbs, dtype
+
+    def real(self, column, length):
+        return np.asarray(self._filled(np.asarray(column, float), length), self.dtype)
+
+    def index(self, column, length):
+        return np.asarray(self._filled(np.asarray(column), length), np.int32)
+
+    @staticmethod
+    def _filled(column, length):
+        return np.concatenate([column, np.zeros((length - len(column), *column.shape[1:]), column.dtype)])
+
+
+def _competition(graph, pad, shape):
+    length = COMPETITION_PER_LIMB * pad.limbs
+    pair = graph.competitor
+    if len(pair) > length:
+        apart = np.linalg.norm(graph.xy[pair[:, 0]] - graph.xy[pair[:, 1]], axis=1)
+        pair = pair[np.sort(np.argsort(apart, kind="stable")[:length])]
+    return Competition(pad.index(pair, length), pad.real(np.full(len(pair), shape), length), np.asarray(graph.crown_radius, pad.dtype))
+
+
+def _aside(graph):
+    return graph.xy[graph.limb_tip, 0] - graph.trunk_x
+
+
+def _sidedness(graph):
+    """Weight of extent and crown per tree: 1, falling to .15 where every tip is on one side."""
+    lateral = graph.limb_parent != NULL
+    tree = graph.tree[graph.limb_tip][lateral]
+    aside = _aside(graph)[lateral]
+    count = np.maximum(np.bincount(tree, minlength=graph.tree.max() + 1), 1)
+    mean = np.bincount(tree, aside, minlength=len(count)) / count
+    rms = np.sqrt(np.bincount(tree, aside**2, minlength=len(count)) / count)
+    low, high = ONE_SIDED
+    return 1 - 0.85 * np.clip((np.abs(mean) / np.maximum(rms, 1e-9) - low) / (high - low), 0, 1)
+
+
+def _extent(graph, pad, shape):
+    lateral = graph.limb_parent != NULL
+    tree = graph.tree[graph.limb_tip] % pad.limbs
+    square = np.bincount(tree[lateral], _aside(graph)[lateral] ** 2, minlength=pad.limbs)
+    some = np.bincount(tree[lateral], minlength=pad.limbs) > 0
+    weight = np.zeros(pad.limbs)
+    weight[: graph.tree.max() + 1] = _sidedness(graph)[: pad.limbs]
+    return Extent(
+        tip=pad.index(graph.limb_tip, pad.limbs), tree=pad.index(tree, pad.limbs), lateral=pad.real(lateral, pad.limbs),
+        width_square=pad.real(square, pad.limbs), weight=pad.real(shape * some * weight, pad.limbs),
+    )  # fmt: skip
+
+
+def _crown(graph, pad, shape):
+    above = np.minimum(np.maximum(graph.limb_order - 1, 0), 1)
+    weight = shape * (graph.limb_parent != NULL) * _sidedness(graph)[graph.tree[graph.limb_tip]]
+    return Crown(
+        tip=pad.index(graph.limb_tip, pad.limbs), aside=pad.real(_aside(graph), pad.limbs),
+        half_width=np.maximum(pad.real(graph.half_width, pad.limbs), NARROWEST).astype(pad.dtype),
+        mean=pad.real(np.array(MEAN)[above], pad.limbs), sd=np.maximum(pad.real(np.array(SD)[above], pad.limbs), 0.1).astype(pad.dtype),
+        weight=pad.real(weight, pad.limbs),
+    )  # fmt: skip

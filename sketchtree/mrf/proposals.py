@@ -1,0 +1,104 @@
+"""Where may a chain go next?
+
+Langevin: along the gradient, with noise, each row at its own pace (preconditioned; Roberts & Stramer 2002):
+
+    y = ψ + ½ ε² P ∇E/T + ε √P ξ,    ξ ~ N(0, 1)
+
+Mirror moves, which no gradient finds because it never crosses ψ = 0: negate one limb, or a limb with all that
+grows on it, or shift a whole limb by N(0, .35). Mirror moves are symmetric, so only the Langevin step has a ratio of
+proposal densities.
+"""
+
+from typing import NamedTuple
+
+import equinox as eqx
+import jax
+import jax.numpy as jnp
+import numpy as np
+from jaxtyping import Array, Float, Int, Key
+
+from sketchtree.axes import NULL
+from sketchtree.mrf.assignment import Page
+from sketchtree.mrf.conjugate import GENERIC_BELIEF
+from sketchtree.mrf.factor_graph import FactorGraph
+from sketchtree.mrf.factors import stem
+
+SHIFT_SD = 0.35  # radians
+LIMB_ALONE, WITH_SUBTREE = 0.2, 0.6  # below the first: the limb alone; below the second: with its subtree; else a shift
+
+
+class Moves(eqx.Module):
+    """What the proposals need to know of a drawing; padded."""
+
+    lateral: Int[Array, " limb"]  # limbs that grow from another
+    first: Int[Array, " limb"]  # their first rows
+    lateral_count: Int[Array, ""]
+    pace: Float[Array, " segment"]  # √P; 0 at bases and padding
+
+
+class Draws(NamedTuple):
+    """The random numbers of one step."""
+
+    noise: Float[Array, " segment"]
+    limb: Float[Array, ""]
+    kind: Float[Array, ""]
+    shift: Float[Array, ""]
+    accept: Float[Array, ""]
+
+
+def moves(graph: FactorGraph, segments: int, limbs: int, dtype=np.float32) -> Moves:
+    """The moves of a drawing padded to `segments` and `limbs`."""
+    lateral = np.flatnonzero(graph.limb_parent != NULL)
+    fill = np.zeros(limbs - len(lateral), int)
+    pace = np.zeros(segments)
+    pace[: len(graph)] = np.where(graph.is_base, 0.0, 1 / np.sqrt(stiffness(graph)))
+    return Moves(
+        lateral=np.asarray(np.r_[lateral, fill], np.int32),
+        first=np.asarray(np.r_[graph.limb_first[lateral], fill], np.int32),
+        lateral_count=np.asarray(max(len(lateral), 1), np.int32),
+        pace=np.asarray(pace, dtype),
+    )
+
+
+def stiffness(graph: FactorGraph) -> Float[np.ndarray, " segment"]:
+    """About how sharply the posterior bends in each ψ, 1/rad²: P = 1/stiffness."""
+    bend = 1 / np.array(GENERIC_BELIEF["bend"][1])
+    sharp = np.full(len(graph), 3.0)
+    row = np.flatnonzero(graph.is_apical)
+    step = bend[np.minimum(graph.order[row], 2)]
+    sharp += np.bincount(row, step, minlength=len(graph))
+    sharp += np.bincount(graph.parent[row], step, minlength=len(graph))
+    lateral = graph.limb_first[graph.limb_parent != NULL]
+    sharp[lateral] += 1 / GENERIC_BELIEF["divergence"][3][0] / 2
+    sharp += np.bincount(graph.parent[lateral], minlength=len(graph)) * 0.25 / GENERIC_BELIEF["divergence"][3][0]
+    sharp[graph.limb_first[graph.limb_parent == NULL]] += stem.SD**-2
+    return sharp
+
+
+def draw(key: Key[Array, ""], segments: int, dtype) -> Draws:
+    """Everything random in one step of one chain. Numbers of a row do not depend on the padding."""
+    noise_key, key = jax.random.split(key)
+    four = jax.random.uniform(key, (4,), dtype)
+    return Draws(jax.random.normal(noise_key, (segments,), dtype), four[0], four[1], SHIFT_SD * jax.scipy.special.ndtri(four[2]), four[3])
+
+
+def langevin(moves: Moves, psi, gradient, step, temperature, draws: Draws):
+    """y, and what `langevin_log_density` needs of it."""
+    return psi + 0.5 * step**2 * moves.pace**2 * gradient / temperature + step * moves.pace * draws.noise
+
+
+def langevin_log_density(moves: Moves, at, start, gradient, step, temperature):
+    """log q(at | start), up to a constant."""
+    drift = 0.5 * step**2 * moves.pace**2 * gradient / temperature
+    away = jnp.where(moves.pace > 0, (at - start - drift) / jnp.where(moves.pace > 0, moves.pace, 1.0), 0.0)
+    return -0.5 * jnp.sum(away**2) / step**2
+
+
+def mirror(moves: Moves, page: Page, psi, draws: Draws):
+    """One limb negated, a limb and its subtree negated, or a limb shifted."""
+    j = jnp.minimum((draws.limb * moves.lateral_count).astype(jnp.int32), moves.lateral_count - 1)
+    on_limb = page.limb == moves.lateral[j]
+    rank = page.rank - page.rank[moves.first[j]]
+    in_subtree = (rank >= 0) & (rank < page.extent[moves.first[j]])
+    flipped = jnp.where((draws.kind < LIMB_ALONE) & on_limb | (draws.kind >= LIMB_ALONE) & in_subtree, -psi, psi)
+    return jnp.where(draws.kind < WITH_SUBTREE, flipped, psi + jnp.where(on_limb, draws.shift, 0.0))
