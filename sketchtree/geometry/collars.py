@@ -19,12 +19,13 @@ from jaxtyping import Float, Int
 from sketchtree.axes import NULL
 from sketchtree.geometry.detail import Detail
 from sketchtree.geometry.limbs import CentreLines
-from sketchtree.geometry.rings import COLLAR_RINGS, Rings
+from sketchtree.geometry.rings import Rings
 
 _WIDTH = 1.1  # of a collar, / radius of the limb
 _SINK = 0.10  # depth of its edge below the parent's surface, / its width
 _MARCH = 32  # places tried along a limb to find where it leaves its parent
 _FAR = 12.0  # how far it may run inside its parent, / radius of the parent
+_AT_ONCE = 128  # collars looked at together, which bounds the memory
 _BEHIND, _AHEAD, _PIECES = 5.0, 10.0, 14  # stretch of the parent that is looked at, / its radius
 
 
@@ -37,11 +38,16 @@ class _Surface:
 
     def nearest(self, x: Float[np.ndarray, "collar place 3"]):
         """Distance to the wood (negative inside), the unit normal there, and the radius of the wood."""
-        a, d = self.point[:, None, :-1], np.diff(self.point, axis=1)[:, None]
+        parts = [self._nearest_of(slice(k, k + _AT_ONCE), x[k : k + _AT_ONCE]) for k in range(0, len(x), _AT_ONCE)]
+        return tuple(np.concatenate(column) for column in zip(*parts, strict=True))
+
+    def _nearest_of(self, some: slice, x):
+        point, thick = self.point[some], self.radius[some]
+        a, d = point[:, None, :-1], np.diff(point, axis=1)[:, None]
         share = np.sum((x[:, :, None] - a) * d, axis=-1) / np.maximum(np.sum(d * d, axis=-1), 1e-18)
         share = np.clip(share, 0.0, 1.0)
         away = x[:, :, None] - a - share[..., None] * d
-        radius = self.radius[:, None, :-1] + share * np.diff(self.radius, axis=1)[:, None]
+        radius = thick[:, None, :-1] + share * np.diff(thick, axis=1)[:, None]
         distance = np.linalg.norm(away, axis=-1)
         best = np.argmin(distance - radius, axis=-1)[..., None]
         away = np.take_along_axis(away, best[..., None], axis=2)[:, :, 0]
@@ -80,29 +86,34 @@ def raise_collars(
     s: Float[np.ndarray, "ring side"],
     first: Int[np.ndarray, " collar"],
     limb: Int[np.ndarray, " collar"],
+    size: int,
     rings: Rings,
     lines: CentreLines,
     tolerance: float,
 ) -> Float[np.ndarray, "collar 2 side 3"]:
-    """Shape the collars in place. `first` is each collar's first ring in `vertex`; `s` becomes the length along each generator.
+    """Shape the collars in place. `first` is each collar's first ring in `vertex`, of `size`; `s` becomes the length
+    along each generator. Collars need at least 6 rings: one inside the parent, 3 or more on the bow, the rest up to the tube.
 
     Returns the parent's normals at the two lowest rings of each collar, so that the light does not break where they part.
     """
     if len(first) == 0:
         return np.zeros((0, 2, vertex.shape[1], 3))
-    ring = first[:, None] + np.arange(COLLAR_RINGS)
+    ring = first[:, None] + np.arange(size)
     tube, length = vertex[ring], s[ring[:, -1], 0]
-    r = rings.radius[rings.start[limb] + COLLAR_RINGS - 1]
+    r = rings.radius[rings.start[limb] + size - 1]
     surface = _surface(lines, limb)
     foot = _feet(surface, tube, length)
     width = _WIDTH * r[:, None]
     shoulder = np.minimum(foot + width, 0.97 * length[:, None])
     at_foot, at_shoulder = _along(tube, foot, length), _along(tube, shoulder, length)
-    low, deep, normal = _skirt(surface, at_foot, at_shoulder, rings, limb, width, tolerance)
-    t = np.array([0.0, 0.25, 0.5, 0.75, 1.0])[:, None, None]
+    centre = rings.point[rings.start[limb] + size - 1]
+    low, deep, normal = _skirt(surface, at_foot, at_shoulder, centre, width, tolerance)
+    above = 1 + size // 9  # rings between the bow and the top
+    t = np.linspace(0.0, 1.0, size - 2 - above)[:, None, None]
     bow = (1 - t) ** 2 * low[:, None] + 2 * (1 - t) * t * at_foot[:, None] + t**2 * at_shoulder[:, None]
-    rise = (length[:, None] - shoulder)[:, None] * np.array([1.0, 2.0])[:, None] / 3.0 + shoulder[:, None]
-    upper = np.stack([_along(tube, rise[:, k], length) for k in range(2)], axis=1)
+    share = np.arange(1, above + 1)[:, None] / (above + 1)
+    rise = (length[:, None] - shoulder)[:, None] * share + shoulder[:, None]
+    upper = np.stack([_along(tube, rise[:, k], length) for k in range(above)], axis=1)
     vertex[ring] = np.concatenate([deep[:, None], bow, upper, tube[:, -1:]], axis=1)
     skirt = foot - 0.9 * width
     curve = (1 - t[..., 0]) * skirt[:, None] + t[..., 0] * shoulder[:, None]
@@ -110,12 +121,11 @@ def raise_collars(
     return np.stack([normal, normal], axis=1)
 
 
-def _skirt(surface: _Surface, foot, shoulder, rings: Rings, limb, width, tolerance: float):
+def _skirt(surface: _Surface, foot, shoulder, centre, width, tolerance: float):
     """The lowest visible points of the collar, on the parent's surface, and the ring below them, inside the wood."""
     _, normal, thick = surface.nearest(foot)
-    centre = rings.point[rings.start[limb] + COLLAR_RINGS - 1][:, None]
     ahead = _unit(shoulder - foot)
-    outward = _unit(_flat(shoulder - centre, ahead))
+    outward = _unit(_flat(shoulder - centre[:, None], ahead))
     aside = _unit(_flat(outward, normal) - 0.35 * _flat(ahead, normal))
     width = np.minimum(width, 0.8 * thick)
     gap, normal, thick = surface.nearest(foot + width[..., None] * aside)
@@ -145,8 +155,9 @@ def _crossing(s, gap):
 
 def _along(tube, s, length):
     """Points `s` (collar side) metres along the generators."""
-    place = np.clip(s / length[:, None], 0.0, 1.0) * (COLLAR_RINGS - 1)
-    left = np.minimum(place.astype(np.int64), COLLAR_RINGS - 2)
+    last = tube.shape[1] - 1
+    place = np.clip(s / length[:, None], 0.0, 1.0) * last
+    left = np.minimum(place.astype(np.int64), last - 1)
     share = (place - left)[..., None]
     collar, side = np.ogrid[: tube.shape[0], : tube.shape[2]]
     return (1 - share) * tube[collar, left, side] + share * tube[collar, left + 1, side]

@@ -20,7 +20,6 @@ from sketchtree.geometry.detail import Detail
 from sketchtree.geometry.frames import rotation_minimising
 from sketchtree.geometry.limbs import CentreLines
 
-COLLAR_RINGS = 9  # rings of a limb that its collar takes up
 _BACK = np.array([0.0, 0.0, -1.0])  # where the seam is: away from the viewer
 _STEEPEST = 0.3  # radius lost in one metre at most
 
@@ -42,11 +41,17 @@ class Rings:
         return np.repeat(np.arange(len(self.start) - 1), np.diff(self.start))
 
 
-def rings(lines: CentreLines, collar_top: Float[np.ndarray, " limb"], detail: Detail, height: float) -> Rings:
-    """Rings of every limb. Where `collar_top` > 0, `COLLAR_RINGS` rings are spaced evenly from the foot
+def rings(
+    lines: CentreLines,
+    collar_top: Float[np.ndarray, " limb"],
+    collar_size: Int[np.ndarray, " limb"],
+    detail: Detail,
+    height: float,
+) -> Rings:
+    """Rings of every limb. Where `collar_top` > 0 metres, `collar_size` rings are spaced evenly from the foot
     up to there, for the collar to take over."""
     limb, s = _places(lines, detail, height)
-    limb, s = _with_collars(limb, s, collar_top, 0.3 * np.maximum(lines.radius[lines.start[:-1]], 1e-6))
+    limb, s = _with_collars(limb, s, collar_top, collar_size, 0.3 * np.maximum(lines.radius[lines.start[:-1]], 1e-6))
     start = np.r_[0, np.cumsum(np.bincount(limb, minlength=len(lines)))].astype(np.int64)
     point, radius = lines.at(limb, s)
     tangent = _tangents(lines, limb, s, radius)
@@ -83,13 +88,15 @@ def _places(lines: CentreLines, detail: Detail, height: float):
     return limb_of[order], place[order]
 
 
-def _with_collars(limb, s, collar_top, clearance):
+def _with_collars(limb, s, collar_top, collar_size, clearance):
     """Even rings up to the top of each collar in place of those that stood there."""
     collared = np.flatnonzero(collar_top > 0)
     keep = s > collar_top[limb] + np.where(collar_top > 0, clearance, -1.0)[limb]
-    even = collar_top[collared, None] * np.linspace(0.0, 1.0, COLLAR_RINGS)
-    limb = np.r_[limb[keep], np.repeat(collared, COLLAR_RINGS)]
-    s = np.r_[s[keep], even.ravel()]
+    size = collar_size[collared]
+    within = np.arange(size.sum()) - np.repeat(np.cumsum(size) - size, size)
+    even = np.repeat(collar_top[collared] / np.maximum(size - 1, 1), size) * within
+    limb = np.r_[limb[keep], np.repeat(collared, size)]
+    s = np.r_[s[keep], even]
     order = np.lexsort((s, limb))
     return limb[order], s[order]
 

@@ -1,9 +1,7 @@
 """What surface do the rings span?
 
 Every limb is one closed tube: rings of n vertices joined side by side, a rounded tip, and a lid at the foot, which
-lies underground or inside the parent's wood. n is the fewest sides whose sagitta is within the tolerance,
-
-    r (1 − cos(π / n)) ≤ ε        r  radius at the limb's foot        ε  tolerance, metres
+lies underground or inside the parent's wood.
 
 Limbs with the same n are swept together. The vertices of the seam stand twice (u = 0 and u = k), as do rings
 where the bark's repeat changes; both copies share position and normal, so the tube is closed when they are welded.
@@ -17,7 +15,8 @@ from jaxtyping import Float, Int
 from sketchtree.geometry.collars import raise_collars
 from sketchtree.geometry.detail import Detail
 from sketchtree.geometry.limbs import CentreLines
-from sketchtree.geometry.rings import COLLAR_RINGS, Rings
+from sketchtree.geometry.resolution import collar_rings
+from sketchtree.geometry.rings import Rings
 from sketchtree.geometry.rootflare import flare
 from sketchtree.geometry.unwrap import lengthwise, pace, repeats
 
@@ -32,29 +31,22 @@ class Surface:
     triangle: Int[np.ndarray, "triangle 3"]
 
 
-def sides(radius: Float[np.ndarray, " limb"], tolerance: float, detail: Detail) -> Int[np.ndarray, " limb"]:
-    """How many sides the rings of each limb have."""
-    n = np.pi / np.arccos(np.clip(1.0 - tolerance / np.maximum(radius, 1e-12), -0.5, 1.0 - 1e-9))
-    n = np.ceil(np.where(n > 8, 2 * np.ceil(n / 2), n))  # even above 8: fewer groups to sweep
-    return np.clip(n, detail.fewest_sides, detail.most_sides).astype(np.int64)
-
-
 def sweep(
     lines: CentreLines,
     ring: Rings,
+    side_count: Int[np.ndarray, " limb"],
     collar_top: Float[np.ndarray, " limb"],
     offset: Float[np.ndarray, "limb 2"],
     detail: Detail,
     tolerance: float,
 ) -> Surface:
     """The tubes of all limbs. `offset` shifts the bark of each limb (tiles); `tolerance` is in metres."""
-    count = sides(ring.radius[ring.start[:-1]], tolerance, detail)
     repeat = repeats(ring, detail.tile)
     paces = pace(ring, repeat, detail.tile)
     bark = (repeat, paces, lengthwise(ring, paces))
     parts, total = [], 0
-    for n in np.unique(count):
-        part = _sweep_alike(lines, ring, np.flatnonzero(count == n), int(n), collar_top, offset, bark, detail, tolerance)
+    for n in np.unique(side_count):
+        part = _sweep_alike(lines, ring, np.flatnonzero(side_count == n), int(n), collar_top, offset, bark, detail, tolerance)
         parts.append(Surface(part.position, part.normal, part.uv, part.triangle + total))
         total += len(part.position)
     if not parts:
@@ -71,19 +63,20 @@ def _sweep_alike(lines, ring: Rings, limbs, n: int, collar_top, offset, bark, de
     vertex = _circles(ring, rows, theta, flare(lines, ring, rows, theta, detail.flare))
     s = np.repeat(ring.s[rows, None], n, axis=1)
     collared = np.flatnonzero(collar_top[limbs] > 0)
-    skirt = raise_collars(vertex, s, start[collared], limbs[collared], ring, lines, tolerance)
+    size = int(collar_rings(n))
+    skirt = raise_collars(vertex, s, start[collared], limbs[collared], size, ring, lines, tolerance)
     normal = _normals(vertex, start)
     _light_skirts(normal, start[collared], skirt)
     repeat, paces, along = (column[rows] for column in bark)
     v = along[:, None] + paces[:, None] * (s - ring.s[rows, None])
-    v[(start[collared, None] + np.arange(COLLAR_RINGS)).ravel()] = _collar_v(s, paces, along, start[collared])
+    collar = start[collared, None] + np.arange(size)
+    v[collar.ravel()] = _collar_v(s, paces, along, collar)
     return _assemble(vertex, normal, v, repeat, start, offset[limbs], ring, limbs, detail.tile)
 
 
-def _collar_v(s, paces, along, first):
+def _collar_v(s, paces, along, rows):
     """Within a collar v follows each generator, counted back from the collar's top at the pace there."""
-    top = first + COLLAR_RINGS - 1
-    rows = first[:, None] + np.arange(COLLAR_RINGS)
+    top = rows[:, -1]
     v = along[top][:, None, None] - paces[top][:, None, None] * (s[top][:, None, :] - s[rows])
     return v.reshape(-1, s.shape[1])
 

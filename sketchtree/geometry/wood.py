@@ -9,6 +9,7 @@ from sketchtree.geometry.collars import collar_tops
 from sketchtree.geometry.detail import Detail
 from sketchtree.geometry.limbs import centre_lines
 from sketchtree.geometry.mesh import Mesh
+from sketchtree.geometry.resolution import collar_rings, sides
 from sketchtree.geometry.rings import rings
 from sketchtree.geometry.tubes import sweep
 from sketchtree.skeleton import TreeSkeleton
@@ -25,8 +26,10 @@ def wood_mesh(tree: TreeSkeleton, *, bark: str, key: Key[Array, ""], detail: Det
     lines = centre_lines(tree)
     if len(lines) == 0:
         return Mesh("wood", np.zeros((0, 3)), np.zeros((0, 3)), np.zeros((0, 2)), np.zeros((0, 3), np.int64), material)
+    tolerance = detail.tolerance * height
+    count = sides(lines.radius[lines.start[:-1]], tolerance, detail)
     tops = collar_tops(lines, detail, height)
-    ring = rings(lines, tops, detail, height)
+    ring = rings(lines, tops, collar_rings(count), detail, height)
     shift = np.stack([keys.uniform(key, lines.limb_id, draw) for draw in (0, 1)], axis=1)
-    surface = sweep(lines, ring, tops, shift, detail, detail.tolerance * height)
+    surface = sweep(lines, ring, count, tops, shift, detail, tolerance)
     return Mesh("wood", surface.position, surface.normal, surface.uv, surface.triangle, material)
