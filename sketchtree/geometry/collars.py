@@ -21,8 +21,8 @@ from sketchtree.geometry.detail import Detail
 from sketchtree.geometry.limbs import CentreLines
 from sketchtree.geometry.rings import Rings
 
-_WIDTH = 1.1  # of a collar, / radius of the limb
-_SINK = 0.10  # depth of its edge below the parent's surface, / its width
+_WIDTH = 1.2  # of a collar, / radius of the limb
+_SINK = 0.04  # depth of its edge below the parent's surface, / its width
 _MARCH = 32  # places tried along a limb to find where it leaves its parent
 _FAR = 12.0  # how far it may run inside its parent, / radius of the parent
 _AT_ONCE = 128  # collars looked at together, which bounds the memory
@@ -129,7 +129,7 @@ def _skirt(surface: _Surface, foot, shoulder, centre, width, tolerance: float):
     aside = _unit(_flat(outward, normal) - 0.35 * _flat(ahead, normal))
     width = np.minimum(width, 0.8 * thick)
     gap, normal, thick = surface.nearest(foot + width[..., None] * aside)
-    low = foot + width[..., None] * aside - (gap + tolerance + _SINK * width)[..., None] * normal
+    low = foot + width[..., None] * aside - (gap + 1.5 * tolerance + _SINK * width)[..., None] * normal
     return low, low - (0.25 * thick)[..., None] * normal, normal
 
 

@@ -24,6 +24,7 @@ _STEPS = 6  # points evaluated on each Bezier span
 _LEAN = 0.45  # share of the parent's direction in that of an undrawn lateral where it starts
 _EXPONENT = 2.3  # how a parent's wood is shared among the children at a fork
 _WIDEST = 0.9  # a lateral is at most this share of its parent's radius
+_STEEPEST = 0.25  # radius lost in one metre along any limb, at most
 _SLOPE = 0.08  # steepest taper from a lateral's foot to its first tip, metres a metre
 
 
@@ -123,7 +124,7 @@ def _lines(tree: TreeSkeleton, cut: Chains, used, renumber, knots: _Knots) -> Ce
         start=start,
         point=point,
         s=s,
-        radius=np.r_[radius.ravel(), knots.radius[last]][order],
+        radius=_gentle(limb, s, np.r_[radius.ravel(), knots.radius[last]][order]),
         curvature=np.r_[curvature.ravel(), np.zeros(len(last))][order],
         pinned=np.r_[first_step.ravel(), np.ones(len(last), bool)][order],
         is_stem=cut.is_stem[used],
@@ -263,3 +264,10 @@ def _arc_length(point, start):
     total = np.cumsum(step)
     count = np.diff(start)
     return total - np.repeat(total[start[:-1]], count)
+
+
+def _gentle(limb, s, radius):
+    """Radii that fall no faster than `_STEEPEST`: a drop at a fork is spread over the wood after it."""
+    lifted = radius + _STEEPEST * s
+    stride = float(lifted.max(initial=0.0)) + 1.0
+    return np.maximum.accumulate(lifted + limb * stride) - limb * stride - _STEEPEST * s

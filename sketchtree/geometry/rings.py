@@ -21,7 +21,6 @@ from sketchtree.geometry.frames import rotation_minimising
 from sketchtree.geometry.limbs import CentreLines
 
 _BACK = np.array([0.0, 0.0, -1.0])  # where the seam is: away from the viewer
-_STEEPEST = 0.3  # radius lost in one metre at most
 
 
 @dataclass(frozen=True, eq=False)
@@ -55,7 +54,6 @@ def rings(
     start = np.r_[0, np.cumsum(np.bincount(limb, minlength=len(lines)))].astype(np.int64)
     point, radius = lines.at(limb, s)
     tangent = _tangents(lines, limb, s, radius)
-    radius = _gentle(limb, s, radius)
     limb, s, point, tangent, radius, start = _domed(start, limb, s, point, tangent, radius)
     first = np.broadcast_to(_BACK, (len(lines), 3))
     return Rings(start, s, point, tangent, rotation_minimising(point, tangent, start, first), radius)
@@ -106,13 +104,6 @@ def _tangents(lines: CentreLines, limb, s, radius):
     behind, _ = lines.at(limb, s - radius)
     chord = ahead - behind
     return chord / np.maximum(np.linalg.norm(chord, axis=1, keepdims=True), 1e-300)
-
-
-def _gentle(limb, s, radius):
-    """Radii that fall no faster than `_STEEPEST`: a drop at a fork is spread over the wood after it."""
-    lifted = radius + _STEEPEST * s
-    stride = float(lifted.max(initial=0.0)) + 1.0
-    return np.maximum.accumulate(lifted + limb * stride) - limb * stride - _STEEPEST * s
 
 
 def _domed(start, limb, s, point, tangent, radius):

@@ -19,7 +19,7 @@ from jaxtyping import Float
 from sketchtree.geometry.rings import Rings
 
 
-_THICK = 0.08  # metres, radius from which on bark is full grown
+_THICK = 0.12  # metres, radius from which on bark is full grown
 
 
 def grain(ring: Rings) -> Float[np.ndarray, " ring"]:
