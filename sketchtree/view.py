@@ -16,7 +16,7 @@ from jaxtyping import Float
 
 from sketchtree.errors import ExportError, OptionError
 from sketchtree.geometry.mesh import Mesh
-from sketchtree.view_light import ground_light, openness, transmittance
+from sketchtree.view_light import baked_light, ground_light
 
 VIEWS = {"front": (0.0, 4.0), "side": (90.0, 4.0), "back": (180.0, 4.0), "top": (0.0, 89.0), "three-quarter": (32.0, 9.0)}
 """Azimuth and elevation of the camera, degrees; azimuth 0 looks from +z, 90 from +x."""
@@ -80,8 +80,9 @@ def _request(meshes, angles, size, focus, ground, supersample) -> dict[str, np.n
     request["columns"] = np.array(int(np.ceil(np.sqrt(len(angles)))))
     around = points - shift if focus is None else np.asarray(focus[0]) - shift + focus[1] * _ball()
     request["camera"] = np.array([frame_camera(around, *angle, size[0] / size[1]) for angle in angles])
-    for k, mesh in enumerate(meshes):
-        request |= {f"{k}.{name}": value for name, value in _part(mesh, centroid, area, sun, shift).items()}
+    lights = baked_light([_lifted(mesh) for mesh in meshes], centroid, area, sun)
+    for k, (mesh, light) in enumerate(zip(meshes, lights, strict=True)):
+        request |= {f"{k}.{name}": value for name, value in _part(mesh, light, shift).items()}
     if ground:
         reach = 2.2 * float(np.linalg.norm(np.ptp(points, axis=0)))
         light = ground_light(centroid - shift, area, sun, reach, pixels=512)
@@ -98,22 +99,19 @@ def frame_camera(points: Float[np.ndarray, "point 3"], azimuth: float, elevation
     up = np.cross(back, right)
     across, along, depth = points @ right, points @ up, points @ back
     high = np.tan(np.radians(_FIELD / 2)) * (1 - 2 * _MARGIN)
-    distance, x, y = 0.0, 0.0, 0.0
-    for _ in range(4):
-        x_low, x_high = _edges(across, depth, high * aspect)
-        y_low, y_high = _edges(along, depth, high)
-        x, y = (x_low + x_high) / 2, (y_low + y_high) / 2
-        distance = max(np.max(depth + np.abs(across - x) / (high * aspect)), np.max(depth + np.abs(along - y) / high))
-    target = x * right + y * up + depth.mean() * back
-    eye = x * right + y * up + distance * back
-    return np.concatenate([eye, target, up, [_FIELD]])
+    wide = high * aspect
+    x, y = (across.min() + across.max()) / 2, (along.min() + along.max()) / 2
+    for _ in range(12):
+        distance = max(np.max(depth + np.abs(across - x) / wide), np.max(depth + np.abs(along - y) / high)) + 1e-9
+        x += _middle((across - x) / (distance - depth)) * (distance - depth.max())
+        y += _middle((along - y) / (distance - depth)) * (distance - depth.max())
+    distance = max(np.max(depth + np.abs(across - x) / wide), np.max(depth + np.abs(along - y) / high)) + 1e-9
+    at = x * right + y * up
+    return np.concatenate([at + distance * back, at + depth.mean() * back, up, [_FIELD]])
 
 
-def _edges(value, depth, slope):
-    """Where the two planes through the picture's edges pass, measured in the plane of the eye."""
-    distance = np.max(depth) + (np.ptp(value) / 2 + 1e-9) / slope
-    scale = distance / (distance - depth + 1e-12)
-    return np.min(value * scale), np.max(value * scale)
+def _middle(value) -> float:
+    return float(value.min() + value.max()) / 2
 
 
 def _surfaces(mesh: Mesh):
@@ -128,12 +126,15 @@ def _surfaces(mesh: Mesh):
     return (a + b + c) / 3, area
 
 
-def _part(mesh: Mesh, centroid, area, sun, shift) -> dict[str, np.ndarray]:
+def _lifted(mesh: Mesh) -> Float[np.ndarray, "vertex 3"]:
+    """Where a mesh's light is read: wood a little above its surface, so as not to lie in its own shade."""
+    return mesh.position + (0.0 if mesh.material.alpha_cutoff is not None else 0.02) * mesh.normal
+
+
+def _part(mesh: Mesh, light, shift) -> dict[str, np.ndarray]:
     material = mesh.material
     tint = np.ones((len(mesh.position), 3)) if mesh.color is None else mesh.color[:, :3]
     leaf = material.alpha_cutoff is not None
-    lift = mesh.position + (0.0 if leaf else 0.02) * mesh.normal
-    light = np.column_stack([transmittance(lift, centroid, area, sun), openness(lift, centroid, area)])
     return {
         "position": (mesh.position - shift).astype(np.float32),
         "normal": mesh.normal.astype(np.float32),

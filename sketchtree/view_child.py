@@ -49,15 +49,15 @@ if (dot(t, t) > 0.0 && dot(b, b) > 0.0)
   n = normalize(normalize(t) * turn * m.x + normalize(b) * turn * m.y + n * m.z);
 vec3 eye = normalize(viewer - place);
 float facing = dot(n, sun_side);
-float front = mix(max(facing, 0.0), clamp(0.25 + 0.75 * abs(facing), 0.0, 1.0), leaf * 0.65);
+float front = max(facing, 0.0) * (1.0 - 0.22 * leaf);
 float through = leaf * max(-facing, 0.0);
 vec3 half_way = normalize(sun_side + eye);
 float gleam = gloss * pow(max(dot(n, half_way), 0.0), 28.0) * max(facing, 0.0);
 float up = 0.5 + 0.5 * n.y;
-vec3 sun = vec3(2.35, 2.18, 1.88) * lightOut.x;
-vec3 sky = mix(vec3(0.33, 0.32, 0.28), vec3(0.66, 0.76, 0.90), mix(up, 0.6, leaf * 0.5)) * (0.22 + 0.78 * lightOut.y);
+vec3 sun = vec3(2.30, 2.12, 1.80) * lightOut.x;
+vec3 sky = mix(vec3(0.33, 0.32, 0.28), vec3(0.66, 0.76, 0.90), mix(up, 0.6, leaf * 0.5)) * (0.16 + 0.84 * lightOut.y) * (1.0 - 0.18 * leaf);
 float rim = pow(1.0 - abs(dot(n, eye)), 3.0) * 0.10 * lightOut.y * (1.0 - leaf);
-vec3 colour = base * (sun * front + sky) + base * vec3(1.15, 1.20, 0.55) * sun * 0.55 * through + sun * gleam + vec3(rim);
+vec3 colour = base * (sun * front + sky) + base * vec3(1.15, 1.20, 0.55) * sun * 0.38 * through + sun * gleam + vec3(rim);
 gl_FragData[0] = vec4(encoded(shouldered(1.18 * colour)), 1.0);
 """
 _GROUND = """

@@ -14,8 +14,29 @@ from scipy import ndimage
 
 _CELLS = 44  # along the longest side
 _PROJECTION = 0.5
+_SKY = [(0.0, 1.0, 0.0)] + [(np.cos(a), 0.55, np.sin(a)) for a in 2 * np.pi * np.arange(5) / 5]  # up and slanting
 
 Points = Float[np.ndarray, "point 3"]
+
+
+def baked_light(
+    points: list[Points], centroid: Points, area: Float[np.ndarray, " triangle"], sun: Float[np.ndarray, " 3"]
+) -> list[Float[np.ndarray, "point 2"]]:
+    """For each array of points the light (0-1) from the sun and the openness (0-1) to the sky, read from a
+    grid laid over the surfaces (centroids in metres, areas in m²)."""
+    low = np.minimum(centroid.min(axis=0), np.min([p.min(axis=0) for p in points], axis=0))
+    size = np.maximum(np.maximum(centroid.max(axis=0), np.max([p.max(axis=0) for p in points], axis=0)) - low, 1e-6)
+    cell = size.max() / _CELLS
+    shape = np.ceil(size / cell).astype(int) + 1
+    flat = np.ravel_multi_index(tuple((np.minimum((centroid - low) / cell, shape - 1)).astype(int).T), tuple(shape))
+    held = np.bincount(flat, area, minlength=int(np.prod(shape)))
+    grid = low + (np.stack(np.unravel_index(np.arange(len(held)), tuple(shape)), axis=1) + 0.5) * cell
+    full = held > 0
+    field = [transmittance(grid, grid[full], held[full], direction) for direction in (sun, *_SKY)]
+    volumes = [field[0].reshape(shape), np.mean(field[1:], axis=0).reshape(shape)]
+    read = lambda volume, at: ndimage.map_coordinates(volume, at, order=1, mode="nearest")  # noqa: E731
+    places = [((p - low) / cell - 0.5).T for p in points]
+    return [np.column_stack([read(volume, at) for volume in volumes]) for at in places]
 
 
 def transmittance(point: Points, centroid: Points, area: Float[np.ndarray, " triangle"], towards: Float[np.ndarray, " 3"]) -> Float[np.ndarray, " point"]:
@@ -36,13 +57,6 @@ def transmittance(point: Points, centroid: Points, area: Float[np.ndarray, " tri
     return np.exp(-ndimage.map_coordinates(before, at, order=1, mode="nearest"))
 
 
-def openness(point: Points, centroid: Points, area: Float[np.ndarray, " triangle"]) -> Float[np.ndarray, " point"]:
-    """The mean transmittance (0-1) towards the sky: straight up and five slanting directions."""
-    turn = 2 * np.pi * np.arange(5) / 5
-    sky = np.vstack([[0, 1, 0], np.stack([np.cos(turn), np.full(5, 0.55), np.sin(turn)], axis=1)])
-    return np.mean([transmittance(point, centroid, area, direction) for direction in sky], axis=0)
-
-
 def ground_light(
     centroid: Points, area: Float[np.ndarray, " triangle"], sun: Float[np.ndarray, " 3"], reach: float, pixels: int = 256
 ) -> Float[np.ndarray, "row column"]:
@@ -50,9 +64,9 @@ def ground_light(
     shadow, and a soft darkening close to what stands there."""
     slide = centroid - centroid[:, 1:2] / sun[1] * sun
     shadow = _splat(slide, area, reach, pixels)
-    contact = _splat(centroid, area * np.exp(-np.abs(centroid[:, 1]) / (0.06 * reach)), reach, pixels)
+    contact = _splat(centroid, area * np.exp(-np.abs(centroid[:, 1]) / (0.018 * reach)), reach, pixels)
     sunlit = np.exp(-ndimage.gaussian_filter(shadow, 1.2))
-    near = np.exp(-1.5 * ndimage.gaussian_filter(contact, 5.0))
+    near = np.exp(-0.9 * ndimage.gaussian_filter(contact, 3.5))
     sky = np.exp(-0.5 * ndimage.gaussian_filter(_splat(centroid, area, reach, pixels), 12.0))
     return (0.52 * sunlit + 0.48 * sky) * near
 

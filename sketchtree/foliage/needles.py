@@ -9,40 +9,63 @@ from back to front: those that point away are short and dark, those towards the 
 
 import numpy as np
 
+from sketchtree.foliage.outline import Curve
 from sketchtree.foliage.painting import Painting, paint_needles
 from sketchtree.foliage.venation import Vein
 
-SPRUCE_NEEDLE, PINE_NEEDLE = 0.19, 0.46  # needle length, tuft lengths
+SPRUCE_NEEDLE, PINE_NEEDLE = 0.072, 0.46  # needle length, tuft lengths
+_SIDE_SHOOTS = ((0.10, 0.34), (0.24, 0.38), (0.40, 0.34), (0.56, 0.26), (0.70, 0.17))  # foot and length, tuft lengths
 
 
 def spruce_tuft() -> Painting:
-    """A piece of twig with short stiff needles all round, parted a little below."""
-    return _tuft(axis=0.86, count=300, length=SPRUCE_NEEDLE, lean=(62.0, 38.0), width=0.0165, bow=0.015, bare=0.0, twig=0.024, seed=3)
+    """The end of a branch: a shoot and its side shoots, with short stiff needles all round each."""
+    rng = np.random.default_rng(3)
+    axes = [_shoot((0.0, 0.0), 0.0, 0.95, 0.03)]
+    for rank, (foot, length) in enumerate(_SIDE_SHOOTS):
+        for side in (-1, 1):
+            lean = np.radians(rng.normal(44.0, 4.0)) * side
+            at = foot + 0.03 * side * (-1) ** rank
+            axes.append(_shoot((0.0, at), lean, length * rng.uniform(0.85, 1.1), -0.05 * side))
+    needles = []
+    for axis in axes[::-1]:
+        length = np.linalg.norm(axis[-1] - axis[0])
+        needles += _needles(axis, rng, count=int(300 * length), length=SPRUCE_NEEDLE, lean=(60.0, 34.0), width=0.0078, bow=0.015, bare=0.0)
+    stems = [Vein(axis, 0.013 if k == 0 else 0.009, 0.005) for k, axis in enumerate(axes)]
+    return paint_needles(stems, needles)
 
 
 def pine_tuft() -> Painting:
     """The end of a shoot with long needles in pairs, spreading forward like a brush."""
-    return _tuft(axis=0.58, count=150, length=PINE_NEEDLE, lean=(62.0, 18.0), width=0.0135, bow=0.05, bare=0.06, twig=0.03, seed=5)
+    rng = np.random.default_rng(5)
+    axis = _shoot((0.0, 0.0), 0.0, 0.58, 0.006)
+    needles = _needles(axis, rng, count=165, length=PINE_NEEDLE, lean=(62.0, 18.0), width=0.0135, bow=0.05, bare=0.06)
+    return paint_needles([Vein(axis, 0.03, 0.015)], needles)
 
 
-def _tuft(*, axis, count, length, lean, width, bow, bare, twig, seed) -> Painting:
-    """`axis` is the twig's length, `lean` the needles' angle from it at its foot and its end (degrees)."""
-    rng = np.random.default_rng(seed)
+def _shoot(foot, lean, length, bow) -> Curve:
+    """A slightly bent axis from `foot`, `lean` radians from upright (positive to the right)."""
+    t = np.linspace(0, 1, 12)[:, None]
+    along, side = np.array([np.sin(lean), np.cos(lean)]), np.array([np.cos(lean), -np.sin(lean)])
+    return np.asarray(foot) + length * (t * along + 4 * bow * t * (1 - t) * side)
+
+
+def _needles(axis: Curve, rng, *, count, length, lean, width, bow, bare) -> list[tuple[Vein, float]]:
+    """Needles round an axis, from back to front; `lean` is their angle from it at its foot and end (degrees)."""
     along = np.sort(bare + (1 - bare) * rng.uniform(0, 1, count) ** 0.9)
     azimuth = 2 * np.pi * rng.uniform(0, 1, count)
+    heading = np.arctan2(*np.diff(axis[[0, -1]], axis=0)[0])
+    foot = np.stack([np.interp(along, np.linspace(0, 1, len(axis)), axis[:, k]) for k in (0, 1)], axis=1)
     order = np.argsort(np.cos(azimuth), kind="stable")
-    needles = [_needle(along[i], azimuth[i], rng, axis, length, lean, width, bow) for i in order]
-    y = np.linspace(0, axis, 12)
-    stem = Vein(np.stack([0.006 * np.sin(5 * y), y], axis=1), twig, 0.5 * twig)
-    return paint_needles([stem], needles)
+    return [_needle(foot[i], heading, along[i], azimuth[i], rng, length, lean, width, bow) for i in order]
 
 
-def _needle(along, azimuth, rng, axis, length, lean, width, bow) -> tuple[Vein, float]:
+def _needle(foot, heading, along, azimuth, rng, length, lean, width, bow) -> tuple[Vein, float]:
     angle = np.radians(lean[0] + (lean[1] - lean[0]) * along + rng.normal(0, 6))
     size = length * rng.uniform(0.8, 1.0) * (1.0 if along < 0.9 else 0.85)
-    reach = size * np.array([np.sin(angle) * np.sin(azimuth), np.cos(angle)])
+    x, y = size * np.sin(angle) * np.sin(azimuth), size * np.cos(angle)
+    reach = np.array([x * np.cos(heading) + y * np.sin(heading), y * np.cos(heading) - x * np.sin(heading)])
     t = np.linspace(0, 1, 6)[:, None]
     side = np.array([reach[1], -reach[0]]) * (bow * np.sign(np.sin(azimuth)))
-    path = np.array([0.0, along * axis]) + t * reach - 4 * t * (1 - t) * side
+    path = foot + t * reach - 4 * t * (1 - t) * side
     shade = 0.96 + 0.30 * np.cos(azimuth) + rng.normal(0, 0.08)
     return Vein(path, width, 0.45 * width), float(np.clip(shade, 0.5, 1.5))

@@ -30,8 +30,9 @@ from sketchtree.skeleton import TreeSkeleton
 
 _UP = np.array([0.0, 1.0, 0.0])
 _SUNK = 0.85  # a petiole starts at this share of the wood's radius: never afloat
-_THICKEST = 4.0  # leafy wood is at most this many twig radii thick
-_OUTER = 0.35  # outer share of a limb that carries leaves where it is thin enough
+_THICKEST = 8.0  # leafy wood has at most this many twig radii
+_YEARLING = 1.5  # above so many twig radii wood is older than a year and bears short shoots
+_OUTER = 0.5  # outer share of a limb that carries leaves where it is thin enough
 _SIZE, _SHARE = {"spring": 0.72}, {"autumn": 0.75}  # young leaves are small, some have fallen
 _JITTER, _AZIMUTH, _TILT, _GROWTH, _TINT, _FALLEN, _CAP, _LIGHT = range(8)  # the draws of one leaf
 
@@ -46,6 +47,18 @@ class _Wear:
     spacing: float  # metres between nodes, or between tufts
     phyllotaxis: float  # degrees
     whorl: int
+
+
+@dataclass(frozen=True, eq=False)
+class _Buds:
+    """Where each leaf starts, before it has a direction."""
+
+    piece: Int[np.ndarray, " leaf"]
+    node: Int[np.ndarray, " leaf"]  # rank from the limb's tip
+    at: Float[np.ndarray, " leaf"]  # 0-1 along its piece
+    azimuth: Float[np.ndarray, " leaf"]  # radians about the twig
+    spread: Float[np.ndarray, " leaf"]  # −1 to 1, place within the fan of a short shoot; 0 alone
+    id: Int[np.ndarray, " leaf"]  # 63 bits
 
 
 def populate(
@@ -70,11 +83,8 @@ def populate(
         return Leaves.none(wear.model.name)
     pieces = _leafy_wood(tree, habit, wear)
     piece, node, at = _nodes(pieces, tree, wear, key)
-    per_node = leaves_per_node(wear.arrangement, wear.whorl)
-    azimuth = azimuths(wear.arrangement, node, phyllotaxis=wear.phyllotaxis, whorl=wear.whorl).ravel()
-    piece, node, at = (np.repeat(column, per_node) for column in (piece, node, at))
-    ids = keys.child_limb_id(tree.limb[pieces.row[piece]], node * 8 + np.tile(np.arange(per_node), len(piece) // per_node))
-    leaves = _place(tree, pieces, piece, node, at, azimuth, ids, wear, season, key)
+    buds = _buds(tree, pieces, piece, node, at, wear, habit)
+    leaves, ids = _place(tree, pieces, buds, wear, season, key), buds.id
     if season in _SHARE and not wear.model.evergreen:
         leaves, ids = _keep(leaves, ids, keys.uniform(key, ids, _FALLEN) < _SHARE[season])
     return _capped(leaves, ids, max_leaves, key)
@@ -119,18 +129,38 @@ def _nodes(pieces: Twigs, tree: TreeSkeleton, wear: _Wear, key):
     return piece[free], node[free], at[free]
 
 
-def _place(tree, pieces: Twigs, piece, node, at, azimuth, ids, wear: _Wear, season, key) -> Leaves:
-    model = wear.model
+def _buds(tree: TreeSkeleton, pieces: Twigs, piece, node, at, wear: _Wear, habit: Habit) -> _Buds:
+    """The leaves of every node; on wood older than a year a short shoot bears several for one."""
+    azimuth = azimuths(wear.arrangement, node, phyllotaxis=wear.phyllotaxis, whorl=wear.whorl)
+    per_node = azimuth.shape[1]
+    old = (pieces.end_radius[piece] > _YEARLING * habit.twig_radius) & (node > 0)
+    count = per_node * np.where(old, wear.model.spur, 1)
+    of = np.repeat(np.arange(len(node)), count)
+    rank = np.arange(len(of)) - np.repeat(np.cumsum(count) - count, count)
+    shoot, size = rank // per_node, (count // per_node)[of]
+    return _Buds(
+        piece=piece[of],
+        node=node[of],
+        at=at[of],
+        azimuth=azimuth[of, rank % per_node],
+        spread=np.where(size > 1, 2 * shoot / np.maximum(size - 1, 1) - 1, 0.0),
+        id=keys.child_limb_id(tree.limb[pieces.row[piece[of]]], (node[of] + 1) * 64 + rank),
+    )
+
+
+def _place(tree: TreeSkeleton, pieces: Twigs, buds: _Buds, wear: _Wear, season: str, key) -> Leaves:
+    model, piece, at, ids = wear.model, buds.piece, buds.at, buds.id
     t, side = pieces.tangent[piece], pieces.side[piece]
     over = np.cross(side, t)
-    azimuth = azimuth + np.radians(9.0) * keys.normal(key, ids, _AZIMUTH) * (wear.arrangement != "frond")
-    outward = np.cos(azimuth)[:, None] * side + np.sin(azimuth)[:, None] * over
+    loose = 0.0 if wear.arrangement == "frond" else np.radians(9.0)
+    outward = _around(buds.azimuth, side, over)
+    reaching = _around(buds.azimuth + loose * keys.normal(key, ids, _AZIMUTH) + np.radians(48.0) * buds.spread, side, over)
     centre = pieces.start[piece] + at[:, None] * (pieces.end - pieces.start)[piece]
     radius = pieces.start_radius[piece] + at * (pieces.end_radius - pieces.start_radius)[piece]
-    lean = np.radians(model.inclination + 6.0 * keys.normal(key, ids, _TILT))
-    lean = np.where(node == 0, 0.35 * lean, lean)
-    direction = _unit(np.cos(lean)[:, None] * t + np.sin(lean)[:, None] * outward - model.droop * _UP)
-    size = wear.size * _growth(pieces, piece, at, node, wear) * (0.82 + 0.36 * keys.uniform(key, ids, _GROWTH))
+    lean = np.radians(model.inclination + 6.0 * keys.normal(key, ids, _TILT) - 12.0 * np.abs(buds.spread))
+    lean = np.where(buds.node == 0, 0.35 * lean, lean)[:, None]
+    direction = _unit(np.cos(lean) * t + np.sin(lean) * reaching - model.droop * _UP)
+    size = wear.size * _growth(pieces, piece, at, buds.node, wear) * (0.85 + 0.35 * keys.uniform(key, ids, _GROWTH))
     return Leaves(
         model=model.name,
         position=centre + _SUNK * radius[:, None] * outward,
@@ -140,6 +170,10 @@ def _place(tree, pieces: Twigs, piece, node, at, azimuth, ids, wear: _Wear, seas
         tint=keys.uniform(key, ids, _TINT),
         segment=pieces.row[piece],
     )
+
+
+def _around(azimuth, side, over) -> Float[np.ndarray, "leaf 3"]:
+    return np.cos(azimuth)[:, None] * side + np.sin(azimuth)[:, None] * over
 
 
 def _growth(pieces: Twigs, piece, at, node, wear: _Wear) -> Float[np.ndarray, " leaf"]:
