@@ -1,6 +1,6 @@
 """What if the template's Θ does not fit the sketch? Depths, labels and Θ together.
 
-Chen et al. 2008, §5.3, an EM-like alternation of at most ten rounds:
+Chen et al. 2008, §5.3, an EM-like alternation of a few rounds (the paper: fewer than ten):
 
     E   Z, L = argmax P(Z, L | X, Y, Θ)             the parts of the E-step, one after the other (§5.2.1)
     M   Θ    = argmax Π_i P(Θ | s_i, α_i, β_i, γ_i)     (Eq. 4): averages and standard deviations of
@@ -21,7 +21,7 @@ from jaxtyping import Array, Float, Key
 from sketchtree.mrf.estep import EStepPart, Reading
 from sketchtree.mrf.factor_graph import FactorGraph
 from sketchtree.mrf.frames import wrap
-from sketchtree.mrf.labels import families, label_parameters, log_joint, LabelParameters
+from sketchtree.mrf.labels import LabelParameters, families, log_joint
 from sketchtree.mrf.measure import rotations
 from sketchtree.mrf.prior import Prior
 from sketchtree.mrf.solver import AbstractSolver
@@ -67,7 +67,7 @@ class EM(AbstractSolver):
 
     e_step: tuple[EStepPart, ...]
     learn: bool = True
-    rounds: int = 10
+    rounds: int = 6  # at most; the paper needs fewer than ten
 
     @property
     def name(self) -> str:
@@ -80,6 +80,10 @@ class EM(AbstractSolver):
     def init(self, graph: FactorGraph, prior: Prior, key: Key[Array, ""]) -> State:
         n = len(graph)
         return State(Reading(np.zeros(n), np.zeros(n, np.int64)), prior.theta, np.inf, 0)
+
+    def compile(self, graph: FactorGraph, prior: Prior) -> None:
+        for part in self.e_step:
+            part.compile(graph, prior.theta)
 
     def step(self, graph: FactorGraph, prior: Prior, state: State, key: Key[Array, ""]) -> tuple[State, Info]:
         reading = state.reading
@@ -145,6 +149,3 @@ def log_probability(graph: FactorGraph, reading: Reading, theta: TreeParameters)
         np.full(len(apical), theta.sigma_gamma),
     )
     return float(np.sum(log_joint(seen.scale, seen.tilt, seen.turn, columns, theta)))
-
-
-__all__ = ["EM", "FLOORS", "Info", "Rotations", "State", "label_parameters", "log_probability", "maximise", "rotations_of"]

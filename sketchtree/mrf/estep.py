@@ -28,3 +28,7 @@ class EStepPart(eqx.Module):
     @abc.abstractmethod
     def __call__(self, graph: FactorGraph, theta: TreeParameters, reading: Reading, key: Key[Array, ""]) -> Reading:
         """A better reading, or a first one; Θ is fixed."""
+
+    def compile(self, graph: FactorGraph, theta: TreeParameters) -> None:
+        """Make ready whatever does not depend on the drawing but on its size."""
+        return None

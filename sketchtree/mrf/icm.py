@@ -7,7 +7,8 @@ Chen et al. 2008, §5.2.1, ICM refinement: each depth moves along the gradient w
 until Σ_i |Δz_i| < ε.
 
     s_i, φ_i   scale |v_i|/|v_pi| and divergence ∠(v_i, v_pi), Gaussians of Θ; φ by label, apical or lateral
-    P_d        competition: log P_d(p_i) = −w_d Σ_{k ∉ N(i)} exp(−λ |p_i − p_k| / R_c), λ = 5 (the paper's attenuation)
+    P_d        competition: log P_d(p_i) = −w_d Σ_{k ∉ N(i)} exp(−λ |p_i − p_k| / R_c), λ = 5 (the paper's attenuation),
+               w_d = 1, each pair counted once
     N(i)       i, its parent, its children, its siblings          R_c   half the drawn width
     ε          .01; lengths in drawn heights
 
@@ -32,10 +33,10 @@ from sketchtree.parameters import TreeParameters
 from sketchtree.traverse import generation
 
 ATTENUATION = 5.0  # λ, the paper's default
-NEAREST = 24  # competitors kept a node: the nearest on the page; the field of the others is below .003 each
+NEAREST = 16  # competitors kept a node: the nearest on the page; the field of the others is below .003 each
 _COLOURS = 3
 _LONGEST, _SHORTEST, _FIRST = 0.05, 1e-5, 0.01  # step of a sweep, H
-_TRIALS = 2.0 ** -np.arange(6)  # shares of a step that a node tries
+_SHARES = (1.0, 0.5, 0.125)  # of its step that a node tries, and that all take together
 
 
 class Pairs(eqx.Module):
@@ -66,14 +67,14 @@ class Pairs(eqx.Module):
         return -self.present * (0.5 * scale + 0.5 * ((angle - mean) / sd) ** 2 + constant)
 
     def log_field(self, z_first, z_second) -> Float[Array, " competition_pair"]:
-        """The share of each pair in log P_d of either node."""
+        """The field between the two nodes of each pair."""
         apart = self.xy[self.first] - self.xy[self.second]
         distance = jnp.sqrt(jnp.sum(apart**2, axis=-1) + (z_first - z_second) ** 2 + 1e-8)
         return -self.weight * jnp.exp(-ATTENUATION * distance / self.crown_radius)
 
     def log_p(self, z, theta) -> Float[Array, ""]:
         """log P_ICM."""
-        return jnp.sum(self.log_pair(z, theta)) + 2 * jnp.sum(self.log_field(z[self.first], z[self.second]))
+        return jnp.sum(self.log_pair(z, theta)) + jnp.sum(self.log_field(z[self.first], z[self.second]))
 
 
 class State(NamedTuple):
@@ -102,8 +103,14 @@ class ICM(EStepPart):
     def __call__(self, graph: FactorGraph, theta: TreeParameters, reading: Reading, key: Key[Array, ""]) -> Reading:
         pairs = self.pairs(graph, reading)
         values = {name: jnp.asarray(value) for name, value in theta.as_dict().items()}
-        state = _climb(pairs, values, self.init(pairs, reading), self.tol, self.max_sweeps)
+        limits = jnp.asarray(self.tol), jnp.asarray(self.max_sweeps)
+        state = climb(pairs, values, self.init(pairs, reading), *limits)
         return reading._replace(depth=np.asarray(state.depth, np.float64)[: len(graph)])
+
+    def compile(self, graph: FactorGraph, theta: TreeParameters) -> None:
+        """Makes the program for drawings of this size ready."""
+        flat = Reading(np.zeros(len(graph)), np.zeros(len(graph), np.int64))
+        ICM(self.tol, 0, self.competition)(graph, theta, flat, jax.random.key(0))
 
     def init(self, pairs: Pairs, reading: Reading) -> State:
         """Every node ready for a first step."""
@@ -158,8 +165,8 @@ def competing(graph: FactorGraph) -> tuple[Int[np.ndarray, " pair"], Int[np.ndar
 
 
 @eqx.filter_jit
-def _climb(pairs: Pairs, theta, state: State, tol, limit):
-    """Sweeps until the depths rest."""
+def climb(pairs: Pairs, theta, state: State, tol: Float[Array, ""], limit: Int[Array, ""]) -> State:
+    """Sweeps until the depths rest, `limit` at most."""
 
     def more(carry):
         state, count = carry
@@ -169,15 +176,14 @@ def _climb(pairs: Pairs, theta, state: State, tol, limit):
         state, count = carry
         return sweep(pairs, theta, state)[0], count + 1
 
-    return jax.lax.while_loop(more, once, (state, 0))[0]
+    return jax.lax.while_loop(more, once, (state, jnp.zeros_like(limit)))[0]
 
 
 @eqx.filter_jit
 def sweep(pairs: Pairs, theta, state: State) -> tuple[State, Info]:
     """One step of every node, one colour after the other."""
     start = state.depth
-    for colour in range(_COLOURS):
-        state = _move(pairs, theta, state, pairs.colour == colour)
+    state = jax.lax.fori_loop(0, _COLOURS, lambda k, state: _move(pairs, theta, state, pairs.colour == k), state)
     moved = jnp.sum(jnp.abs(state.depth - start))
     return state._replace(moved=moved), Info(pairs.log_p(state.depth, theta), moved)
 
@@ -188,7 +194,7 @@ def _move(pairs: Pairs, theta, state: State, chosen) -> State:
     turned = slope * state.slope < 0
     reach = jnp.clip(state.reach * jnp.where(turned, 0.5, 1.2), _SHORTEST, _LONGEST)
     step = jnp.where(chosen, reach * jnp.sign(slope), 0.0)
-    shares = jnp.asarray(_TRIALS, step.dtype)
+    shares = jnp.asarray(_SHARES, step.dtype)
     gain = jax.vmap(lambda share: _gain(pairs, theta, state.depth, share * step, chosen))(shares)
     best = jnp.argmax(gain, axis=0)
     rises = jnp.take_along_axis(gain, best[None], axis=0)[0] > 0
@@ -213,8 +219,8 @@ def _gain(pairs: Pairs, theta, z, step, chosen):
         own = own.at[node].add(jnp.where(chosen[node], pair, 0.0))
     a, b = pairs.first, pairs.second
     before = pairs.log_field(z[a], z[b])
-    own = own.at[a].add(2 * (pairs.log_field(new[a], z[b]) - before))
-    own = own.at[b].add(2 * (pairs.log_field(z[a], new[b]) - before))
+    own = own.at[a].add(pairs.log_field(new[a], z[b]) - before)
+    own = own.at[b].add(pairs.log_field(z[a], new[b]) - before)
     return jnp.where(chosen, own, -jnp.inf)
 
 
@@ -222,7 +228,7 @@ def _total_gain(pairs: Pairs, theta, z, step):
     """What all steps together add to log P, term by term so that small gains are not lost."""
     new, a, b = z + step, pairs.first, pairs.second
     pair = pairs.log_pair(new, theta) - pairs.log_pair(z, theta)
-    return jnp.sum(pair) + 2 * jnp.sum(pairs.log_field(new[a], new[b]) - pairs.log_field(z[a], z[b]))
+    return jnp.sum(pair) + jnp.sum(pairs.log_field(new[a], new[b]) - pairs.log_field(z[a], z[b]))
 
 
 def _norm(v):
