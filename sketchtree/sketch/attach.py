@@ -4,7 +4,7 @@ An attachment's cost depends on which end of the parent is its foot, and that on
 the arborescence is solved first with the kinder of both, then again with the directions it gave, until nothing
 changes; the cheapest consistent tree of all rounds is kept. The ground may feed every stroke:
 
-    cost of standing on the ground   1.5 + 50 |y − y_ground| / H + (1 − up) / 2     for strokes that rise from the ground
+    cost of standing on the ground   4 + 50 |y − y_ground| / H + (1 − up) / 2     for strokes that rise from the ground
                                      the same with 8 for 50, + FORBIDDEN            for all others
 
     up   cosine between the stroke leaving that end and the vertical
@@ -49,7 +49,7 @@ def attach(lines: list[Line]) -> Hanging:
     solution = _solve(lines, arcs, alone + FORBIDDEN)
     stem = int(np.argmin(np.where(solution.parent == NULL, solution.cost, np.inf)))
     ground = foot_y[stem, solution.end[stem]]
-    standing = 1.5 + 50 * np.abs(foot_y - ground) / height + 0.5 * (1 - rising)
+    standing = 4 + 50 * np.abs(foot_y - ground) / height + 0.5 * (1 - rising)
     allowed = (np.abs(foot_y - ground) <= GROUND * height) & (rising > 0.2)
     standing = np.where(allowed, standing, alone + FORBIDDEN)
     return _solve(lines, arcs, standing, first=solution.end)

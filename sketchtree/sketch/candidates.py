@@ -3,13 +3,15 @@
 Every end of a stroke is tried on the strokes nearest to it. The cost of growing from stroke j at the point q, by the
 end p of stroke i, is a sum of how unlike a branch that would be (ours; weights found on drawings of our own):
 
-    gap         4 log(1 + g / 4)        g = (|p − q| − ½ w_j)₊ in hundredths of H
-    angle       3 (φ − 80°)₊ / 100°     φ between i leaving p and j going on from q, root to tip
-    end         ½ · ½ (1 + Δy / |i|)    Δy from the other end up to p: branches rise more often than they fall
-    width       1.5 (log(w_i / w_j) − 0.1)₊      a branch is not thicker than its parent
-    base        ¼                        q lies at the foot of j: then a sibling of j, more likely
+    gap         2 log(1 + ½ g²)               g = |p − q| / ε; within the half width of j a third of it counts
+    angle       3 (φ − 80°)₊ / 100°          φ between i leaving p and j going on from q, root to tip
+    end         ¼ (1 + Δy / |i|)              Δy from the other end up to p: branches rise more often than they fall
+    width       1.5 (log(w_i / w_j) + 0.2)₊   a branch is thinner than its parent
+    length      0.2 (log(|i| / |j|))₊         nor often longer
+    foot        ½ exp(−|q| / 0.015 H)         |q| from the foot of j to q: near it, i is more likely its sibling
 
-    H   height of the drawing      w   drawn width, where it says something
+    H   height of the drawing     w   drawn width, where it says something
+    ε   5 × the middle gap between an end and the nearest stroke, not below 0.1 % nor above 1 % of H
 
 The direction of j depends on which of its ends is its foot, so the cost has a column for either.
 """
@@ -24,6 +26,7 @@ from sketchtree.sketch.lines import Line, angle_between, unit
 
 NEAREST = 16  # strokes tried for every end
 REACH = 0.03  # over how much of H a direction is taken
+PRECISE, COARSE = 0.001, 0.01  # of H: bounds of ε
 FOOT = 0.006  # of H: nearer to an end than this is at the end
 
 
@@ -89,18 +92,28 @@ def _costs(lines, shapes, ends, child, end, parent, s, gap, height: float) -> Fl
     leaving = _leaving(shapes, ends, length, reach)[2 * child + end]
     forward = _forward(shapes[parent], s, length[parent], reach[parent])
     foot = np.array([foot_reach(line, height) for line in lines])[parent]
-    excess = np.maximum(gap - 0.5 * np.nan_to_num(width[parent]), 0.0) / (0.01 * height)
+    inside = np.minimum(gap, 0.5 * np.nan_to_num(width[parent]))
+    excess = (gap - 0.65 * inside) / _precision(gap, child, len(lines), height)
     other = ends[2 * child + 1 - end]
     rise = (ends[2 * child + end, 1] - other[:, 1]) / length[child]
     with np.errstate(invalid="ignore"):
-        thicker = np.nan_to_num(np.maximum(np.log(width[child] / width[parent]) - 0.1, 0.0))
-    shared = 4 * np.log1p(excess / 4) + 0.25 * (1 + np.clip(rise, -1, 1)) + 1.5 * thicker
+        thicker = np.nan_to_num(np.maximum(np.log(width[child] / width[parent]) + 0.2, 0.0))
+    longer = np.maximum(np.log(length[child] / length[parent]), 0.0)
+    shared = 2 * np.log1p(0.5 * excess**2) + 0.2 * longer + 0.25 * (1 + np.clip(rise, -1, 1)) + 1.5 * thicker
     columns = []
     for sign, from_foot in ((1.0, s), (-1.0, length[parent] - s)):
         diverging = np.degrees(angle_between(leaving, sign * forward))
         at_foot = from_foot < foot
-        columns.append(shared + np.where(at_foot, 0.5, 1.0) * 3 * np.maximum(diverging - 80, 0) / 100 + 0.25 * at_foot)
+        angle = np.where(at_foot, 0.5, 1.0) * 3 * np.maximum(diverging - 80, 0) / 100
+        columns.append(shared + angle + 0.5 * np.exp(-from_foot / (0.015 * height)))
     return np.stack(columns, 1)
+
+
+def _precision(gap, child, count: int, height: float) -> float:
+    """ε: how exactly this hand starts its strokes on others."""
+    nearest = np.full(count, np.inf)
+    np.minimum.at(nearest, child, gap)
+    return float(np.clip(5 * np.median(nearest), PRECISE * height, COARSE * height)) if count > 1 else COARSE * height
 
 
 def typical_width(line: Line) -> float:

@@ -1,7 +1,7 @@
 """Which strokes are lines in their own right? Doubled points, dots, retraced and repeated strokes taken out.
 
-Shaky hands draw a line twice, go back over it, or leave dots. A stroke that lies wholly along another is part of it. The
-lines come back in an order and direction of their own, so that the order of the file decides nothing.
+Shaky hands draw a line twice, go back over it, or leave dots. A branch may also truly lie over another in projection, so a
+stroke is merged only if it repeats the other from end to end, covers most of it, or never leaves its ink. The lines come back in an order and direction of their own, so that the order of the file decides nothing.
 """
 
 from dataclasses import dataclass
@@ -11,10 +11,15 @@ import shapely
 from jaxtyping import Float, Int
 
 from sketchtree.sketch.lines import Line, angle_between, extent
+from sketchtree.sketch.tremor import without_tremor
 
 DOT = 0.005  # of H: a smaller stroke is a dot
-ALONG = 0.01  # of H: a stroke this near to another over its whole length was drawn over it …
-SLANT = 0.15  # … if it is also nearer than this part of its own length (a twig leaves its parent at 9° or more)
+INK = 0.0012  # of H: a stroke nowhere farther than this from another is part of it
+AGAIN = 0.005  # of H: the same for a stroke that covers most of the other
+MOST = 0.6
+REPEAT = (0.003, 0.06, 0.012)  # of H, of its length, of H: how far a repeated stroke may lie off, ends too: least, part, most
+SLANT = 0.15  # never farther than this part of its own length: a twig leaves its parent at 9° or more
+FOLD = 0.03  # of H: going back over a shorter piece is a tremor
 CUSP = np.radians(150)  # a sharper turn is a change of mind
 
 
@@ -28,12 +33,12 @@ class Cleaned:
 
 
 def clean(lines: list[Line]) -> Cleaned:
-    """Drop dots, cut strokes that turn back on themselves, merge repeated ones."""
+    """Drop dots, cut strokes that turn back on themselves, still the tremor, merge repeated ones."""
     height = extent(lines)
     kept = [line for line in lines if float(np.ptp(line.points, axis=0).max()) >= DOT * height]
     kept_ids = {line.id for line in kept}
     dots = tuple(line.id for line in lines if line.id not in kept_ids)
-    unfolded = [part for line in kept for part in _unfold(line, height)]
+    unfolded = [without_tremor(part, height) for line in kept for part in _unfold(line, height)]
     ordered = sorted((_upward(line) for line in unfolded), key=lambda line: _rank(line, height))
     owner = _owners(ordered, height)
     merged = tuple((line, ordered[o].row) for line, o in zip(ordered, owner, strict=True) if o >= 0)
@@ -53,16 +58,29 @@ def without_doubles(points: Float[np.ndarray, "point 2"], size: float) -> Float[
 
 
 def _unfold(line: Line, height: float) -> list[Line]:
-    """The line, or its parts between cusps without those that lie along the others (gone over twice)."""
+    """The line without the parts that go back over it; what is left in one piece stays one line."""
     cusps = _cusps(line, height)
     if len(cusps) == 0:
         return [line]
     bounds = np.r_[0.0, cusps, line.length]
     parts = [line.cut(a, b) for a, b in zip(bounds[:-1], bounds[1:], strict=True)]
-    owner = _owners(sorted(parts, key=lambda part: -part.length), height)
-    if (owner < 0).all():
-        return [line]
-    return [part for part, o in zip(sorted(parts, key=lambda part: -part.length), owner, strict=True) if o < 0]
+    again = [_goes_back(k, parts, height) for k in range(len(parts))]
+    runs: list[list[float]] = []
+    for k, dropped in enumerate(again):
+        if not dropped and runs and runs[-1][1] == bounds[k]:
+            runs[-1][1] = bounds[k + 1]
+        elif not dropped:
+            runs.append([bounds[k], bounds[k + 1]])
+    return [line.cut(a, b) for a, b in runs] if any(again) else [line]
+
+
+def _goes_back(k: int, parts: list[Line], height: float) -> bool:
+    """Whether a part between cusps lies along the one before or after it (of two alike, the later one does)."""
+    part = parts[k]
+    if part.length < FOLD * height:
+        return False
+    beside = [j for j in (k - 1, k + 1) if 0 <= j < len(parts) and (parts[j].length, k) > (part.length, j)]
+    return any(_farthest(part, parts[j].shape) <= AGAIN * height for j in beside)
 
 
 def _cusps(line: Line, height: float) -> Float[np.ndarray, " cusp"]:
@@ -90,21 +108,34 @@ def _rank(line: Line, height: float) -> tuple:
 
 
 def _owners(lines: list[Line], height: float) -> Int[np.ndarray, " line"]:
-    """For every line the earlier line that it lies along, else -1. An owner is no one's own."""
+    """For every line the earlier (longer) line that it repeats, else -1. An owner is no one's own."""
     owner = np.full(len(lines), -1)
     shapes = np.array([line.shape for line in lines], object)
-    tolerance = np.minimum(ALONG * height, SLANT * np.array([line.length for line in lines]))
+    near = np.minimum(REPEAT[2] * height, SLANT * np.array([line.length for line in lines]))
     middle = shapely.line_interpolate_point(shapes, 0.5, normalized=True)
-    inner, outer = shapely.STRtree(shapes).query(middle, predicate="dwithin", distance=tolerance)
+    inner, outer = shapely.STRtree(shapes).query(middle, predicate="dwithin", distance=near)
     for a, b in sorted(zip(inner.tolist(), outer.tolist(), strict=True)):
-        if b < a and owner[a] < 0 and owner[b] < 0 and _lies_along(lines[a], shapes[b], tolerance[a]):
+        if b < a and owner[a] < 0 and owner[b] < 0 and _repeats(lines[a], lines[b], height):
             owner[a] = b
     return owner
 
 
-def _lies_along(line: Line, shape: shapely.LineString, tolerance: float) -> bool:
+def _repeats(line: Line, other: Line, height: float) -> bool:
+    slant = SLANT * line.length
+    far = _farthest(line, other.shape)
+    if far <= min(INK * height, slant) or (line.length >= MOST * other.length and far <= min(AGAIN * height, slant)):
+        return True
+    low, part, high = REPEAT
+    off = min(np.clip(part * line.length, low * height, high * height), slant)
+    ends = line.points[[0, -1], None] - other.points[None, [0, -1]]
+    gaps = np.hypot(ends[..., 0], ends[..., 1])
+    return bool(far <= off and (max(gaps[0, 0], gaps[1, 1]) <= off or max(gaps[0, 1], gaps[1, 0]) <= off))
+
+
+def _farthest(line: Line, shape: shapely.LineString) -> float:
+    """The greatest distance of a line's points from another line."""
     s = np.union1d(line.along, np.linspace(0, line.length, 9))
-    return bool((shapely.distance(shapely.points(line.at(s)), shape) <= tolerance).all())
+    return float(shapely.distance(shapely.points(line.at(s)), shape).max())
 
 
 def as_line(row: int, stroke_id: str, points, width) -> Line | None:

@@ -1,7 +1,7 @@
 """Which lines make one limb, and where exactly do limbs meet?
 
-Every line is turned foot first. An overshoot at its foot is cut where it crosses its parent, a gap is bridged: to where the
-line would meet its parent if drawn on, else to the parent's nearest point. A line that starts at the foot of another
+Every line is turned foot first. An overshoot at its foot is cut where it crosses its parent, a gap is
+bridged to the parent's nearest point. A line that starts at the foot of another
 is its sibling. Where lines start at the tip of another, the one that bends least carries that limb on (Chen §7 takes
 the smallest angle for the apical child).
 """
@@ -18,6 +18,7 @@ from sketchtree.sketch.candidates import REACH, foot_reach
 from sketchtree.sketch.lines import Line, angle_between, extent
 
 OVERSHOOT = 0.025  # of H: how far past its parent a foot may have been drawn
+CROSSES = np.radians(25)  # lines that meet at less run side by side
 RISING = 0.2  # cosine with the vertical above which a line that starts at a foot on the ground is a stem
 STRAIGHT_ON = np.radians(75)  # a line that leaves a tip at more is a lateral there
 
@@ -67,35 +68,24 @@ def _meet(lines: list[Line], parent, s, height: float) -> tuple[list[Line], Floa
             cut[k] = crossing
             met[k] = line.cut(crossing, line.length)
             place[k] = shape.project(shapely.Point(line.at(crossing)))
-        else:
-            place[k] = _drawn_on(line, shape, s[k], height)
     inner = parent != NULL
     place[inner] = np.maximum(place[inner] - cut[parent[inner]], 0.0)
     return met, place
 
 
 def _last_crossing(line: Line, shape: shapely.LineString, height: float) -> float | None:
+    """The length at which an overshot foot crosses its parent for the last time, at an angle that is no accident."""
     reach = min(OVERSHOOT * height, 0.3 * line.length)
-    start = line.cut(0.0, reach).shape
-    points = shapely.get_coordinates(start.intersection(shape))
-    if len(points) == 0:
-        return None
-    farthest = max(float(start.project(shapely.Point(point))) for point in points)
-    return farthest if farthest > 0 else None
-
-
-def _drawn_on(line: Line, shape: shapely.LineString, s: float, height: float) -> float:
-    """Where the line drawn on backwards from its foot meets its parent, if that is not far; else `s`."""
-    foot = line.points[0]
-    gap = float(np.hypot(*(shape.interpolate(s).coords[0] - foot)))
-    if gap <= 1e-9 * height:
-        return s
-    reach = min(REACH * height, 0.5 * line.length)
-    back = -line.direction(0.0, reach)
-    points = shapely.get_coordinates(shapely.LineString([foot, foot + back * 2.0 * gap]).intersection(shape))
-    if len(points) == 0:
-        return s
-    return float(shape.project(shapely.Point(points[np.argmin(np.hypot(*(points - foot).T))])))
+    crossings = shapely.get_coordinates(line.cut(0.0, reach).shape.intersection(shape))
+    found = None
+    for point in crossings:
+        s, there = (float(curve.project(shapely.Point(point))) for curve in (line.shape, shape))
+        near = 0.5 * reach
+        parent = np.subtract(*(np.array(shape.interpolate(t).coords[0]) for t in (there + near, max(there - near, 0.0))))
+        angle = angle_between(line.direction(s, near), parent)
+        if min(angle, np.pi - angle) > CROSSES and s > (found or 0.0):
+            found = s
+    return found
 
 
 def _siblings(lines: list[Line], parent, s, order: list[int], height: float) -> None:
