@@ -42,7 +42,7 @@ def child_limb_id(parent_id: Int[np.ndarray, " limb"], rank: Int[np.ndarray, " l
     return (word & _INT63).astype(np.int64)
 
 
-def uniform(key: Key[Array, ""], limb_id: Int[np.ndarray, " limb"], draw: int) -> Float[np.ndarray, " limb"]:
+def uniform(key: Key[Array, ""] | np.uint64, limb_id: Int[np.ndarray, " limb"], draw: int) -> Float[np.ndarray, " limb"]:
     """One number in [0, 1) per limb; `draw` numbers the independent draws of one limb."""
     with np.errstate(over="ignore"):
         salt = _mix(_words(key) + _GOLDEN * np.uint64(draw + 1))
@@ -50,13 +50,21 @@ def uniform(key: Key[Array, ""], limb_id: Int[np.ndarray, " limb"], draw: int) -
     return (word >> np.uint64(11)).astype(np.float64) * 2.0**-53
 
 
-def normal(key: Key[Array, ""], limb_id: Int[np.ndarray, " limb"], draw: int) -> Float[np.ndarray, " limb"]:
+def normal(key: Key[Array, ""] | np.uint64, limb_id: Int[np.ndarray, " limb"], draw: int) -> Float[np.ndarray, " limb"]:
     """One standard normal number per limb (Box-Muller over two uniform draws)."""
     radius = np.sqrt(-2.0 * np.log1p(-uniform(key, limb_id, 2 * draw + 1_000_003)))
     return radius * np.cos(2.0 * np.pi * uniform(key, limb_id, 2 * draw + 1_000_004))
 
 
-def _words(key: Key[Array, ""]) -> np.uint64:
+def draw_key(key: Key[Array, ""] | np.uint64) -> np.uint64:
+    """The key as one word: `uniform` and `normal` take it in the key's place and answer the same, without
+    asking jax for its words on every call."""
+    return _words(key)
+
+
+def _words(key: Key[Array, ""] | np.uint64) -> np.uint64:
+    if isinstance(key, np.uint64):
+        return key
     high, low = (np.uint64(int(word)) for word in np.asarray(jax.random.key_data(key)).ravel()[:2])
     return (high << np.uint64(32)) | low
 

@@ -10,6 +10,7 @@ at the crown's surface, or at `max_segments`.
 
 import dataclasses
 from dataclasses import dataclass, replace
+from functools import lru_cache
 
 import numpy as np
 from jaxtyping import Array, Float, Int, Key
@@ -33,7 +34,7 @@ _BEARING = 2.5  # twig lengths: a shorter limb bears no laterals
 _TRUNK_SPACING = 1.6  # of the habit's spacing of laterals
 _SPACING = (0.8, 4.0)  # times the habit's spacing: the least and the most that an exemplar may say
 _LARGEST_SCALE = 1.25
-_GROUND = 0.015  # of the tree's height: nothing undrawn grows lower
+_GROUND = (0.015, 0.1)  # of the tree's height: undrawn limbs stay this far above the ground, and up to that much more
 _LIKE_DRAWN = 1.1  # times the drawn laterals around it, a new one on a drawn limb is no longer
 
 
@@ -106,12 +107,13 @@ class _Growth:
     """The tree while it grows: the rows made so far and the branches still open."""
 
     def __init__(self, tree, habit, theta, exemplar, crown, max_segments, key):
-        self.habit, self.theta, self.key, self.max_segments = habit, theta, key, max_segments
+        self.habit, self.theta, self.max_segments = habit, theta, max_segments
+        self.key = keys.draw_key(key)
         self.warnings = []
         self.envelope = Envelope.from_outlines(crown) if len(crown) else implied_crown(tree, habit)
         self.library = _library(tree, habit, theta, exemplar)
         self.scale = tree.height
-        self.ground = float(tree.tip[tree.is_base, 1].min()) + _GROUND * tree.height
+        self.ground = float(tree.tip[tree.is_base, 1].min())
         self.drawn = self._split(tree)
         self.parts, self.rows, self.done, self.stopped_by = [], len(self.drawn.tree), 0, "generations"
         self.segments = self.drawn.tree.segment_count
@@ -133,7 +135,9 @@ class _Growth:
         new = self._laterals(drawn_nodes(self.drawn, tips, self.library, self.envelope))
         drawn = DrawnLaterals.of(tree)
         usual = drawn.usual_length(new)
-        length = np.where(np.isnan(usual), new.length, np.minimum(new.length, _LIKE_DRAWN * usual))
+        at_most = np.minimum(new.length, _LIKE_DRAWN * usual)
+        like = usual * (0.8 + 0.25 * keys.uniform(self.key, new.limb, 12))
+        length = np.where(np.isnan(usual), new.length, np.where(new.order == 1, like, at_most))
         new = replace(new, length=length)
         return tips.join(new.select(~drawn.beside(new, self.spacing)))
 
@@ -143,7 +147,7 @@ class _Growth:
         habit = self.habit.lateral_spacing
         wide = np.where((order == 0) & (self.habit.arrangement != "whorled"), _TRUNK_SPACING, 1.0) * habit
         lent = self.library.spacing[np.minimum(order, self.habit.max_order)] * self.scale
-        lent = np.clip(np.sqrt(lent * habit), _SPACING[0] * habit, _SPACING[1] * habit)
+        lent = np.clip(np.maximum(np.sqrt(lent * habit), 0.8 * lent), _SPACING[0] * habit, _SPACING[1] * habit)
         return np.maximum(np.where(np.isnan(lent), wide, lent), whole / (4 * NODES))
 
     def generation(self) -> bool:
@@ -158,8 +162,10 @@ class _Growth:
             self.open = self.open.select(keep)
             nodes = plan(self.open, self.library, self._spacing(self.open.order, whole[keep]), self.key)
             self.stopped_by = "max_segments"
+        uneven = _GROUND[0] + _GROUND[1] * keys.uniform(self.key, self.open.limb, 11) ** 2
+        ground = self.ground + uneven * self.scale
         grown, parent = grow(
-            self.open, nodes, self.library, self.habit, self.theta, self.envelope, self.ground, self.key,
+            self.open, nodes, self.library, self.habit, self.theta, self.envelope, ground, self.key,
             first_row=self.rows,
         )  # fmt: skip
         self.parts.append((grown, parent))
@@ -218,9 +224,12 @@ class _Growth:
         return np.concatenate([part.tree for part, _ in self.parts])
 
 
+_lent_blocks = lru_cache(maxsize=32)(blocks_of)  # an exemplar is one frozen object for all the trees it lends to
+
+
 def _library(tree, habit, theta, exemplar):
     """The tree's own blocks and those of the exemplar; the habit's where there is none to lend."""
-    supplement = None if exemplar is None else blocks_of(exemplar)
+    supplement = None if exemplar is None else _lent_blocks(exemplar)
     if supplement is None or not (supplement.lateral_count.any() and supplement.has_apical.any()):
         exemplar, supplement = None, blocks_of_parameters(theta, habit)
     return library(blocks_of(tree), supplement, theta, habit.max_order, exemplar)

@@ -15,6 +15,7 @@ five one is drawn. One more stroke claims a few slots and leaves all other choic
 """
 
 from dataclasses import dataclass
+from functools import lru_cache
 
 import numpy as np
 from jaxtyping import Float, Int
@@ -97,14 +98,15 @@ def _table(own, own_fit, supplement, fit, orders, place):
         if len(rows) < _ENOUGH:
             rows = np.flatnonzero((np.abs(supplement.order - nearest) <= 1) & (fit > 0))
         base = fit[rows] * _near(supplement.order[rows] - nearest, ORDER_SD)
+        placed, own_placed = getattr(supplement, place)[rows], getattr(own, place)[own_rows]
         own_base = own_fit[own_rows] * _near(own.order[own_rows] - order, ORDER_SD)
         for cell in range(POSITION_BINS):
             at = (cell + 0.5) / POSITION_BINS
-            weight = base * _near(getattr(supplement, place)[rows] - at, POSITION_SD)
+            weight = base * _near(placed - at, POSITION_SD)
             slots = len(own) + rows[_systematic(weight, order * POSITION_BINS + cell)]
-            near = own_base * _near(getattr(own, place)[own_rows] - at, _OWN_POSITION_SD)
-            near = np.where(near < _LEAST, 0.0, near)
-            table[order, cell] = _claimed(slots, own_rows, claim, near * OWN_SHARE)
+            near = own_base * _near(own_placed - at, _OWN_POSITION_SD)
+            fits = near >= _LEAST
+            table[order, cell] = _claimed(slots, own_rows[fits], claim[fits], near[fits] * OWN_SHARE)
     return table
 
 
@@ -120,8 +122,13 @@ def _claimed(slots, rows, claim, share):
 def _systematic(weight, cell):
     """Blocks in proportion to their weights, spread over the slots by a fixed shuffle."""
     total = np.cumsum(np.maximum(weight, 1e-12))
-    shuffle = np.argsort(_hash_uniform(np.array([cell]), SLOTS)[0], kind="stable")
+    shuffle = _shuffle(cell)
     return np.searchsorted(total, (shuffle + 0.5) / SLOTS * total[-1]).clip(0, len(weight) - 1)
+
+
+@lru_cache(maxsize=1024)
+def _shuffle(cell):
+    return np.argsort(_hash_uniform(np.array([cell]), SLOTS)[0], kind="stable")
 
 
 def _hash_uniform(ids, slots):

@@ -74,7 +74,7 @@ def grow(
     habit: Habit,
     theta: TreeParameters,
     envelope: Envelope | None,
-    ground: float,
+    ground: Float[np.ndarray, " branch"],
     key: Key[Array, ""],
     *,
     first_row: int,
@@ -82,7 +82,7 @@ def grow(
 ) -> tuple[Nodes, Int[np.ndarray, " node"]]:
     """The rows of the grown limbs, as nodes numbered from `first_row`, and the parent row of each.
 
-    Parents precede children. Limbs that met the crown or the ground (its height in metres) are shorter than planned.
+    Parents precede children. Limbs that met the crown, or came as low as `ground` (metres), are shorter than planned.
     """
     total = len(nodes.owner)
     offset = np.cumsum(nodes.count) - nodes.count
@@ -94,7 +94,7 @@ def grow(
         alive = alive[nodes.count[alive] > k]
         flat = offset[alive] + k
         turned = _turned(axes[alive], divergence[flat], orientation[flat], droop[flat])
-        fraction, end = _stopped(at[alive], turned[:, :, 1] * nodes.step[flat][:, None], envelope, ground)
+        fraction, end = _stopped(at[alive], turned[:, :, 1] * nodes.step[flat][:, None], envelope, ground[alive])
         keep = fraction > _SHORTEST
         tip[flat[keep]], frame[flat[keep]], made[flat[keep]] = end[keep], turned[keep], True
         at[alive[keep]], axes[alive[keep]] = end[keep], turned[keep]
@@ -107,8 +107,8 @@ def _stopped(start, step, envelope, ground):
     end = start + step
     fraction = np.ones(len(start)) if envelope is None else envelope.exit_fraction(start, end)
     sinks = (end[:, 1] < ground) & (step[:, 1] < 0)
-    above = np.maximum(start[:, 1] - ground, 0.0)
-    fraction[sinks] = np.minimum(fraction[sinks], above[sinks] / -step[sinks, 1])
+    above = np.maximum(start[sinks, 1] - ground[sinks], 0.0)
+    fraction[sinks] = np.minimum(fraction[sinks], above / -step[sinks, 1])
     cut = fraction < 1.0
     end[cut] = start[cut] + (fraction[cut] * _TOUCH)[:, None] * step[cut]
     return fraction, end
