@@ -13,11 +13,11 @@ Where no ψ reaches 50° the nearest angle is taken; |ψ| is at most 60°. The r
 
 from typing import Any, NamedTuple
 
-import jax
 import numpy as np
 from jaxtyping import Array, Float, Key
 
 from sketchtree.axes import NULL
+from sketchtree.keys import uniform
 from sketchtree.mrf.factor_graph import FactorGraph
 from sketchtree.mrf.prior import Prior
 from sketchtree.mrf.solver import AbstractSolver, Info
@@ -59,7 +59,7 @@ class RandomSign(AbstractSolver):
     default_steps = 1
 
     def init(self, graph: FactorGraph, prior: Prior, key: Key[Array, ""]) -> State:
-        side = np.where(np.asarray(jax.random.bernoulli(key, shape=(graph.limb_count,))), 1.0, -1.0)
+        side = np.where(uniform(key, np.arange(graph.limb_count), 0) < 0.5, 1.0, -1.0)
         elevation = np.zeros(len(graph))
         for row in range(len(graph)):
             above = graph.parent[row]

@@ -70,9 +70,10 @@ def _hull(nodes):
 
 def _span(curve, y):
     """Least and greatest x of a closed curve at each height; (inf, −inf) where it does not reach."""
-    a, b = curve, np.roll(curve, -1, axis=0)
-    below, above = np.minimum(a[:, 1], b[:, 1]), np.maximum(a[:, 1], b[:, 1])
-    crosses = (below[:, None] <= y) & (y <= above[:, None])
+    here, ahead = curve, np.roll(curve, -1, axis=0)
+    falls = (here[:, 1] > ahead[:, 1])[:, None]
+    a, b = np.where(falls, ahead, here), np.where(falls, here, ahead)
+    crosses = (a[:, 1, None] <= y) & (y <= b[:, 1, None])
     t = np.clip((y - a[:, 1, None]) / np.where(b[:, 1] == a[:, 1], 1.0, b[:, 1] - a[:, 1])[:, None], 0.0, 1.0)
     x = a[:, 0, None] + t * (b[:, 0] - a[:, 0])[:, None]
     return np.where(crosses, x, np.inf).min(axis=0), np.where(crosses, x, -np.inf).max(axis=0)

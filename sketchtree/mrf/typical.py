@@ -12,7 +12,7 @@ from jaxtyping import Float
 
 from sketchtree.axes import NULL
 from sketchtree.mrf.factor_graph import FactorGraph
-from sketchtree.traverse import sum_from_root
+from sketchtree.traverse import generations
 
 TRUNK = 0.5
 STRETCH_POWER = 0.7
@@ -41,5 +41,7 @@ def stretched(graph, psi, samples):
 
 def depth_of(graph: FactorGraph, elevation: Float[np.ndarray, "segment *sample"]) -> Float[np.ndarray, "segment *sample"]:
     """z of every tip, H = 1; 0 at a base. Samples may stand in further columns."""
-    rise = graph.length.reshape(-1, *(1,) * (elevation.ndim - 1)) * np.tan(elevation)
-    return sum_from_root(graph.parent, rise)
+    depth = graph.length.reshape(-1, *(1,) * (elevation.ndim - 1)) * np.tan(elevation)
+    for rows in generations(graph.parent)[1:]:
+        depth[rows] += depth[graph.parent[rows]]
+    return depth
