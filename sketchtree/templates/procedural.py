@@ -197,8 +197,7 @@ class _Limb:
 
     def _inside(self, at) -> bool:
         envelope, height = self.recipe.crown.envelope, self.recipe.crown.height
-        low, high = envelope.knots[0][0], envelope.knots[-1][0]
         level = at[1] / (height * self.reach)
-        if not low <= level <= high:
+        if len(envelope.knots) > 1 and not envelope.knots[0][0] <= level <= envelope.knots[-1][0]:
             return False
         return bool(np.hypot(at[0], at[2]) <= self.reach * envelope(level))
