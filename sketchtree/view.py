@@ -4,7 +4,6 @@ VTK ends the whole process where no OpenGL can be had, so the drawing happens in
 (`view_child.py`): the caller learns whether there is a picture and, if not, why, and goes on.
 """
 
-import os
 import subprocess
 import sys
 import tempfile
@@ -25,6 +24,8 @@ NO_OPENGL = (
     "No picture could be drawn: there is no OpenGL on this machine. Install Mesa's software renderer, "
     "for example `apt install libgl1 libegl1 libgl1-mesa-dri`."
 )
+
+REFUSED = "No picture could be drawn: this machine's OpenGL is too old for our shaders (3.2 is needed). Install a newer graphics driver or Mesa."
 
 _FIELD = 26.0  # degrees, vertical
 _MARGIN = 0.06  # of the picture, free on every side
@@ -160,11 +161,13 @@ def _in_child(request: dict[str, np.ndarray], png_path: Path, timeout: float) ->
         asked, drawn = Path(folder) / "request.npz", Path(folder) / "picture.png"
         np.savez(asked, **request)
         try:
-            child = subprocess.run(_command(asked, drawn), capture_output=True, text=True, timeout=timeout, env=os.environ | {"PYVISTA_OFF_SCREEN": "true"})
+            child = subprocess.run(_command(asked, drawn), capture_output=True, text=True, errors="replace", timeout=timeout)
         except subprocess.TimeoutExpired:
             return False, f"No picture was drawn: it took longer than {timeout:g} s. Ask for a smaller one, or for fewer leaves."
-        if not drawn.exists():
+        if child.returncode or not drawn.exists():
             return False, _reason(child)
+        if "vtkShaderProgram" in child.stderr:
+            return False, REFUSED
         png_path.write_bytes(drawn.read_bytes())
     return True, ""
 
@@ -174,11 +177,11 @@ def _command(asked: Path, drawn: Path) -> list[str]:
 
 
 def _reason(child: subprocess.CompletedProcess) -> str:
-    """One line: the child died in VTK (a signal, or no usable OpenGL), or what Python said last."""
-    last = next((line for line in reversed(child.stderr.splitlines()) if line.strip()), "")
-    if child.returncode < 0 or "OpenGL" in child.stderr or "vtk" in child.stderr.lower() or "libGL" in child.stderr:
+    """One line: VTK ended the process, the driver refused the shaders, or what Python said last."""
+    if child.returncode < 0 or child.returncode > 128 or "OpenGL" in child.stdout + child.stderr:
         return NO_OPENGL
-    return f"No picture could be drawn: {last.strip() or f'the drawing process ended with status {child.returncode}'}."
+    lines = [line.strip() for line in child.stderr.splitlines() if line.strip()]
+    return f"No picture could be drawn: {lines[-1] if lines else f'the drawing process ended with status {child.returncode}'}."
 
 
 def _direction(azimuth: float, elevation: float) -> Float[np.ndarray, " 3"]:

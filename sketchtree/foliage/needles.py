@@ -10,7 +10,7 @@ from back to front: those that point away are short and dark, those towards the 
 import numpy as np
 
 from sketchtree.foliage.outline import Curve
-from sketchtree.foliage.painting import Painting, paint_needles
+from sketchtree.foliage.painting import Painting, paint_shoots
 from sketchtree.foliage.venation import Vein
 
 SPRUCE_NEEDLE, PINE_NEEDLE = 0.072, 0.46  # needle length, tuft lengths
@@ -26,12 +26,12 @@ def spruce_tuft() -> Painting:
             lean = np.radians(rng.normal(44.0, 4.0)) * side
             at = foot + 0.03 * side * (-1) ** rank
             axes.append(_shoot((0.0, at), lean, length * rng.uniform(0.85, 1.1), -0.05 * side))
-    needles = []
-    for axis in axes[::-1]:
-        length = np.linalg.norm(axis[-1] - axis[0])
-        needles += _needles(axis, rng, count=int(300 * length), length=SPRUCE_NEEDLE, lean=(60.0, 34.0), width=0.0078, bow=0.015, bare=0.0)
-    stems = [Vein(axis, 0.013 if k == 0 else 0.009, 0.005) for k, axis in enumerate(axes)]
-    return paint_needles(stems, needles)
+    shoots = []
+    for rank, axis in reversed(list(enumerate(axes))):
+        count = int(330 * np.linalg.norm(axis[-1] - axis[0]))
+        needles = _needles(axis, rng, count=count, length=SPRUCE_NEEDLE, lean=(62.0, 36.0), width=0.0082, bow=0.015, bare=0.0)
+        shoots.append((Vein(axis, 0.013 if rank == 0 else 0.009, 0.005), needles))
+    return paint_shoots(shoots)
 
 
 def pine_tuft() -> Painting:
@@ -39,7 +39,7 @@ def pine_tuft() -> Painting:
     rng = np.random.default_rng(5)
     axis = _shoot((0.0, 0.0), 0.0, 0.58, 0.006)
     needles = _needles(axis, rng, count=165, length=PINE_NEEDLE, lean=(62.0, 18.0), width=0.0135, bow=0.05, bare=0.06)
-    return paint_needles([Vein(axis, 0.03, 0.015)], needles)
+    return paint_shoots([(Vein(axis, 0.03, 0.015), needles)])
 
 
 def _shoot(foot, lean, length, bow) -> Curve:

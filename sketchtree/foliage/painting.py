@@ -19,6 +19,8 @@ from sketchtree.foliage.venation import Vein
 
 PIXELS = 512  # along the blade
 _SUPERSAMPLE = 3
+_PLAIN = 130  # a shade of 1 in the mask of shades
+_AXIS_PENS = {"cover": 255, "twig": 255, "shade": _PLAIN, "ridge": 160, "line": 0}, {"ridge": 255}
 _BORDER = 4  # transparent pixels round the drawing, so that mipmaps and bilinear filters stay clean
 
 
@@ -51,15 +53,17 @@ class Canvas:
         """An empty mask at the drawing's resolution."""
         return Image.new("L", tuple(int(n) for n in self.size * _SUPERSAMPLE), 0)
 
-    def fill(self, mask: Image.Image, outline: Curve, value: int = 255) -> None:
-        """Fill a closed outline."""
-        x = (outline[:, 0] - self.low[0]) * self._scale
-        y = (self.high[1] - outline[:, 1]) * self._scale
-        ImageDraw.Draw(mask).polygon(np.stack([x, y], axis=1).ravel().tolist(), fill=value)
+    def place(self, outline: Curve) -> list[float]:
+        """A closed outline as pixels x, y, x, y, …"""
+        return ((outline - [self.low[0], self.high[1]]) * [self._scale, -self._scale]).ravel().tolist()
 
-    def stroke(self, mask: Image.Image, path: Curve, start_width: float, end_width: float, value: int = 255) -> None:
+    def fill(self, mask: Image.Image, outline: Curve) -> None:
+        """Fill a closed outline."""
+        ImageDraw.Draw(mask).polygon(self.place(outline), fill=255)
+
+    def stroke(self, mask: Image.Image, path: Curve, start_width: float, end_width: float) -> None:
         """Fill a tapered line."""
-        self.fill(mask, ribbon(path, start_width, end_width), value)
+        self.fill(mask, ribbon(path, start_width, end_width))
 
     def average(self, mask: Image.Image) -> Float[np.ndarray, "row column"]:
         """The mask at the texture's resolution, 0-1."""
@@ -98,32 +102,33 @@ def paint_blade(outline: Curve, veins: list[Vein], *, petiole: float, reticulati
     return Painting(np.clip(blade + stem, 0, 1), vein, stem, shade, height, canvas.low[0], canvas.high[0], canvas.low[1], canvas.high[1])
 
 
-def paint_needles(stem: list[Vein], needles: list[tuple[Vein, float]]) -> Painting:
-    """A twig with needles, each with its shade; later ones lie over earlier ones and over the twig
-    once half of them are drawn."""
-    points = np.vstack([vein.path for vein, _ in needles] + [vein.path for vein in stem])
+def paint_shoots(shoots: list[tuple[Vein, list[tuple[Vein, float]]]]) -> Painting:
+    """Shoots with needles, each with its shade; later ones lie over earlier ones, and a shoot's own axis over
+    the first half of its needles."""
+    points = np.vstack([vein.path for axis, needles in shoots for vein in (axis, *(needle for needle, _ in needles))])
     canvas = Canvas(points.min(axis=0), points.max(axis=0))
-    cover, twig, shade, ridge, line = (canvas.blank() for _ in range(5))
-    for rank, (needle, value) in enumerate(needles):
-        if rank == len(needles) // 2:
-            for vein in stem:
-                canvas.stroke(cover, vein.path, vein.start_width, vein.end_width)
-                canvas.stroke(twig, vein.path, vein.start_width, vein.end_width)
-                canvas.stroke(shade, vein.path, vein.start_width, vein.end_width, 130)
-                canvas.stroke(ridge, vein.path, 0.6 * vein.start_width, vein.end_width)
-        w0, w1 = needle.start_width, needle.end_width
-        canvas.stroke(cover, needle.path, w0, w1)
-        canvas.stroke(twig, needle.path, w0, w1, 0)
-        canvas.stroke(shade, needle.path, w0, w1, int(130 * value))
-        canvas.stroke(ridge, needle.path, w0, w1, 60)
-        canvas.stroke(ridge, needle.path, 0.4 * w0, 0.4 * w1, 255)
-        canvas.stroke(line, needle.path, w0, w1, 0)
-        canvas.stroke(line, needle.path, 0.3 * w0, 0.3 * w1, 255)
-    coverage = canvas.average(cover)
-    tone = canvas.average(shade) * 255 / 130
+    masks = {name: canvas.blank() for name in ("cover", "twig", "shade", "ridge", "line")}
+    pens = {name: ImageDraw.Draw(mask) for name, mask in masks.items()}
+    for axis, needles in shoots:
+        half = len(needles) // 2
+        drawn = [(vein, *_needle_pens(shade)) for vein, shade in needles]
+        for vein, whole, middle in [*drawn[:half], (axis, *_AXIS_PENS), *drawn[half:]]:
+            for share, values in ((1.0, whole), (0.35, middle)):
+                outline = canvas.place(ribbon(vein.path, share * vein.start_width, share * vein.end_width))
+                for name, value in values.items():
+                    pens[name].polygon(outline, fill=value)
+    coverage = canvas.average(masks["cover"])
+    tone = canvas.average(masks["shade"]) * 255 / _PLAIN
     tone = np.where(coverage > 0.02, tone / np.maximum(coverage, 0.02), 1.0)
-    height = 2.5 * ndimage.gaussian_filter(canvas.average(ridge), 0.8)
-    return Painting(coverage, 0.6 * canvas.average(line), canvas.average(twig), tone, height, canvas.low[0], canvas.high[0], canvas.low[1], canvas.high[1])
+    height = 2.5 * ndimage.gaussian_filter(canvas.average(masks["ridge"]), 0.8)
+    line, twig = canvas.average(masks["line"]), canvas.average(masks["twig"])
+    return Painting(coverage, 0.6 * line, twig, tone, height, canvas.low[0], canvas.high[0], canvas.low[1], canvas.high[1])
+
+
+def _needle_pens(shade: float) -> tuple[dict, dict]:
+    """What a needle writes into each mask, over its width and along its middle. It hides what is under it: its
+    pixels are no twig, and have a ridge and a pale line of their own."""
+    return {"cover": 255, "twig": 0, "shade": int(_PLAIN * shade), "ridge": 60, "line": 0}, {"ridge": 255, "line": 255}
 
 
 def albedo(painting: Painting, blade, vein, stem) -> UInt8[np.ndarray, "row column 4"]:
