@@ -29,6 +29,7 @@ from sketchtree.traverse import is_tip
 EXTENSION = np.array([0.04, 0.12])  # of a drawn limb's length, without a crown; by order 0, 1+
 _EXTENSION_TWIGS = 3.5  # twig lengths, at most, without a crown
 CROWN_EXTENSION = 0.5  # of a drawn limb's length, at most, towards the crown
+_PRESSES = 1.08  # times its straight way to the crown: a limb that bends still meets the surface
 _MARGIN = 0.12  # of the smaller side of the drawing's branches
 _MARGIN_TWIGS = 2.0  # twig lengths, at least
 _WEEPING = 30.0  # degrees a metre: with more, twigs hang to the ground
@@ -50,7 +51,7 @@ def open_tips(
     if envelope is not None and envelope.binding:
         far = CROWN_EXTENSION * whole[rows]
         reach = envelope.exit_fraction(tree.tip[rows], tree.tip[rows] + far[:, None] * frame[:, :, 1])
-        length = np.where(envelope.inside(tree.tip[rows]), reach * far, 0.0)
+        length = np.where(envelope.inside(tree.tip[rows]), np.minimum(_PRESSES * reach, 1.0) * far, 0.0)
     keep = length > 0.3 * habit.twig_length
     rows, frame, length = rows[keep], frame[keep], length[keep]
     return OpenBranches(

@@ -34,6 +34,7 @@ _BEARING = 2.5  # twig lengths: a shorter limb bears no laterals
 _TRUNK_SPACING = 1.6  # of the habit's spacing of laterals
 _SPACING = (0.8, 4.0)  # times the habit's spacing: the least and the most that an exemplar may say
 _LARGEST_SCALE = 1.25
+_PRESSES = 1.08  # times its straight way to the crown: a branch that bends still meets the surface
 _GROUND = (0.015, 0.1)  # of the tree's height: undrawn limbs stay this far above the ground, and up to that much more
 _LIKE_DRAWN = 1.1  # times the drawn laterals around it, a new one on a drawn limb is no longer
 
@@ -118,6 +119,11 @@ class _Growth:
         self.parts, self.rows, self.done, self.stopped_by = [], len(self.drawn.tree), 0, "generations"
         self.segments = self.drawn.tree.segment_count
         self.open = self._first_generation()
+        if len(self.open) == 0 and len(crown) and not self.envelope.inside(tree.tip).any():
+            self.warnings.append(
+                "All drawn branches lie outside the crown, so nothing grew. "
+                "Draw the crown around the tips, or use --crown off."
+            )
 
     def _split(self, tree):
         _, whole = limb_arcs(tree)
@@ -188,7 +194,8 @@ class _Growth:
         if self.envelope is None:
             return opened
         end = opened.origin + opened.length[:, None] * opened.frame[:, :, 1]
-        length = opened.length * self.envelope.exit_fraction(opened.origin, end)
+        reach = _PRESSES * self.envelope.exit_fraction(opened.origin, end)
+        length = opened.length * np.minimum(reach, 1.0)
         opened = replace(opened, length=length)
         return opened.select(length >= MINIMUM_LENGTH * self.habit.twig_length)
 

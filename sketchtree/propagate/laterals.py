@@ -52,7 +52,8 @@ def _served(tree, arc, spacing, eligible):
     miss = np.abs(arc / spacing - number)
     candidate = np.flatnonzero(eligible & (number > 0) & (miss <= _SERVES))
     order = candidate[np.lexsort((miss[candidate], number[candidate], tree.limb[candidate]))]
-    same = np.r_[False, (tree.limb[order][1:] == tree.limb[order][:-1]) & (number[order][1:] == number[order][:-1])]
+    same = np.zeros(len(order), bool)
+    same[1:] = (tree.limb[order][1:] == tree.limb[order][:-1]) & (number[order][1:] == number[order][:-1])
     served = np.full(len(tree), NULL)
     served[order[~same]] = number[order[~same]]
     return served
