@@ -87,6 +87,7 @@ class DrawnTree:
     fit: Fit
     similarity: Similarity  # sketch units → metres
     skeleton: TreeSkeleton  # metres; rows are those of the graph
+    radius: Float[np.ndarray, " segment"]  # as drawn, metres; NaN where the lines' widths say nothing
     habit: Habit
 
     @property
@@ -170,10 +171,10 @@ def draw_out(
         if fit.result == RESULTS.not_finite:
             raise InferenceError(f"The depths could not be inferred by `{options.method}`.", remedy=str(RESULTS[fit.result]))
         similarity = page_to_world(graph, options.height or habit.height)
-        radius = drawn_radius(graph, similarity)
+        radius = drawn_radius(sketch, graph, similarity, habit)
         skeleton = lift(graph, fit.depth, similarity, depth_sd=fit.depth_sd)
         skeleton = PipeRadii(habit, radius)(skeleton, key=stage_key(key, "radii"))
-    return DrawnTree(graph, matches, exemplar, fit, similarity, skeleton, habit)
+    return DrawnTree(graph, matches, exemplar, fit, similarity, skeleton, radius, habit)
 
 
 def complete(
@@ -224,9 +225,17 @@ def page_to_world(graph: SketchGraph, height: float) -> Similarity:
     return Similarity(scale, (-scale * root[0], -scale * root[1], 0.0))
 
 
-def drawn_radius(graph: SketchGraph, similarity: Similarity) -> Float[np.ndarray, " segment"]:
-    """Half the drawn line width, metres; NaN where the widths say nothing."""
-    return graph.width * similarity.scale / 2
+def drawn_radius(sketch: Sketch, graph: SketchGraph, similarity: Similarity, habit: Habit) -> Float[np.ndarray, " segment"]:
+    """Half the drawn width of each branch, metres; NaN where the widths say nothing.
+
+    An outline filled with ink shows how thick the wood is. A pen's line does not: it shows which branch is
+    thicker than which, so lines thinner than such a tree's trunk are thickened alike until the trunk is right."""
+    radius = graph.width * similarity.scale / 2
+    inked = np.array([stroke.filled for stroke in sketch.strokes], bool)
+    if np.isnan(radius).all() or inked[graph.stroke].any():
+        return radius
+    height = similarity.scale * np.ptp(graph.xy[:, 1])
+    return radius * max(1.0, habit.trunk_ratio * height / np.nanmax(radius))
 
 
 def leaf_model(wanted: str | None, habit: Habit, templates: Database | None) -> str | None:
@@ -262,7 +271,7 @@ def _propagated(drawn: DrawnTree, options: TreeOptions, key) -> tuple[TreeSkelet
     )
     grown = stage.run(drawn.skeleton, key=key)
     radius = np.full(len(grown.skeleton), np.nan)
-    radius[grown.drawn_row] = drawn_radius(drawn.graph, drawn.similarity)
+    radius[grown.drawn_row] = drawn.radius
     return PipeRadii(drawn.habit, radius)(grown.skeleton, key=key), grown.warnings
 
 
