@@ -20,7 +20,7 @@ from jaxtyping import Bool, Float
 
 from sketchtree.errors import OptionError
 
-_BISECTIONS = 24  # to 1e-7 of a branch
+_BISECTIONS = 20  # to 1e-6 of a branch
 
 
 @dataclass(frozen=True, eq=False)
@@ -60,16 +60,16 @@ class Lobe:
     def margin(self, point: Float[np.ndarray, "point 3"]) -> Float[np.ndarray, " point"]:
         """How far inside the surface each point lies, along its own radius, metres; negative outside."""
         y = point[:, 1]
-        slab = np.clip(np.searchsorted(self.height, y, side="right") - 1, 0, len(self.left) - 1)
+        slab = np.searchsorted(self.height[1:-1], y, side="right")
         t = (y - self.height[slab]) / (self.height[slab + 1] - self.height[slab])
         left = self.left[slab, 0] + t * (self.left[slab, 1] - self.left[slab, 0])
         right = self.right[slab, 0] + t * (self.right[slab, 1] - self.right[slab, 0])
         quarter = 0.25 * (right - left)
-        axis = np.clip(self.axis, left + quarter, right - quarter)
+        axis = np.minimum(np.maximum(self.axis, left + quarter), right - quarter)
         dx, dz = point[:, 0] - axis, point[:, 2] - self.centre_z
         radius = np.hypot(dx, dz)
-        cosine = np.divide(dx, radius, out=np.ones_like(dx), where=radius > 0)
-        surface = 0.5 * ((right - axis) * (1 + cosine) + (axis - left) * (1 - cosine))
+        cosine = dx / np.maximum(radius, 1e-300)
+        surface = 0.5 * (right - left + (right + left - 2 * axis) * cosine)
         beyond = (y < self.height[0]) | (y > self.height[-1])
         return np.where(beyond, -np.inf, surface - radius)
 
@@ -94,23 +94,22 @@ class Envelope:
         return within
 
     def exit_fraction(
-        self, start: Float[np.ndarray, "branch 3"], end: Float[np.ndarray, "branch 3"]
+        self, start: Float[np.ndarray, "branch 3"], end: Float[np.ndarray, "branch 3"], bisections: int = _BISECTIONS
     ) -> Float[np.ndarray, " branch"]:
-        """The fraction of each segment from `start` to `end` that stays inside: 1 where the end and the middle
-        are inside, else where the surface is first found by bisection. A branch that starts outside may grow
-        if it ends inside (or if the envelope does not bind); else it is 0."""
-        end_inside = self.inside(end)
-        middle_inside = self.inside(0.5 * (start + end))
-        start_inside = self.inside(start)
-        fraction = np.where(end_inside & (middle_inside | ~start_inside), 1.0, 0.0)
+        """The fraction of each segment from `start` to `end` that may be grown: 1 where the end is inside, else up to
+        where the surface is first found by bisection. What starts and ends outside is 0 (1 if the envelope
+        does not bind)."""
+        fraction = self.inside(end).astype(float)
+        out = np.flatnonzero(fraction == 0.0)
+        start_inside = self.inside(start[out])
         if not self.binding:
-            fraction[~start_inside] = 1.0
-        rows = np.flatnonzero(start_inside & (fraction == 0.0))
+            fraction[out[~start_inside]] = 1.0
+        rows = out[start_inside]
         if len(rows):
             low = np.zeros(len(rows))
-            high = np.where(middle_inside[rows], 1.0, 0.5)
+            high = np.ones(len(rows))
             origin, vector = start[rows], end[rows] - start[rows]
-            for _ in range(_BISECTIONS):
+            for _ in range(bisections):
                 middle = 0.5 * (low + high)
                 within = self.inside(origin + middle[:, None] * vector)
                 low, high = np.where(within, middle, low), np.where(within, high, middle)

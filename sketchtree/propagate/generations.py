@@ -194,7 +194,7 @@ class _Growth:
         if self.envelope is None:
             return opened
         end = opened.origin + opened.length[:, None] * opened.frame[:, :, 1]
-        reach = _PRESSES * self.envelope.exit_fraction(opened.origin, end)
+        reach = _PRESSES * self.envelope.exit_fraction(opened.origin, end, bisections=7)
         length = opened.length * np.minimum(reach, 1.0)
         opened = replace(opened, length=length)
         return opened.select(length >= MINIMUM_LENGTH * self.habit.twig_length)
