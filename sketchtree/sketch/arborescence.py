@@ -1,14 +1,20 @@
 """Which parent for every stroke, so that the whole costs least?
 
-The minimum spanning arborescence of a directed graph (Chu & Liu 1965; Edmonds 1967): every node but the
-root takes one incoming arc, no cycles, least total cost. Each round takes the cheapest arc into every node; cycles
-are contracted, an arc (u → v) into a cycle then costs w(u → v) − w(best into v); all cycles of a round at once.
+The minimum spanning arborescence of a directed graph (Chu & Liu 1965; Edmonds 1967): every node but the root
+takes one incoming arc, no cycles, least total cost. As Tarjan (1977, "Finding optimum branchings") has it, a walk
+goes from node to node up the cheapest incoming arcs until it meets the finished part. Where it meets itself, the cycle
+becomes one node, whose arcs (u → v) then cost w(u → v) − w(best into v). Arcs wait in heaps; a heap carries what is
+to be taken off all its costs, and the smaller of two heaps is poured into the larger: O(E log² V).
 """
 
+import heapq
+
 import numpy as np
-from jaxtyping import Bool, Float, Int
+from jaxtyping import Float, Int
 
 from sketchtree.axes import NULL
+
+_NEW, _WALKED, _DONE = 0, 1, 2
 
 
 def arborescence(
@@ -18,63 +24,95 @@ def arborescence(
 
     Every node must be reachable from the root.
     """
-    levels = []
-    arc = np.arange(len(head))
-    while True:
-        best = _cheapest(head, cost, node_count, root)
-        cycle = _cycles(np.where(best == NULL, NULL, tail[best]))
-        if not (cycle != NULL).any():
-            break
-        label, count = _contract(cycle)
-        levels.append((best, cycle, head, label))
-        cost = np.where(cycle[head] != NULL, cost - cost[best[head]], cost)
-        kept = label[tail] != label[head]
-        arc = np.flatnonzero(kept)
-        levels[-1] += (arc,)
-        tail, head, cost = label[tail[kept]], label[head[kept]], cost[kept]
-        root, node_count = label[root], count
-    for previous, cycle, head_before, label, kept_arc in reversed(levels):
-        best = _expand(best, previous, cycle, head_before, label, kept_arc)
-    return best
-
-
-def _cheapest(head, cost, node_count: int, root: int) -> Int[np.ndarray, " node"]:
-    order = np.lexsort((np.arange(len(head)), cost, head))
-    best = np.full(node_count, NULL)
-    first = np.r_[True, np.diff(head[order]) != 0] if len(order) else np.zeros(0, bool)
-    best[head[order[first]]] = order[first]
-    best[root] = NULL
-    assert (np.delete(best, root) != NULL).all(), "every node must have an incoming arc"
-    return best
-
-
-def _cycles(parent: Int[np.ndarray, " node"]) -> Int[np.ndarray, " node"]:
-    """For every node on a cycle the cycle's smallest node; NULL elsewhere."""
-    cycle = np.full(len(parent), NULL)
-    state = np.zeros(len(parent), np.int64)  # 0 unseen, else the walk that saw it
-    up = parent.tolist()
-    for start in range(len(up)):
-        walk, node = [], start
-        while node != NULL and state[node] == 0:
-            state[node] = start + 1
-            walk.append(node)
-            node = up[node]
-        if node != NULL and state[node] == start + 1:
-            ring = walk[walk.index(node) :]
-            cycle[ring] = min(ring)
-    return cycle
-
-
-def _contract(cycle: Int[np.ndarray, " node"]) -> tuple[Int[np.ndarray, " node"], int]:
-    keeper: Bool[np.ndarray, " node"] = (cycle == NULL) | (cycle == np.arange(len(cycle)))
-    number = np.cumsum(keeper) - 1
-    return np.where(cycle == NULL, number, number[np.where(cycle == NULL, 0, cycle)]), int(keeper.sum())
-
-
-def _expand(best, previous, cycle, head, label, kept_arc) -> Int[np.ndarray, " node"]:
-    """The arcs of one level from those of its contraction: a cycle keeps its own, except where it is entered."""
-    chosen = np.where(cycle != NULL, previous, NULL)
-    entering = np.where(best == NULL, NULL, kept_arc[best] if len(kept_arc) else NULL)
-    entering = entering[entering != NULL]
-    chosen[head[entering]] = entering
+    forest = _Contraction(tail.tolist(), head.tolist(), cost.tolist(), node_count)
+    forest.state[root] = _DONE
+    for start in range(node_count):
+        forest.walk(start)
+    chosen = np.array(forest.unfold()[:node_count])
+    chosen[root] = NULL
     return chosen
+
+
+class _Contraction:
+    """The graph while cycles are being contracted; nodes from `node_count` on are cycles."""
+
+    def __init__(self, tail: list[int], head: list[int], cost: list[float], node_count: int):
+        self.tail, self.head = tail, head
+        self.heap: list[list[tuple[float, int]]] = [[] for _ in range(node_count)]
+        for arc, (node, value) in enumerate(zip(head, cost, strict=True)):
+            self.heap[node].append((value, arc))
+        for heap in self.heap:
+            heapq.heapify(heap)
+        self.taken_off = [0.0] * node_count
+        self.state = [_NEW] * node_count
+        self.arc = [NULL] * node_count  # the best into each
+        self.cycle = [NULL] * node_count  # that each became part of
+        self._jump = list(range(node_count))  # towards the outermost cycle
+
+    def walk(self, start: int) -> None:
+        """Go up the cheapest arcs from a node until the finished part is reached."""
+        node, path = self.outermost(start), []
+        while self.state[node] != _DONE:
+            if self.state[node] == _WALKED:
+                node = self._contract(path, node)
+            self.state[node] = _WALKED
+            path.append(node)
+            node = self._step(node)
+        for walked in path:
+            self.state[walked] = _DONE
+
+    def outermost(self, node: int) -> int:
+        """The node itself or the outermost cycle that holds it."""
+        jump = self._jump
+        while jump[node] != node:
+            jump[node] = jump[jump[node]]
+            node = jump[node]
+        return node
+
+    def _step(self, node: int) -> int:
+        heap = self.heap[node]
+        while True:
+            assert heap, "every node must be reachable from the root"
+            value, arc = heapq.heappop(heap)
+            above = self.outermost(self.tail[arc])
+            if above != node:
+                break
+        self.arc[node] = arc
+        self.taken_off[node] = value  # a cost counts from here on as what it exceeds this by
+        return above
+
+    def _contract(self, path: list[int], meeting: int) -> int:
+        """Make one node of the cycle at the end of the path."""
+        members = path[path.index(meeting) :]
+        del path[-len(members) :]
+        largest = max(members, key=lambda member: len(self.heap[member]))
+        heap, off = self.heap[largest], self.taken_off[largest]
+        for member in members:
+            if member != largest:
+                shift = off - self.taken_off[member]
+                for value, arc in self.heap[member]:
+                    heapq.heappush(heap, (value + shift, arc))
+                self.heap[member] = []
+        whole = len(self.heap)
+        self.heap.append([])
+        self.heap[whole], self.heap[largest] = heap, []
+        self.taken_off.append(off)
+        self.state.append(_NEW)
+        self.arc.append(NULL)
+        self.cycle.append(NULL)
+        self._jump.append(whole)
+        for member in members:
+            self.cycle[member] = self._jump[member] = whole
+        return whole
+
+    def unfold(self) -> list[int]:
+        """The arc into every node: a cycle keeps its own arcs, except where it is entered."""
+        for whole in range(len(self.arc) - 1, -1, -1):
+            if self.arc[whole] == NULL:
+                continue
+            node = self.head[self.arc[whole]]
+            while node != whole and self.cycle[node] not in (whole, NULL):
+                node = self.cycle[node]
+            if node != whole:
+                self.arc[node] = self.arc[whole]
+        return self.arc

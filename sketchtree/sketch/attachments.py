@@ -5,7 +5,7 @@ from jaxtyping import Int
 
 from sketchtree.axes import NULL
 from sketchtree.sketch.attach import FORBIDDEN, Hanging
-from sketchtree.sketch.cleaning import Cleaned
+from sketchtree.sketch.cleaning import AGAIN_OVER, OTHER_SIDE, Cleaned
 from sketchtree.sketch.graph import Attachment
 from sketchtree.sketch.joints import Limb
 from sketchtree.sketch.lines import Line
@@ -29,12 +29,12 @@ def describe(
         parent, reason = above[k]
         cost = float(hanging.cost[k] % FORBIDDEN)
         attachments.append(Attachment(line.id, parent, (float(point[0]), float(point[1])), gap, round(cost, 4), others, _reason(reason, gap, height)))
-    for line, owner in cleaned.merged:
+    for line, owner, why in cleaned.merged:
         x, y = line.points[0].tolist()
-        attachments.append(Attachment(line.id, stroke_ids[owner], (x, y), 0.0, 0.0, (), "drawn over that stroke, merged with it"))
+        attachments.append(Attachment(line.id, stroke_ids[owner], (x, y), 0.0, 0.0, (), why))
     rank = {stroke_id: k for k, stroke_id in enumerate(stroke_ids)}
     attachments.sort(key=lambda a: rank[a.stroke])
-    return tuple(attachments), _doubts(attachments, cleaned, height)
+    return tuple(attachments), _doubts(attachments, cleaned, stroke_ids, height)
 
 
 def _foot_rows(count: int, limbs: list[Limb], rows: Rows) -> Int[np.ndarray, " line"]:
@@ -62,7 +62,7 @@ def _reason(reason: str, gap: float, height: float) -> str:
     return f"{reason}, {'far off: the most likely of its neighbours' if gap > DOUBTFUL * height else 'nearest and at a likely angle'}"
 
 
-def _doubts(attachments: list[Attachment], cleaned: Cleaned, height: float) -> list[str]:
+def _doubts(attachments: list[Attachment], cleaned: Cleaned, stroke_ids: tuple[str, ...], height: float) -> list[str]:
     far = [a for a in attachments if a.parent is not None and a.gap > DOUBTFUL * height]
     warnings = [
         f"Stroke {a.stroke} starts {100 * a.gap / height:.0f} % of the drawing's height away from stroke {a.parent}, the likeliest it could grow from."
@@ -71,9 +71,15 @@ def _doubts(attachments: list[Attachment], cleaned: Cleaned, height: float) -> l
     if len(far) > 5:
         warnings.append(f"{len(far) - 5} more strokes start far from any other.")
     if cleaned.dots:
-        named = ", ".join(cleaned.dots[:5]) + (", …" if len(cleaned.dots) > 5 else "")
-        warnings.append(f"{len(cleaned.dots)} dot(s) smaller than 0.5 % of the drawing were left out (strokes {named}).")
-    if cleaned.merged:
-        named = ", ".join(dict.fromkeys(line.id for line, _ in cleaned.merged[:5]))
-        warnings.append(f"{len(cleaned.merged)} stroke(s) drawn over others were merged with them (strokes {named}{', …' if len(cleaned.merged) > 5 else ''}).")
+        warnings.append(f"{len(cleaned.dots)} dot(s) smaller than 0.5 % of the drawing were left out (strokes {_named(cleaned.dots)}).")
+    again = list(dict.fromkeys(line.id for line, _, why in cleaned.merged if why == AGAIN_OVER))
+    if again:
+        warnings.append(f"{len(again)} stroke(s) drawn over others were merged with them (strokes {_named(again)}).")
+    if any(why == OTHER_SIDE for *_, why in cleaned.merged):
+        side, owner, _ = next(entry for entry in cleaned.merged if entry[2] == OTHER_SIDE)
+        warnings.append(f"Strokes {stroke_ids[owner]} and {side.id} were taken for the two sides of one trunk.")
     return warnings
+
+
+def _named(ids) -> str:
+    return ", ".join(ids[:5]) + (", …" if len(ids) > 5 else "")

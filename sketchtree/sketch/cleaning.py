@@ -12,6 +12,7 @@ from jaxtyping import Float, Int
 
 from sketchtree.sketch.lines import Line, angle_between, extent
 from sketchtree.sketch.tremor import without_tremor
+from sketchtree.sketch.trunk_edges import trunk_of_edges
 
 DOT = 0.005  # of H: a smaller stroke is a dot
 INK = 0.0012  # of H: a stroke nowhere farther than this from another is part of it
@@ -20,6 +21,8 @@ MOST = 0.6
 REPEAT = (0.003, 0.06, 0.012)  # of H, of its length, of H: how far a repeated stroke may lie off, ends too: least, part, most
 SLANT = 0.15  # never farther than this part of its own length: a twig leaves its parent at 9° or more
 FOLD = 0.03  # of H: going back over a shorter piece is a tremor
+AGAIN_OVER = "drawn over that stroke, merged with it"
+OTHER_SIDE = "the other side of a trunk drawn as an outline"
 CUSP = np.radians(150)  # a sharper turn is a change of mind
 
 
@@ -28,12 +31,13 @@ class Cleaned:
     """The lines that remain, and what became of the others."""
 
     lines: list[Line]
-    merged: tuple[tuple[Line, int], ...]  # (line, row of the stroke it lies along)
+    merged: tuple[tuple[Line, int, str], ...]  # (line, row of the stroke it became part of, why)
     dots: tuple[str, ...]  # ids
 
 
-def clean(lines: list[Line]) -> Cleaned:
-    """Drop dots, cut strokes that turn back on themselves, still the tremor, merge repeated ones."""
+def clean(lines: list[Line], *, under_crown: bool = False) -> Cleaned:
+    """Drop dots, cut strokes that turn back on themselves, still the tremor, merge repeated ones and
+    the two sides of a trunk (`under_crown`: a crown was drawn, which makes that likelier)."""
     height = extent(lines)
     kept = [line for line in lines if float(np.ptp(line.points, axis=0).max()) >= DOT * height]
     kept_ids = {line.id for line in kept}
@@ -41,8 +45,11 @@ def clean(lines: list[Line]) -> Cleaned:
     unfolded = [without_tremor(part, height) for line in kept for part in _unfold(line, height)]
     ordered = sorted((_upward(line) for line in unfolded), key=lambda line: _rank(line, height))
     owner = _owners(ordered, height)
-    merged = tuple((line, ordered[o].row) for line, o in zip(ordered, owner, strict=True) if o >= 0)
-    return Cleaned([line for line, o in zip(ordered, owner, strict=True) if o < 0], merged, dots)
+    merged = [(line, ordered[o].row, AGAIN_OVER) for line, o in zip(ordered, owner, strict=True) if o >= 0]
+    own, sides = trunk_of_edges([line for line, o in zip(ordered, owner, strict=True) if o < 0], under_crown)
+    if sides:
+        merged.append((sides[1], sides[0].row, OTHER_SIDE))
+    return Cleaned(own, tuple(merged), dots)
 
 
 def without_doubles(points: Float[np.ndarray, "point 2"], size: float) -> Float[np.ndarray, " point"]:

@@ -1,7 +1,7 @@
 """Which curve is the crown? What the file says, else a closed or nearly closed outline around the branches.
 
 A stroke is a crown by its shape if its ends nearly meet, it is round rather than a thin loop
-(4πA/P² ≥ ROUND for the hull-filled outline), it is large, and more than half of the other strokes' upper ends lie in it
+(4πA/P² ≥ ROUND for the hull-filled outline), it is large, and at least half of the other strokes' upper ends lie in it
 or touch it.
 """
 
@@ -9,12 +9,13 @@ import numpy as np
 import shapely
 from jaxtyping import Float
 
+from sketchtree.sketch.silhouette import is_blob
 from sketchtree.sketch.strokes import Stroke
 
 OPEN = 0.35  # widest opening of a nearly closed outline, of its larger side
 ROUND = 0.2  # least 4πA/P² of the outline's convex hull, times its share of the hull's area
 LARGE = 0.3  # least size of a crown, of the drawing's
-NEAR = 0.05  # of the drawing's size: a tip this near to the outline counts as inside
+NEAR = 0.1  # of the drawing's size: a tip this near to the outline counts as inside
 
 
 def crown_strokes(strokes: list[Stroke]) -> list[int]:
@@ -23,7 +24,7 @@ def crown_strokes(strokes: list[Stroke]) -> list[int]:
         return []
     size = float(np.ptp(np.concatenate([s.points for s in strokes]), axis=0).max())
     tips = np.array([_upper_end(stroke) for stroke in strokes])
-    found = [k for k, stroke in enumerate(strokes) if not stroke.labelled and not stroke.filled and _is_outline(stroke.points, size)]
+    found = [k for k, stroke in enumerate(strokes) if not stroke.labelled and (is_blob(stroke) or not stroke.filled) and _is_outline(stroke.points, size)]
     around = [k for k in found if _encloses(strokes[k].points, np.delete(tips, found, 0), size)]
     return around if len(around) < len(strokes) else []
 
@@ -54,11 +55,11 @@ def _is_outline(points: Float[np.ndarray, "point 2"], size: float) -> bool:
 
 def _encloses(points: Float[np.ndarray, "point 2"], tips: Float[np.ndarray, "stroke 2"], size: float) -> bool:
     region = shapely.make_valid(shapely.Polygon(points)).buffer(NEAR * size)
-    return len(tips) > 0 and float(shapely.contains_xy(region, tips).mean()) > 0.5
+    return len(tips) > 0 and float(shapely.contains_xy(region, tips).mean()) >= 0.5
 
 
 def _upper_end(stroke: Stroke) -> Float[np.ndarray, " 2"]:
-    ends = stroke.points[[0, -1]]
+    ends = stroke.points if stroke.filled or stroke.closed else stroke.points[[0, -1]]
     return ends[np.argmax(ends[:, 1])]
 
 

@@ -16,6 +16,7 @@ from sketchtree.sketch.graph import SketchGraph
 from sketchtree.sketch.joints import Limb, limbs_of
 from sketchtree.sketch.lines import Line, extent
 from sketchtree.sketch.segments import columns
+from sketchtree.sketch.silhouette import is_blob, middle_lines, with_holes
 from sketchtree.sketch.strokes import Sketch, StrokeKind
 from sketchtree.sketch.widths import drawn_widths
 
@@ -30,7 +31,7 @@ def sketch_graph(sketch: Sketch, *, crown: str = "auto") -> SketchGraph:
     if crown not in ("auto", "off"):
         raise OptionError(f"crown={crown!r}; 'auto' or 'off' was expected.", remedy="Leave it out for 'auto'.")
     parts = _sorted_strokes(sketch)
-    cleaned = clean(_lines(sketch, parts[StrokeKind.BRANCH]))
+    cleaned = clean(_lines(sketch, parts[StrokeKind.BRANCH]), under_crown=bool(parts[StrokeKind.CROWN]))
     height = extent(cleaned.lines)
     hanging = attach(cleaned.lines)
     limbs = limbs_of(cleaned.lines, hanging)
@@ -62,13 +63,20 @@ def _sorted_strokes(sketch: Sketch) -> dict[StrokeKind, list[int]]:
 
 
 def _lines(sketch: Sketch, rows: list[int]) -> list[Line]:
-    strokes = [sketch.strokes[row] for row in rows]
+    """The lines that the branch strokes draw, those down the middle of painted shapes included."""
+    drawn = [row for row in rows if not sketch.strokes[row].filled]
+    strokes = [sketch.strokes[row] for row in drawn]
     widths = drawn_widths(strokes)
-    lines = [as_line(row, stroke.id, stroke.points, width) for row, stroke, width in zip(rows, strokes, widths, strict=True)]
+    lines = [as_line(row, stroke.id, stroke.points, width) for row, stroke, width in zip(drawn, strokes, widths, strict=True)]
     lines = [line for line in lines if line is not None]
+    painted = [row for row in rows if sketch.strokes[row].filled]
+    for outer, holes in with_holes([sketch.strokes[row] for row in painted]):
+        shape = sketch.strokes[painted[outer]]
+        if not is_blob(shape):
+            lines += middle_lines(painted[outer], shape, [sketch.strokes[painted[hole]] for hole in holes])
     if not lines:
         raise SketchError(
-            f"{sketch.name} has no branch strokes" + (": only dots." if rows else "."),
+            f"{sketch.name} has no branch strokes" + (": only dots or round shapes." if rows else "."),
             remedy="Draw at least a trunk, as a line.",
         )
     return lines

@@ -234,8 +234,8 @@ def _strokes(shapes: list[_Shape], name: str, view: tuple[float, float]) -> tupl
     pieces = np.concatenate([path.cubics for *_, path in entries])
     points, steps = flatten(pieces, tolerance)
     ends = np.r_[0, np.cumsum(steps)][np.r_[0, np.cumsum([len(path.cubics) for *_, path in entries])]]
-    taken = {shape.id for shape in shapes if shape.id}
     strokes, warnings, used = [], [], set()
+    order = {id(shape): number for number, shape in enumerate(shapes, 1)}
     for number, (shape, k, path) in enumerate(entries):
         line = np.concatenate([path.start[None], points[ends[number] : ends[number + 1]]]) * (1.0, -1.0)
         if path.closed and len(line) > 1 and (line[0] == line[-1]).all():
@@ -243,7 +243,7 @@ def _strokes(shapes: list[_Shape], name: str, view: tuple[float, float]) -> tupl
         if shape.filled and shape.kind is None and _is_page(line, view):
             warnings.append(f"A filled shape over the whole page ({shape.id or 'no id'}) was taken for the paper and left out.")
             continue
-        stroke_id = _unique(_name(shape.id, k, number, taken), used)
+        stroke_id = _unique((shape.id or f"stroke-{order[id(shape)]}") + (f"-{k + 1}" if k else ""), used)
         try:
             strokes.append(
                 Stroke(stroke_id, line, shape.kind or StrokeKind.BRANCH, labelled=shape.kind is not None, closed=path.closed or shape.filled, width=shape.width, filled=shape.filled)
@@ -251,12 +251,6 @@ def _strokes(shapes: list[_Shape], name: str, view: tuple[float, float]) -> tupl
         except SketchError as error:
             raise SketchError(f"in {name}, {error.message}", stroke=stroke_id, remedy=error.remedy) from None
     return tuple(strokes), tuple(warnings)
-
-
-def _name(element_id: str | None, k: int, number: int, taken: set[str]) -> str:
-    if element_id is not None:
-        return element_id if k == 0 else f"{element_id}-{k + 1}"
-    return f"stroke-{number + 1}"
 
 
 def _unique(name: str, used: set[str]) -> str:

@@ -16,7 +16,8 @@ def drawn_widths(strokes: list[Stroke]) -> list[Float[np.ndarray, " point"] | fl
     """Width at every point of every stroke, sketch units; NaN throughout where it says nothing."""
     pressed = [s.pressure is not None and np.ptp(s.pressure) > 0.05 for s in strokes]
     given = [s.width for s in strokes if s.width]
-    if not any(pressed) and (len(given) < len(strokes) or max(given) < VARIES * min(given)):
+    alike = len(given) < len(strokes) or max(given, default=0.0) < VARIES * min(given, default=1.0)
+    if alike and not any(pressed):
         return [np.nan] * len(strokes)
     pen = float(np.median(given)) if given else 1.0
     return [_width(stroke, pen) for stroke in strokes]

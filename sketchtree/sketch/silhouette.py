@@ -1,0 +1,151 @@
+"""Which lines run down the middle of a painted shape? Trunks and limbs drawn as filled outlines.
+
+The medial axis of the outline (Blum 1967), from the Voronoi diagram of points along it: ridges inside the
+shape, each with its distance r to the outline. The longest way through it is a line of width 2r; then, again and again,
+the longest side way, as long as it reaches well out of the disc it starts in (what is shorter is a corner or a bump of
+the outline). At an end the axis forks into the corners: it is cut back to where r falls no faster than FORK and
+drawn straight on to the outline.
+"""
+
+import dataclasses
+
+import numpy as np
+import shapely
+from jaxtyping import Float, Int
+from scipy.sparse import coo_array, csr_array
+from scipy.sparse.csgraph import connected_components, dijkstra
+from scipy.spatial import Voronoi
+
+from sketchtree.sketch.lines import Line, unit
+from sketchtree.sketch.strokes import Stroke
+
+SAMPLES = 800  # points along an outline
+FORK = 0.35  # fall of r along the axis above which it runs into a corner
+REACHES = 1.6  # a side way must be longer than this many r where it starts …
+LEAST = 0.02  # … and than this of the shape's size
+COMPACT = 0.45  # 4πA/P² of a shape, above which it is a blob and no limb
+
+
+def is_blob(stroke: Stroke) -> bool:
+    """Whether a painted shape is round rather than long or branched."""
+    shape = _polygon([stroke])
+    return shape.is_empty or 4 * np.pi * shape.area / shape.length**2 > COMPACT
+
+
+def with_holes(strokes: list[Stroke]) -> list[tuple[int, list[int]]]:
+    """(outer, its holes) among painted shapes: a hole is a later part of the same path, inside it."""
+    areas = [shapely.Polygon(s.points).area if len(s.points) > 2 else 0.0 for s in strokes]
+    inside: dict[int, int] = {}
+    for k, stroke in enumerate(strokes):
+        for j, other in enumerate(strokes):
+            same = stroke.id.rpartition("-")[0] in (other.id, other.id.rpartition("-")[0]) and "-" in stroke.id
+            if j != k and same and areas[j] > areas[k] and _polygon([other]).covers(shapely.Point(stroke.points[0])):
+                inside[k] = j
+    return [(k, [h for h, j in inside.items() if j == k]) for k in range(len(strokes)) if k not in inside]
+
+
+def middle_lines(row: int, outer: Stroke, holes: list[Stroke]) -> list[Line]:
+    """The limbs of one painted shape, the longest first; [] when it has no inside."""
+    shape = _polygon([outer, *holes])
+    if shape.is_empty or shape.area <= 0:
+        return []
+    size = float(np.ptp(outer.points, axis=0).max())
+    points, radius, graph = _medial_axis(shape)
+    if len(points) < 3:
+        return []
+    return [_line(row, outer.id, points[way], radius[way], shape, free, size) for way, free in _ways(points, radius, graph, size)]
+
+
+def _polygon(strokes: list[Stroke]) -> shapely.Polygon:
+    """The largest piece of the area inside the first outline and outside the others."""
+    rings = [shapely.make_valid(shapely.Polygon(s.points)) for s in strokes if len(s.points) > 2]
+    if not rings:
+        return shapely.Polygon()
+    area = rings[0] if len(rings) == 1 else rings[0].difference(shapely.union_all(rings[1:]))
+    pieces = [piece for piece in shapely.get_parts(area) if piece.geom_type == "Polygon"]
+    pieces = pieces or [p for part in shapely.get_parts(area) for p in shapely.get_parts(part) if p.geom_type == "Polygon"]
+    return max(pieces, key=lambda piece: piece.area, default=shapely.Polygon())
+
+
+def _medial_axis(shape: shapely.Polygon) -> tuple[Float[np.ndarray, "node 2"], Float[np.ndarray, " node"], csr_array]:
+    """(points of the axis, their distance to the outline, lengths of its edges as a symmetric graph)."""
+    dense = shapely.segmentize(shape, shape.length / SAMPLES)
+    border = np.unique(shapely.get_coordinates(dense), axis=0)
+    diagram = Voronoi(border)
+    ridges = np.array(diagram.ridge_vertices)
+    ridges = ridges[(ridges >= 0).all(1)]
+    inside = shapely.contains_xy(shape, diagram.vertices)
+    ridges = ridges[inside[ridges].all(1)]
+    used, ridges = np.unique(ridges, return_inverse=True)
+    ridges = ridges.reshape(-1, 2)
+    points = diagram.vertices[used]
+    length = np.maximum(np.hypot(*(points[ridges[:, 0]] - points[ridges[:, 1]]).T), 1e-12 * shape.length)
+    graph = coo_array((length, ridges.T), (len(points),) * 2).tocsr()
+    graph = graph + graph.T
+    _, piece = connected_components(graph, directed=False)
+    kept = np.flatnonzero(piece == np.argmax(np.bincount(piece))) if len(points) else np.zeros(0, np.int64)
+    radius = shapely.distance(shape.exterior, shapely.points(points[kept]))
+    for hole in shape.interiors:
+        radius = np.minimum(radius, shapely.distance(hole, shapely.points(points[kept])))
+    return points[kept], radius, graph[kept][:, kept]
+
+
+def _ways(points, radius, graph: csr_array, size: float) -> list[tuple[Int[np.ndarray, " step"], bool]]:
+    """(nodes from foot to tip, whether the foot is free) of the longest way and of every side way worth having."""
+    lowest = int(np.argmin(points[:, 1]))
+    far = int(np.argmax(dijkstra(graph, indices=lowest)))
+    foot = far if points[far, 1] < points[lowest, 1] else lowest
+    taken = np.zeros(len(points), bool)
+    found: list = []
+    start = np.array([foot])
+    while True:
+        away, before, source = dijkstra(graph, indices=start, min_only=True, return_predecessors=True)
+        reach = np.where(np.isfinite(away), away, 0.0) - (REACHES * radius[np.maximum(source, 0)] if found else 0.0)
+        tip = int(np.argmax(reach))
+        if found and reach[tip] < LEAST * size:
+            return found
+        way = [tip]
+        while before[way[-1]] >= 0:
+            way.append(int(before[way[-1]]))
+        found.append((np.array(way[::-1]), not found))
+        taken[way] = True
+        start = np.flatnonzero(taken)
+
+
+def _line(row: int, stroke_id: str, points, radius, shape: shapely.Polygon, free_foot: bool, size: float) -> Line:
+    """A way along the axis as a line, its free ends drawn straight on to the outline."""
+    low, high = (_corner_free(points, radius) if free_foot else 0), len(points) - _corner_free(points[::-1], radius[::-1])
+    low = min(low, high - 2)
+    points, radius = points[low:high], radius[low:high]
+    line = _simple(Line(row, stroke_id, points, 2 * radius), 1e-3 * size)
+    ends = [_to_outline(line, shape)] if len(line.points) > 1 else [None]
+    points, width = line.points, line.width
+    if ends[0] is not None:
+        points, width = np.vstack([points, ends[0]]), np.r_[width, width[-1]]
+    if free_foot and (foot := _to_outline(line.reversed(), shape)) is not None:
+        points, width = np.vstack([foot, points]), np.r_[width[0], width]
+    return dataclasses.replace(line, points=points, width=width)
+
+
+def _corner_free(points, radius) -> int:
+    """How many nodes at the start of a way lead out of a corner."""
+    s = np.r_[0.0, np.cumsum(np.hypot(*np.diff(points, axis=0).T))]
+    rise = radius - FORK * s  # falls once the axis has left the corner
+    best = int(np.argmax(np.where(s <= 1.5 * radius.max(), rise, -np.inf)))
+    return best if rise[best] > rise[0] else 0
+
+
+def _to_outline(line: Line, shape: shapely.Polygon) -> Float[np.ndarray, " 2"] | None:
+    """Where the line drawn straight on from its tip leaves the shape."""
+    width = max(float(line.width[-1]), 1e-9)
+    tip, onward = line.points[-1], unit(line.points[-1] - line.at(max(line.length - width, 0.0)))
+    ray = shapely.LineString([tip, tip + onward * 2.0 * width])
+    hits = shapely.get_coordinates(ray.intersection(shape.boundary))
+    return hits[np.argmin(np.hypot(*(hits - tip).T))] if len(hits) else None
+
+
+def _simple(line: Line, tolerance: float) -> Line:
+    """The line without the points that do not bend it."""
+    points = shapely.get_coordinates(shapely.simplify(shapely.LineString(line.points), tolerance))
+    s = shapely.line_locate_point(shapely.LineString(line.points), shapely.points(points))
+    return dataclasses.replace(line, points=points, width=np.interp(s, line.along, line.width))
