@@ -56,6 +56,10 @@ class Nodes:
         """What the node's random numbers are drawn by."""
         return keys.child_limb_id(self.limb, self.number * RANKS)
 
+    def join(self, other: "Nodes") -> "Nodes":
+        """These nodes and then those."""
+        return Nodes(**{f.name: np.concatenate([getattr(self, f.name), getattr(other, f.name)]) for f in fields(self)})
+
     def select(self, keep) -> "Nodes":
         """Only some of the nodes, by mask or by rows."""
         return Nodes(**{f.name: getattr(self, f.name)[keep] for f in fields(self)})

@@ -70,7 +70,7 @@ def open_tips(
 
 
 def drawn_nodes(
-    split: Split, open_: OpenBranches, library: Library, envelope: Envelope | None
+    split: Split, open_: OpenBranches, library: Library, habit: Habit, envelope: Envelope | None
 ) -> Nodes:
     """The nodes along drawn limbs that may bear new laterals (`position` counts what the tip will yet grow)."""
     tree = split.tree
@@ -81,7 +81,7 @@ def drawn_nodes(
     bare = bare_length(tree, library)
     rows = rows[arc[rows] >= bare[rows] - 1e-9]
     end = whole
-    if len(library.bare) == 2:  # a palm: what its trunk's stroke draws beyond the last frond is a frond
+    if habit.max_order == 1:  # a palm: what its trunk's stroke draws beyond the last frond is a frond
         last = _drawn_laterals_end(tree, arc)
         end = np.where((tree.order == 0) & np.isfinite(last), last, whole)
     rows = rows[arc[rows] <= end[rows] + 1e-9]

@@ -57,6 +57,11 @@ class Lobe:
             np.maximum.at(right[:, end], slab, x)
         return cls(height, left, right, _centroid_x(a, b), centre_z)
 
+    @property
+    def reach(self) -> float:
+        """The greatest distance of the surface from its axis, at most, metres."""
+        return float((self.right - self.left).max())
+
     def margin(self, point: Float[np.ndarray, "point 3"]) -> Float[np.ndarray, " point"]:
         """How far inside the surface each point lies, along its own radius, metres; negative outside."""
         y = point[:, 1]
@@ -85,6 +90,13 @@ class Envelope:
     def from_outlines(cls, outlines, centre_z: float = 0.0) -> "Envelope":
         """The envelope of closed outlines (each point 2, world metres); raises OptionError for a degenerate one."""
         return cls(tuple(Lobe.from_outline(outline, centre_z) for outline in outlines))
+
+    @property
+    def bounds(self) -> tuple[Float[np.ndarray, " 3"], Float[np.ndarray, " 3"]]:
+        """Two corners of a box that holds all lobes, metres."""
+        low = [(lobe.left.min(), lobe.height[0], lobe.centre_z - lobe.reach) for lobe in self.lobes]
+        high = [(lobe.right.max(), lobe.height[-1], lobe.centre_z + lobe.reach) for lobe in self.lobes]
+        return np.min(low, axis=0), np.max(high, axis=0)
 
     def inside(self, point: Float[np.ndarray, "point 3"]) -> Bool[np.ndarray, " point"]:
         """Which points lie inside or on the surface."""

@@ -22,6 +22,7 @@ from sketchtree.propagate.attach_block import MINIMUM_LENGTH, Nodes, attach
 from sketchtree.propagate.block import blocks_of, blocks_of_parameters
 from sketchtree.propagate.drawn import DrawnLaterals, bare_length, drawn_nodes, implied_crown, open_tips
 from sketchtree.propagate.envelope import Envelope
+from sketchtree.propagate.fill import GAP, ROUNDS, empty_points, towards
 from sketchtree.propagate.laterals import split_long
 from sketchtree.propagate.library import library
 from sketchtree.propagate.limb_growth import NODES, grow, plan
@@ -98,10 +99,11 @@ def propagate(
     if len(tree) == 0 or limit == 0:
         return Propagation(tree, np.zeros(len(tree), int), np.arange(len(tree)), 0, "generations", ())
     growth = _Growth(tree, _to_scale(habit, tree), theta, exemplar, crown, max_segments, key)
-    for _ in range(limit):
-        if not growth.generation():
+    growth.run(limit)
+    for round_ in range(ROUNDS if fill else 0):
+        if not growth.fill(round_, limit):
             break
-    return growth.result(limit)
+    return growth.result()
 
 
 class _Growth:
@@ -138,7 +140,8 @@ class _Growth:
     def _first_generation(self) -> OpenBranches:
         tree = self.drawn.tree
         tips = open_tips(tree, self.spacing, self.habit, self.envelope, self.key)
-        new = self._laterals(drawn_nodes(self.drawn, tips, self.library, self.envelope))
+        self.drawn_nodes = drawn_nodes(self.drawn, tips, self.library, self.habit, self.envelope)
+        new = self._laterals(self.drawn_nodes)
         drawn = DrawnLaterals.of(tree)
         usual = drawn.usual_length(new)
         at_most = np.minimum(new.length, _LIKE_DRAWN * usual)
@@ -155,6 +158,25 @@ class _Growth:
         lent = self.library.spacing[np.minimum(order, self.habit.max_order)] * self.scale
         lent = np.clip(np.maximum(np.sqrt(lent * habit), 0.8 * lent), _SPACING[0] * habit, _SPACING[1] * habit)
         return np.maximum(np.where(np.isnan(lent), wide, lent), whole / (4 * NODES))
+
+    def run(self, limit: int) -> None:
+        """Generation after generation, until `limit` of them are done or nothing is open."""
+        while self.done < limit and self.generation():
+            pass
+
+    def fill(self, round_: int, limit: int) -> bool:
+        """One round of growth into what is still empty; False where nothing is, or no more may be grown."""
+        if self.envelope is None or self.done >= limit or self.stopped_by == "max_segments":
+            return False
+        nodes = self.drawn_nodes
+        for part, _ in self.parts:
+            nodes = nodes.join(part)
+        empty = empty_points(self.envelope, nodes.tip, GAP * self.habit.lateral_spacing)
+        bears = (nodes.order < self.habit.max_order) & self.envelope.inside(nodes.tip)
+        self.open = towards(empty, nodes.select(bears), self.habit, round_, self.key)
+        before = self.rows
+        self.run(limit)
+        return self.rows > before
 
     def generation(self) -> bool:
         """Grow all open branches; False where there was nothing to grow."""
@@ -209,7 +231,7 @@ class _Growth:
         keep[lot] = np.cumsum(count[lot]) <= left
         return keep
 
-    def result(self, limit: int) -> Propagation:
+    def result(self) -> Propagation:
         """The whole skeleton."""
         tree = self.drawn.tree
         drawn_count = len(tree)

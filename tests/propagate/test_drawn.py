@@ -51,7 +51,7 @@ def test_within_a_crown_tips_grow_to_the_surface_at_most():
 def test_the_trunk_is_bare_up_to_its_first_drawn_limb():
     split, lib, _ = world()
     tips = open_tips(split.tree, np.full(len(split.tree), 0.4), HABIT, None, KEY)
-    nodes = drawn_nodes(split, tips, lib, None)
+    nodes = drawn_nodes(split, tips, lib, HABIT, None)
     arc, whole = limb_arcs(split.tree)
     first = bare_length(split.tree, lib)[split.tree.order == 0].max()
     assert arc[nodes.row[nodes.order == 0]].min() >= first - 1e-9
@@ -61,7 +61,7 @@ def test_the_trunk_is_bare_up_to_its_first_drawn_limb():
 def test_limbs_bear_along_their_length():
     split, lib, _ = world()
     tips = open_tips(split.tree, np.full(len(split.tree), 0.4), HABIT, None, KEY)
-    nodes = drawn_nodes(split, tips, lib, None)
+    nodes = drawn_nodes(split, tips, lib, HABIT, None)
     for limb in np.unique(split.tree.limb[split.tree.order == 1]):
         on = nodes.limb == limb
         assert on.sum() >= 3

@@ -78,7 +78,15 @@ def test_the_exit_lies_on_the_surface():
     fraction = envelope.exit_fraction(start, end)
     at = start + fraction[:, None] * (end - start)
     assert envelope.inside(at).all()
-    assert np.abs(envelope.lobes[0].margin(at)).max() < 1e-4
+    assert np.abs(np.linalg.norm(at - [0.0, 5.5, 0.0], axis=1) - 4.5).max() < 1e-3
+
+
+def test_the_bounds_hold_the_surface():
+    envelope = Envelope.from_outlines([circle(x=-1.0), circle(x=3.0, radius=1.0)])
+    low, high = envelope.bounds
+    point = ball(size=12.0)
+    held = ((point >= low) & (point <= high)).all(axis=1)
+    assert not envelope.inside(point)[~held].any()
 
 
 def test_a_segment_that_stays_inside_has_fraction_one():

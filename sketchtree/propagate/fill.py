@@ -1,0 +1,79 @@
+"""Where is the crown still empty, and what grows there?
+
+Growth by blocks leaves gaps where nothing drawn is near. To fill a crown evenly, points are spread over its
+volume (the Halton sequence, so that they are the same in every run); those farther than
+
+    gap = GAP · spacing of laterals
+
+from every node are empty. The nearest node that may still bear a lateral grows one towards each, as long as the
+way there; its laterals and theirs follow by blocks as everywhere. Rounds of this go on until no point is empty.
+"""
+
+import numpy as np
+from jaxtyping import Array, Float, Int, Key
+from scipy.spatial import cKDTree
+from scipy.stats import qmc
+
+from sketchtree import keys
+from sketchtree.parameters import Habit
+from sketchtree.propagate.attach_block import RANKS, Nodes
+from sketchtree.propagate.envelope import Envelope
+from sketchtree.propagate.open_branch import OpenBranches, polar, turn
+
+ROUNDS = 4  # at most
+GAP = 1.6  # spacings of laterals
+_POINTS = 30_000  # at most, over the crown's bounding box
+_WIDEST = np.radians(110.0)  # from a limb: towards points behind it nothing grows
+
+
+def empty_points(
+    envelope: Envelope, tips: Float[np.ndarray, "node 3"], gap: float
+) -> Float[np.ndarray, "point 3"]:
+    """Points inside the envelope that are farther than `gap` metres from every tip."""
+    low, high = envelope.bounds
+    count = int(np.clip(4.0 * np.prod(high - low) / gap**3, 64, _POINTS))
+    cube = qmc.Halton(3, scramble=False).random(count)
+    point = low + cube * (high - low)
+    point = point[envelope.inside(point)]
+    distance, _ = cKDTree(tips).query(point, distance_upper_bound=gap)
+    return point[np.isinf(distance)]
+
+
+def towards(
+    points: Float[np.ndarray, "point 3"], nodes: Nodes, habit: Habit, round_: int, key: Key[Array, ""] | np.uint64
+) -> OpenBranches:
+    """One open branch from each node that is the nearest to an empty point, towards it. `nodes` may not be of
+    the deepest order; `round_` keeps the limb ids of the rounds apart."""
+    rows = _nearest(points, nodes)
+    at, point = rows
+    way = point - nodes.tip[at]
+    length = np.linalg.norm(way, axis=1)
+    divergence, orientation = polar(np.einsum("bji,bj->bi", nodes.frame[at], way))
+    keep = (divergence < _WIDEST) & (length > habit.twig_length)
+    at, length, divergence, orientation = at[keep], length[keep], divergence[keep], orientation[keep]
+    length = np.minimum(length, 0.8 * nodes.whole[at])
+    limb = keys.child_limb_id(nodes.limb[at], nodes.number[at] * RANKS + RANKS - 1 - round_)
+    return OpenBranches(
+        row=nodes.row[at],
+        origin=nodes.tip[at],
+        frame=turn(nodes.frame[at], divergence, orientation, np.zeros(len(at), bool)),
+        limb=limb,
+        order=nodes.order[at] + 1,
+        tree=nodes.tree[at],
+        length=length * (0.85 + 0.15 * keys.uniform(key, limb, 13)),
+        grown=np.zeros(len(at)),
+        node=np.zeros(len(at), np.int64),
+        radius=np.minimum(nodes.radius[at], 0.02 * length),
+        bends=np.zeros(len(at), bool),
+    )
+
+
+def _nearest(points, nodes) -> tuple[Int[np.ndarray, " branch"], Float[np.ndarray, "branch 3"]]:
+    """(node, point) pairs: every point's nearest node, and of a node's points the nearest."""
+    if len(points) == 0 or len(nodes) == 0:
+        return np.zeros(0, np.int64), np.zeros((0, 3))
+    distance, node = cKDTree(nodes.tip).query(points)
+    order = np.lexsort((distance, node))
+    _, first = np.unique(node[order], return_index=True)
+    chosen = order[first]
+    return node[chosen], points[chosen]
