@@ -10,11 +10,11 @@ from typing import NamedTuple
 import jax
 import jax.numpy as jnp
 import numpy as np
-from jaxtyping import Array, Float, Int, Key
+from jaxtyping import Array, Float
 
 from sketchtree.mrf import proposals
 from sketchtree.mrf.log_posterior import LogPosterior
-from sketchtree.mrf.proposals import Moves
+from sketchtree.mrf.proposals import Draws, Moves
 
 TAKEN = 0.57
 ADAPT = 0.15
@@ -40,24 +40,23 @@ def run(
     posterior: LogPosterior,
     moves: Moves,
     chains: Chains,
-    keys: Key[Array, " chain"],
+    draws: Draws,
     temperature: Float[Array, " step"],
     langevin: Float[Array, " step"],
 ) -> tuple[Chains, Float[Array, "step chain segment"]]:
     """As many steps as there are temperatures; `langevin` is 1 at Langevin steps and 0 at mirror moves.
     Returns the chains after the last step, and ψ after every step."""
 
-    def step(chain, scheduled):
-        t, is_langevin, index = scheduled
-        return jax.vmap(lambda c, k: _step(posterior, moves, c, jax.random.fold_in(k, index), t, is_langevin))(chain, keys)
+    def step(chains, scheduled):
+        draws, t, is_langevin = scheduled
+        after = jax.vmap(lambda c, d: _step(posterior, moves, c, d, t, is_langevin))(chains, draws)
+        return after, after.elevation
 
-    index = jnp.arange(temperature.shape[0])
-    return jax.lax.scan(lambda c, s: (lambda n: (n, n.elevation))(step(c, s)), chains, (temperature, langevin, index))
+    return jax.lax.scan(step, chains, (draws, temperature, langevin))
 
 
-def _step(posterior, moves, chain, key, temperature, is_langevin):
+def _step(posterior, moves, chain, draws, temperature, is_langevin):
     psi = chain.elevation
-    draws = proposals.draw(key, psi.shape[0], psi.dtype)
     step = jnp.exp(chain.log_step) * jnp.sqrt(temperature)
     y = jnp.where(
         is_langevin > 0,

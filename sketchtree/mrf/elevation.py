@@ -23,7 +23,7 @@ from sketchtree.mrf.factor_graph import FactorGraph
 from sketchtree.mrf.interpenetration import moved_apart
 from sketchtree.mrf.log_posterior import LogPosterior, bucket, log_posterior
 from sketchtree.mrf.prior import Prior
-from sketchtree.mrf.proposals import Moves, moves
+from sketchtree.mrf.proposals import Moves, draw, moves
 from sketchtree.mrf.solver import AbstractSolver
 from sketchtree.mrf.typical import depth_of, typical_elevation
 
@@ -82,7 +82,7 @@ class Elevation(AbstractSolver):
     def compile(self, graph: FactorGraph, prior: Prior) -> None:
         if (graph.limb_parent != NULL).any():
             state = self.init(graph, prior, jax.random.key(0))
-            self._program(state, jax.random.key(0), 1.0)
+            self._program(graph, state, jax.random.key(0), 1.0)
 
     def init(self, graph: FactorGraph, prior: Prior, key: Key[Array, ""]) -> State:
         nothing = np.zeros(len(graph))
@@ -95,7 +95,7 @@ class Elevation(AbstractSolver):
 
     def step(self, graph: FactorGraph, prior: Prior, state: State, key: Key[Array, ""]) -> tuple[State, Info]:
         temperature = self.schedule[state.block]
-        program, arguments = self._program(state, key, temperature)
+        program, arguments = self._program(graph, state, key, temperature)
         after, path = program(*arguments)
         value = np.asarray(after.value)
         leader = int(np.argmax(value))
@@ -136,11 +136,12 @@ class Elevation(AbstractSolver):
     def _chain_count(self, segments: int) -> int:
         return max(4, min(self.chain_count, self.chain_count * 256 // segments))
 
-    def _program(self, state: State, key, temperature: float):
-        keys = jax.random.split(key, len(state.chains.value))
+    def _program(self, graph: FactorGraph, state: State, key, temperature: float):
         hot = np.full(BLOCK, temperature, np.float32)
         langevin = (np.arange(BLOCK) % 2).astype(np.float32)
-        arguments = (state.posterior, state.moves, state.chains, keys, hot, langevin)
+        chain_count, segments = state.chains.elevation.shape
+        draws = draw(key, BLOCK, chain_count, len(graph), segments)
+        arguments = (state.posterior, state.moves, state.chains, draws, hot, langevin)
         return compiled(chains.run, *arguments, name="chains"), arguments
 
     def _polished(self, graph: FactorGraph, state: State) -> State:

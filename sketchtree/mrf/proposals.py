@@ -37,13 +37,13 @@ class Moves(eqx.Module):
 
 
 class Draws(NamedTuple):
-    """The random numbers of one step."""
+    """The random numbers of one step of one chain; of a block with the axes (step, chain) in front."""
 
     noise: Float[Array, " segment"]
-    limb: Float[Array, ""]
-    kind: Float[Array, ""]
-    shift: Float[Array, ""]
-    accept: Float[Array, ""]
+    limb: Float[Array, ""]  # [0, 1): which limb
+    kind: Float[Array, ""]  # [0, 1): which move
+    shift: Float[Array, ""]  # radians
+    accept: Float[Array, ""]  # [0, 1)
 
 
 def moves(graph: FactorGraph, segments: int, limbs: int, dtype=np.float32) -> Moves:
@@ -75,11 +75,16 @@ def stiffness(graph: FactorGraph) -> Float[np.ndarray, " segment"]:
     return sharp
 
 
-def draw(key: Key[Array, ""], segments: int, dtype) -> Draws:
-    """Everything random in one step of one chain. Numbers of a row do not depend on the padding."""
-    noise_key, key = jax.random.split(key)
-    four = jax.random.uniform(key, (4,), dtype)
-    return Draws(jax.random.normal(noise_key, (segments,), dtype), four[0], four[1], SHIFT_SD * jax.scipy.special.ndtri(four[2]), four[3])
+def draw(key: Key[Array, ""], steps: int, chain_count: int, rows: int, segments: int) -> Draws:
+    """Everything random in a block of steps, with axes (step, chain) in front. Drawn on the host (Philox, seeded
+    by the key's words) for the drawing's own rows, so that the numbers do not depend on the padding and the compiled
+    program needs no generator."""
+    generator = np.random.Generator(np.random.Philox(np.asarray(jax.random.key_data(key)).astype(np.uint64)))
+    noise = np.zeros((steps, chain_count, segments), np.float32)
+    noise[:, :, :rows] = generator.standard_normal((steps, chain_count, rows), np.float32)
+    limb, kind, accept = generator.random((3, steps, chain_count), np.float32)
+    shift = SHIFT_SD * generator.standard_normal((steps, chain_count), np.float32)
+    return Draws(noise, limb, kind, shift.astype(np.float32), accept)
 
 
 def langevin(moves: Moves, psi, gradient, step, temperature, draws: Draws):

@@ -94,7 +94,7 @@ def _degenerate():
     plain = small_tree()
     tiny = plain.xy.copy()
     tiny[9] = tiny[5] + 1e-9
-    n = 30
+    n = 14
     fan = [[0, 0], [0, 50], *[[np.cos(k) * 40, 60 + abs(np.sin(k)) * 40] for k in range(n)]]
     return {
         "one-sided": plain.replace(xy=np.abs(plain.xy)),
