@@ -6,6 +6,7 @@ are fixed for good; normals are made from them here (Box-Muller), not by a gener
 """
 
 import hashlib
+from math import cos, exp, log1p, pi, sqrt
 
 import numpy as np
 
@@ -26,12 +27,12 @@ class Draws:
 
     def normal(self, sd: float = 1.0) -> float:
         """Normal with mean 0."""
-        radius = np.sqrt(-2.0 * np.log1p(-self.uniform()))
-        return float(sd * radius * np.cos(2.0 * np.pi * self.uniform()))
+        radius = sqrt(-2.0 * log1p(-self.uniform()))
+        return sd * radius * cos(2.0 * pi * self.uniform())
 
     def log_normal(self, sd: float) -> float:
         """Median 1; `sd` of the logarithm, cut at ± 2 sd."""
-        return float(np.exp(np.clip(self.normal(sd), -2 * sd, 2 * sd)))
+        return exp(min(max(self.normal(sd), -2 * sd), 2 * sd))
 
 
 def limb_stream_id(parent_id: int, rank: int) -> int:

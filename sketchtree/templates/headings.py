@@ -4,49 +4,67 @@
     tropism     v turned towards +y (or −y), never past it
     side        a horizontal unit vector perpendicular to v: azimuth 0 of its laterals
     lateral     the direction at divergence φ and azimuth ϕ about a limb
+
+One shoot at a time, so vectors are plain triples of floats (a numpy array of three costs ten times as much).
 """
 
-import numpy as np
-from jaxtyping import Float
+from math import atan2, cos, hypot, pi, sin, sqrt
 
-UP = np.array([0.0, 1.0, 0.0])
+Vector = tuple[float, float, float]  # x right, y up, z towards the viewer
+
+UP: Vector = (0.0, 1.0, 0.0)
 
 
-def unit(v: Float[np.ndarray, " 3"]) -> Float[np.ndarray, " 3"]:
+def along(a: Vector, step: float, v: Vector) -> Vector:
+    """a + step · v."""
+    return (a[0] + step * v[0], a[1] + step * v[1], a[2] + step * v[2])
+
+
+def unit(v: Vector) -> Vector:
     """v / |v|."""
-    return v / np.sqrt(v[0] * v[0] + v[1] * v[1] + v[2] * v[2])
+    size = sqrt(dot(v, v))
+    return (v[0] / size, v[1] / size, v[2] / size)
 
 
-def turn(v, axis, angle: float) -> Float[np.ndarray, " 3"]:
-    """`v` rotated about the unit `axis` by `angle` (radians, right-handed)."""
-    c, s = np.cos(angle), np.sin(angle)
-    dot = v[0] * axis[0] + v[1] * axis[1] + v[2] * axis[2]
-    return v * c + cross(axis, v) * s + axis * (dot * (1.0 - c))
+def dot(a: Vector, b: Vector) -> float:
+    """a · b."""
+    return a[0] * b[0] + a[1] * b[1] + a[2] * b[2]
 
 
-def cross(a, b) -> Float[np.ndarray, " 3"]:
+def cross(a: Vector, b: Vector) -> Vector:
     """a × b."""
-    return np.array([a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]])
+    return (a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0])
 
 
-def side(v) -> Float[np.ndarray, " 3"]:
+def turn(v: Vector, axis: Vector, angle: float) -> Vector:
+    """`v` rotated about the unit `axis` by `angle` (radians, right-handed)."""
+    c, s = cos(angle), sin(angle)
+    level = (1.0 - c) * dot(v, axis)
+    return along(along((v[0] * c, v[1] * c, v[2] * c), s, cross(axis, v)), level, axis)
+
+
+def side(v: Vector) -> Vector:
     """A horizontal unit vector perpendicular to `v`; +x where `v` is vertical."""
-    s = np.array([v[2], 0.0, -v[0]])
-    norm = np.hypot(s[0], s[2])
-    return s / norm if norm > 1e-6 else np.array([1.0, 0.0, 0.0])
+    size = hypot(v[0], v[2])
+    return (v[2] / size, 0.0, -v[0] / size) if size > 1e-6 else (1.0, 0.0, 0.0)
 
 
-def lateral(v, divergence: float, azimuth: float) -> Float[np.ndarray, " 3"]:
+def lateral(v: Vector, divergence: float, azimuth: float) -> Vector:
     """The direction `divergence` away from `v`, `azimuth` about it, counted from `side(v)`. Radians."""
     return turn(turn(v, cross(v, side(v)), divergence), v, azimuth)
 
 
-def tropism(v, angle: float) -> Float[np.ndarray, " 3"]:
+def bend(v: Vector, angle: float, azimuth: float) -> Vector:
+    """`v` turned by `angle` about the axis across it at `azimuth`."""
+    return unit(turn(v, lateral(v, pi / 2, azimuth), angle))
+
+
+def tropism(v: Vector, angle: float) -> Vector:
     """`v` turned by |angle| radians towards +y (angle > 0) or −y (angle < 0), never past it."""
-    goal = UP if angle > 0 else -UP
+    goal = UP if angle > 0 else (0.0, -1.0, 0.0)
     axis = cross(v, goal)
-    size = np.sqrt(np.sum(axis * axis))
+    size = sqrt(dot(axis, axis))
     if size < 1e-9:
         return v
-    apart = np.arctan2(size, float(v[1] * goal[1]))
-    return turn(v, axis / size, min(abs(angle), apart))
+    apart = atan2(size, dot(v, goal))
+    return turn(v, unit(axis), min(abs(angle), apart))

@@ -25,7 +25,7 @@ import numpy as np
 from jaxtyping import Float
 
 from sketchtree.axes import NULL
-from sketchtree.errors import OptionError, TemplateError
+from sketchtree.errors import OptionError, SketchError, TemplateError
 from sketchtree.sketch.graph import SketchGraph
 from sketchtree.templates.branching import Branching, branching
 from sketchtree.templates.database import Database
@@ -35,7 +35,7 @@ from sketchtree.templates.footprint import footprint, root_branch
 from sketchtree.templates.posture import posture
 
 SCORES = ("calibrated", "chen")
-WEIGHTS = (1.0, 0.5, 3.0)  # w_C, w_B, w_P
+WEIGHTS = (2.0, 0.5, 3.0)  # w_C, w_B, w_P
 SIGMA_FLOOR = (0.05, 0.01, 0.01)  # of sqrt(σ² + σ²) for s (1), α, β (rad): a drawing may be exactly regular
 
 
@@ -84,6 +84,8 @@ def match(graph: SketchGraph, db: Database, *, score: str = "calibrated") -> lis
 
 def sketch_shape(graph: SketchGraph) -> SketchShape:
     """Footprint of crown and branches without the root branch, branching and posture of a sketch."""
+    if graph.segment_count == 0:
+        raise SketchError("There is no branch to match.", remedy="Draw a trunk, or name a template with --template.")
     drawing = Drawing.of_graph(graph)
     outline = np.concatenate([_branch_points(graph), *graph.crown])
     width = None

@@ -13,13 +13,15 @@ dissolve into limbs. All numbers come from the recipe; the same recipe and seed 
 
 from collections import deque
 from dataclasses import dataclass
+from math import cos, hypot, inf, pi, radians, sin, sqrt, tan
 
 import numpy as np
 
 from sketchtree.axes import NULL
+from sketchtree.errors import TemplateError
 from sketchtree.skeleton import TreeSkeleton
 from sketchtree.templates.draws import Draws, limb_stream_id
-from sketchtree.templates.headings import lateral, side, tropism, turn, unit, UP
+from sketchtree.templates.headings import UP, Vector, along, bend, lateral, tropism, unit
 from sketchtree.templates.pipes import pipe_radii
 from sketchtree.templates.recipe import Recipe
 
@@ -32,7 +34,7 @@ class Bud:
     """Where a limb will start."""
 
     row: int  # of the parent's tip
-    heading: np.ndarray  # unit
+    heading: Vector  # unit
     level: int  # of its recipe table
     order: int  # branching order
     length: float  # metres
@@ -75,9 +77,7 @@ def grow(recipe: Recipe, seed: int | None = None) -> TreeSkeleton:
     return tree.replace(radius=pipe_radii(tree, recipe.habit))
 
 
-def _too_many(recipe: Recipe):
-    from sketchtree.errors import TemplateError
-
+def _too_many(recipe: Recipe) -> TemplateError:
     return TemplateError(
         f"Recipe {recipe.name}: it grows more than {MAX_SEGMENTS} segments.",
         remedy="Use longer segments, wider spacing, smaller ratios or fewer levels.",
@@ -88,11 +88,11 @@ def _stem(recipe: Recipe, rows: _Rows, stem: int, seed: int) -> Bud:
     crown, table = recipe.crown, recipe.level(0)
     draws = Draws(seed, limb_stream_id(0, stem))
     rank = stem / max(1.0, crown.stems - 1)
-    azimuth = np.radians(137.5 * stem) + draws.normal(0.3) if crown.stems > 1 else draws.between(0, 2 * np.pi)
-    out = np.array([np.cos(azimuth), 0.0, np.sin(azimuth)])
-    base = rows.add(NULL, out * crown.stem_ring * np.sqrt(rank), 0, stem)
-    heading = unit(UP + out * np.tan(np.radians(crown.stem_lean(rank))))
-    length = float(table.ratio(rank)) * crown.height * draws.log_normal(table.ratio_sd)
+    azimuth = radians(137.5 * stem) + draws.normal(0.3) if crown.stems > 1 else draws.between(0, 2 * pi)
+    out = (cos(azimuth), 0.0, sin(azimuth))
+    base = rows.add(NULL, along((0.0, 0.0, 0.0), crown.stem_ring * sqrt(rank), out), 0, stem)
+    heading = unit(along(UP, tan(radians(crown.stem_lean(rank))), out))
+    length = table.ratio(rank) * crown.height * draws.log_normal(table.ratio_sd)
     return Bud(base, heading, 0, 0, length, limb_stream_id(0, stem), draws)
 
 
@@ -117,26 +117,28 @@ class _Limb:
 
     def _trace(self):
         """Steps along the limb. Nodes: (row, heading, metres from the base, azimuth of a lateral or None)."""
-        table, bud, rows = self.table, self.bud, self.rows
-        at, heading, row, gone, node_at = np.array(rows.tip[bud.row]), bud.heading, bud.row, 0.0, -np.inf
-        steps = max(1, round(bud.length * (1 - bud.place) / table.segment))
-        step = bud.length * (1 - bud.place) / steps
+        table, bud, rows, draws = self.table, self.bud, self.rows, self.draws
+        at, heading, row, gone, node_at = rows.tip[bud.row], bud.heading, bud.row, 0.0, -inf
+        ahead = bud.length * (1 - bud.place)
+        steps = max(1, round(ahead / table.segment))
+        step = ahead / steps
         fork_places = [] if table.forks is None else [k for k in table.forks.knots if k[0] > bud.place + 1e-6]
         nodes, forks, inside = [], [], self._inside(at)
         for index in range(steps):
             share = bud.place + (index + 0.5) * step / bud.length
-            heading = turn(heading, unit(lateral(heading, np.pi / 2, self.draws.between(0, 2 * np.pi))),
-                           np.radians(abs(self.draws.normal(table.bend)))) if index else heading  # fmt: skip
-            heading = tropism(heading, np.radians(float(table.tropism(share)) * step))
-            nxt = at + step * heading
-            now_inside = self._inside(nxt)
-            if index and ((nxt[1] < min(GROUND, at[1])) or (table.clip and inside and not now_inside)):
+            if index:
+                azimuth = draws.between(0, 2 * pi)
+                heading = bend(heading, radians(abs(draws.normal(table.bend))), azimuth)
+            heading = tropism(heading, radians(table.tropism(share) * step))
+            reached = along(at, step, heading)
+            now_inside = self._inside(reached)
+            if reached[1] < min(GROUND, at[1]) or (index and table.clip and inside and not now_inside):
                 break
             inside = inside or now_inside
-            at, gone = nxt, gone + step
+            at, gone = reached, gone + step
             row = rows.add(row, at, bud.order, self.limb)
             share = bud.place + gone / bud.length
-            while fork_places and share >= fork_places[0][0]:
+            while index < steps - 1 and fork_places and share >= fork_places[0][0]:
                 heading, more = self._fork(row, heading, share, int(fork_places.pop(0)[1]), len(forks))
                 forks.extend(more)
             if table.bare <= share <= table.end and gone - node_at >= table.spacing * 0.99:
@@ -151,11 +153,10 @@ class _Limb:
         table = self.table
         self.azimuth += table.phyllotaxis
         whorl = int(table.whorl)
-        axes = [np.radians(self.azimuth + 360.0 * k / whorl + self.draws.normal(table.azimuth_sd)) for k in range(whorl)]
+        axes = [radians(self.azimuth + 360.0 * k / whorl + self.draws.normal(table.azimuth_sd)) for k in range(whorl)]
         nodes.extend((row, heading, gone, azimuth) for azimuth in axes)
         if table.deflect and whorl == 1 and not last:
-            away = lateral(heading, np.pi / 2, axes[0])
-            return unit(heading * np.cos(np.radians(table.deflect)) - away * np.sin(np.radians(table.deflect)))
+            return lateral(heading, radians(table.deflect), axes[0] + pi)
         return heading
 
     def _lateral(self, node, grown: float, rank: int) -> Bud | None:
@@ -166,17 +167,16 @@ class _Limb:
         stream = limb_stream_id(bud.id, rank)
         draws = Draws(self.seed, stream)
         table = self.recipe.level(bud.level + 1)
-        place = bud.place + (1 - bud.place) * gone / max(grown, 1e-9)
-        span = max(own.end - own.bare, 1e-9)
-        along = float(np.clip((place - own.bare) / span, 0, 1))
-        if draws.uniform() < own.shed(along):
+        share = bud.place + (1 - bud.place) * gone / grown
+        place = min(max((share - own.bare) / max(own.end - own.bare, 1e-9), 0.0), 1.0)
+        if draws.uniform() < own.shed(place):
             return None
-        divergence = np.radians(max(1.0, float(table.angle(along)) + draws.normal(table.angle_sd)))
+        divergence = radians(max(1.0, table.angle(place) + draws.normal(table.angle_sd)))
         direction = lateral(heading, divergence, azimuth)
         if direction[1] < heading[1] - 0.15 and draws.uniform() < own.shed_below:
             return None
         parent_length = grown / (1 - bud.place)
-        length = float(table.ratio(along)) * parent_length * draws.log_normal(table.ratio_sd)
+        length = table.ratio(place) * parent_length * draws.log_normal(table.ratio_sd)
         length = min(length, table.longest * draws.log_normal(table.ratio_sd))
         if length < 0.5 * table.segment:
             return None
@@ -184,11 +184,11 @@ class _Limb:
 
     def _fork(self, row, heading, share, count, rank):
         """`count` limbs of this limb's kind go on from here, this one among them."""
-        start, angle = self.draws.between(0, 2 * np.pi), np.radians(self.table.fork_angle / 2)
+        start, angle = self.draws.between(0, 2 * pi), radians(self.table.fork_angle / 2)
         own = lateral(heading, angle, start)
         more = []
         for k in range(1, count):
-            azimuth = start + 2 * np.pi * k / count + self.draws.normal(0.15)
+            azimuth = start + 2 * pi * k / count + self.draws.normal(0.15)
             way = lateral(heading, angle * self.draws.between(0.8, 1.25), azimuth)
             length = self.bud.length * self.draws.between(0.85, 1.05)
             stream = limb_stream_id(self.bud.id, 10_000 + 100 * rank + k)
@@ -200,4 +200,4 @@ class _Limb:
         level = at[1] / (height * self.reach)
         if len(envelope.knots) > 1 and not envelope.knots[0][0] <= level <= envelope.knots[-1][0]:
             return False
-        return bool(np.hypot(at[0], at[2]) <= self.reach * envelope(level))
+        return hypot(at[0], at[2]) <= self.reach * envelope(level)

@@ -5,8 +5,7 @@ writes it as one number, or as `[[position, value], ...]`.
 """
 
 from dataclasses import dataclass
-
-import numpy as np
+from itertools import pairwise
 
 
 @dataclass(frozen=True)
@@ -20,10 +19,14 @@ class Profile:
         """The same value everywhere."""
         return cls(((0.0, float(value)),))
 
-    def __call__(self, position):
-        """Value at `position` (a number or an array)."""
-        at, value = zip(*self.knots, strict=True)
-        return np.interp(position, at, value)
+    def __call__(self, position: float) -> float:
+        """Value at `position`."""
+        if position <= self.knots[0][0]:
+            return self.knots[0][1]
+        for (a, low), (b, high) in pairwise(self.knots):
+            if position <= b:
+                return low + (high - low) * (position - a) / (b - a)
+        return self.knots[-1][1]
 
     @property
     def values(self) -> tuple[float, ...]:

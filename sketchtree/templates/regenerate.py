@@ -41,7 +41,7 @@ def orders(folder: Path, *, only: tuple[str, ...] = (), count: int | None = None
     """What to make from the recipes in `folder`, in the order of their names. `seed` is added to the recipes' own."""
     files = sorted(Path(folder).glob("*.toml"))
     if not files:
-        raise TemplateError(f"There are no recipes (*.toml) in {folder}.", remedy="Run it in a checkout, or name a folder.")
+        raise TemplateError(f"There are no recipes (*.toml) in {folder}.", remedy="Run it in a checkout, or name a folder with --recipes.")
     recipes = {recipe.name: (recipe, file.name) for file, recipe in ((f, read_recipe(f)) for f in files)}
     if len(recipes) < len(files):
         raise TemplateError(f"Two recipes in {folder} have the same `name`.", remedy="Give each a name of its own.")

@@ -56,7 +56,7 @@ def minimal() -> str:
     return MINIMAL
 
 
-@pytest.fixture
+@pytest.fixture(scope="session")
 def graph_of():
     """`make_graph`."""
     return make_graph

@@ -4,6 +4,7 @@ import dataclasses
 import hashlib
 import os
 import shutil
+from pathlib import Path
 
 import h5py
 import numpy as np
@@ -34,11 +35,12 @@ def copy(tmp_path):
 
 
 def refused(path, match):
-    before = open(path, "rb").read()
+    path = Path(path)
+    before = path.read_bytes()
     with pytest.raises(TemplateError, match=match) as caught:
         Database(path).verify()
-    assert open(path, "rb").read() == before, "the file is left alone"
-    assert os.path.basename(path) in str(caught.value)
+    assert path.read_bytes() == before, "the file is left alone"
+    assert path.name in str(caught.value)
     return str(caught.value)
 
 
@@ -147,7 +149,7 @@ def test_a_changed_checksum_is_found_by_the_roots(copy):
 
 def test_any_flipped_byte_is_harmless_or_refused(copy):
     """Damage anywhere never gives wrong values nor any other error."""
-    whole, rng = open(copy, "rb").read(), np.random.default_rng(8)
+    whole, rng = Path(copy).read_bytes(), np.random.default_rng(8)
     good = Database(SHIPPED)
     for at in np.r_[rng.integers(0, 4000, 20), rng.integers(0, len(whole), 20)]:
         broken = bytearray(whole)

@@ -2,8 +2,9 @@
 
 import numpy as np
 import pytest
+from scipy.spatial import ConvexHull
 
-from sketchtree.errors import OptionError
+from sketchtree.errors import OptionError, SketchError
 from sketchtree.skeleton import TreeSkeleton
 from sketchtree.templates.branching import Branching
 from sketchtree.templates.drawable import drawable
@@ -11,6 +12,7 @@ from sketchtree.templates.exemplar import Views
 from sketchtree.templates.footprint import crown_points, project
 from sketchtree.templates.match import (
     SIGMA_FLOOR,
+    WEIGHTS,
     SketchShape,
     branching_likeness,
     calibrated_terms,
@@ -23,7 +25,7 @@ from sketchtree.templates.recipe import read_recipe
 from sketchtree.templates.regenerate import recipe_folder
 
 UNSEEN = 17.0  # degrees: no view of the database
-KEPT = 0.85  # of sketches whose own species must come first; measured 0.96
+KEPT = 0.95  # share of sketches whose own species comes first: 0.958 without a crown, 1.0 with one
 
 
 def sketch_of(tree: TreeSkeleton, azimuth, graph_of, *, along=10, crown=False, shake=0.005):
@@ -33,10 +35,8 @@ def sketch_of(tree: TreeSkeleton, azimuth, graph_of, *, along=10, crown=False, s
     limb = np.unique(drawn.limb, return_inverse=True)[1]
     outline = ()
     if crown:
-        from scipy.spatial import ConvexHull
-
         points = project(crown_points(tree.start, tree.tip, tree.parent), azimuth)
-        outline = (points[ConvexHull(points).vertices],)
+        outline = (10 * points[ConvexHull(points).vertices] + [100, 50],)
     return graph_of(drawn.parent, 10 * xy + [100, 50], limb, outline)
 
 
@@ -89,7 +89,7 @@ def test_calibrated_terms_are_about_one_between_two_species(shipped):
         others = np.arange(len(shipped)) != e
         terms.append([crown[others].mean(), branching[others].mean(), held[others].mean()])
         assert crown[e, 3] == 0 and held[e, 3] == 0 and branching[e, 3] == 0
-    mean = -np.mean(terms, axis=0) / (1.0, 0.5, 3.0)
+    mean = -np.mean(terms, axis=0) / WEIGHTS
     assert ((mean > 0.5) & (mean < 1.6)).all(), mean
 
 
@@ -115,13 +115,22 @@ def test_without_a_crown_there_is_no_crown_term(shipped, graph_of):
         assert all(m.crown is None for m in match(graph, shipped, score=score))
 
 
+@pytest.fixture(scope="module")
+def own_sketches(shipped, graph_of):
+    """(species, its sketch with a crown) from an unseen side, with many and with few limbs."""
+    return [
+        (name, sketch_of(shipped.exemplar(name).skeleton, UNSEEN, graph_of, along=along, crown=True))
+        for name in shipped.names
+        for along in (10, 24)
+    ]
+
+
 @pytest.mark.parametrize("crown", [False, True])
-def test_an_exemplars_own_sketch_finds_it_again_from_an_unseen_side(shipped, graph_of, crown):
+def test_an_exemplars_own_sketch_finds_it_again_from_an_unseen_side(shipped, own_sketches, crown):
     place = []
-    for name in shipped.names:
-        for along in (10, 24):
-            graph = sketch_of(shipped.exemplar(name).skeleton, UNSEEN, graph_of, along=along, crown=crown)
-            place.append([m.name for m in match(graph, shipped)].index(name) + 1)
+    for name, graph in own_sketches:
+        ranked = match(graph if crown else graph.replace(crown=()), shipped)
+        place.append([m.name for m in ranked].index(name) + 1)
     first, third = np.mean(np.array(place) == 1), np.mean(np.array(place) <= 3)
     assert third == 1.0, f"own species in the first three: {third:.2f}"
     assert first >= KEPT, f"own species first: {first:.2f}, recorded {KEPT}"
@@ -164,6 +173,11 @@ def test_the_footprint_of_a_sketch_holds_crown_and_strokes_but_not_the_root_bran
     graph = graph_of([-1, 0, 1, 1], [[0, -50], [0, 2], [0, 3], [0.5, 3.0]], [0, 0, 0, 1], (crown,))
     f = sketch_shape(graph).footprint
     assert f[0] == f[16] == pytest.approx(0.5), "a square: the long stem below does not count"
+
+
+def test_a_sketch_without_a_branch_is_refused(shipped, graph_of):
+    with pytest.raises(SketchError, match=r"There is no branch to match\. Draw a trunk, or name a template with --template\."):
+        match(graph_of([-1], [[0, 0.0]], [0]), shipped)
 
 
 def test_an_unknown_score_is_refused(shipped, graph_of):

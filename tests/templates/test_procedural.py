@@ -5,7 +5,7 @@ import pytest
 
 from sketchtree.errors import TemplateError
 from sketchtree.templates.draws import Draws, limb_stream_id
-from sketchtree.templates.headings import UP, lateral, side, tropism, turn, unit
+from sketchtree.templates.headings import UP, bend, cross, lateral, side, tropism, turn, unit
 from sketchtree.templates.pipes import pipe_radii
 from sketchtree.templates.procedural import grow
 from sketchtree.templates.recipe import parse_recipe
@@ -17,6 +17,7 @@ def grown(text, **kwargs):
 
 
 def angle(a, b):
+    a, b = np.array(a), np.array(b)
     return np.degrees(np.arccos(np.clip(a @ b / np.linalg.norm(a) / np.linalg.norm(b), -1, 1)))
 
 
@@ -89,9 +90,10 @@ def test_several_stems_stand_on_bases_of_their_own(minimal):
     assert angle(tree.vector[tree.parent == last][0], UP) == pytest.approx(30.0)
 
 
-def test_a_recipe_that_runs_wild_is_refused(minimal):
+def test_a_recipe_that_runs_wild_is_refused(minimal, monkeypatch):
+    monkeypatch.setattr("sketchtree.templates.procedural.MAX_SEGMENTS", 900)
     text = minimal.replace("levels = 2", "levels = 8").replace("ratio = 0.3", "ratio = 2.0")
-    with pytest.raises(TemplateError, match=r"Recipe stick: it grows more than 20000 segments\. Use longer segments"):
+    with pytest.raises(TemplateError, match=r"Recipe stick: it grows more than 900 segments\. Use longer segments"):
         grown(text.replace("spacing = 1.0", "spacing = 0.5").replace("[habit]", "spacing = 0.4\n[habit]"))
 
 
@@ -113,15 +115,15 @@ def test_pipe_model_sums_to_the_power_n_before_it_is_stretched(minimal):
 
 
 def test_headings_turn_as_their_names_say():
-    v = unit(np.array([1.0, 1.0, 0.3]))
+    v, x, z, down = unit((1.0, 1.0, 0.3)), (1.0, 0.0, 0.0), (0.0, 0.0, 1.0), (0.0, -1.0, 0.0)
     assert angle(v, lateral(v, 0.7, 2.0)) == pytest.approx(np.degrees(0.7))
-    np.testing.assert_allclose(lateral(v, np.pi / 2, 0.0), side(v), atol=1e-12)
-    np.testing.assert_allclose(lateral(np.array([1.0, 0, 0]), np.pi / 2, np.pi / 2), UP, atol=1e-12)
-    np.testing.assert_allclose(turn(np.array([1.0, 0, 0]), np.array([0, 0, 1.0]), np.pi / 2), UP, atol=1e-12)
+    assert angle(v, bend(v, 0.3, 1.0)) == pytest.approx(np.degrees(0.3))
+    assert lateral(v, np.pi / 2, 0.0) == pytest.approx(side(v))
+    assert lateral(x, np.pi / 2, np.pi / 2) == pytest.approx(UP)
+    assert turn(x, z, np.pi / 2) == pytest.approx(UP) and cross(z, x) == UP
     assert angle(tropism(v, 0.2), UP) == pytest.approx(angle(v, UP) - np.degrees(0.2))
-    np.testing.assert_allclose(tropism(v, 9.0), UP, atol=1e-12)
-    np.testing.assert_allclose(tropism(v, -9.0), -UP, atol=1e-12)
-    np.testing.assert_allclose(tropism(UP, 0.3), UP)
+    assert tropism(v, 9.0) == pytest.approx(UP) and tropism(v, -9.0) == pytest.approx(down)
+    assert tropism(UP, 0.3) == UP and side(UP) == x
 
 
 def test_streams_are_fixed_numbers_of_their_limb():
