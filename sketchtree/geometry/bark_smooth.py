@@ -44,13 +44,13 @@ def palm(pixels: int) -> Relief:
     row, column = (np.mgrid[:pixels, :pixels] + 0.5) / pixels
     row = row + 0.010 * clouds(pixels, 61, 0.04, 0.04)
     column = column + 0.012 * clouds(pixels, 62, 0.04, 0.04)
-    a, b = 2.0 * column + 3.0 * row, 2.0 * column - 3.0 * row  # two families of spiral rows
+    a, b = 3.0 * column + 4.0 * row, 3.0 * column - 4.0 * row  # two families of spiral rows
     to_border = np.minimum(0.5 - np.abs(a % 1.0 - 0.5), 0.5 - np.abs(b % 1.0 - 0.5))
     up = 0.5 * ((b - np.floor(b)) + 1.0 - (a - np.floor(a)))  # 0 at the foot of a lozenge, 1 at its top
     fibre = clouds(pixels, 63, 0.003, 0.05, 1.3)
     lip = ramp(to_border + 0.02 * clouds(pixels, 65, 0.01, 0.03, 1.3), -0.03, 0.10)
     height = lip * (0.35 + 0.65 * up) + 0.04 * fibre
     tone = np.floor(a) * 7.0 % 2.0 * 0.5 + np.floor(b) * 5.0 % 2.0 * 0.5  # scars differ a little
-    color = mixed(ramp(height, 0.05, 0.9), (0.17, 0.13, 0.095), (0.53, 0.445, 0.345))
+    color = mixed(ramp(height, 0.05, 0.9), (0.24, 0.19, 0.145), (0.55, 0.465, 0.365))
     color *= (1.0 + 0.10 * fibre + 0.05 * (tone - 0.5) + 0.05 * clouds(pixels, 64, 0.1, 0.1))[..., None]
     return Relief(0.012 * blurred(height, 0.002), color, 0.93 - 0.05 * lip)

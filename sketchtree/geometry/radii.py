@@ -15,7 +15,8 @@ rows the tree has, and wood without branches tapers gently because leaves were f
 more tips stand than the trunk has pipes, λ is 0 and n grows until they fit. Palms thicken no further
 (monocots have no cambium): their trunk is nearly a cylinder and their fronds thin, whatever they carry.
 
-Radii that were drawn are honoured; the model fills in between them.
+Radii that were drawn are honoured; the model fills in between them. A limb drawn with one width all along says how
+thick it is where it starts, not that it ends like a pipe: it tapers from there to a twig.
 """
 
 from dataclasses import dataclass
@@ -29,7 +30,8 @@ from sketchtree.skeleton import TreeSkeleton
 from sketchtree.traverse import generations, is_tip, sum_to_root
 
 _PALM_TAPER = 0.18  # how much thinner a palm's trunk is at its head
-_FROND_BASE = 4.0  # radius of a frond's foot / radius of its tip
+_ONE_WIDTH = 1.1  # widths that differ by less than this factor count as one
+_FROND_BASE = 3.0  # radius of a frond's foot / radius of its tip
 
 
 @dataclass(frozen=True, eq=False)
@@ -47,30 +49,31 @@ class PipeRadii:
         """The tree with new radii. `key` is part of the stage's door; nothing here is random."""
         if len(tree) == 0:
             return tree
-        radius = pipe_radii(tree, self.habit)
+        radius, start = pipe_radii(tree, self.habit)
         if self.drawn_radius is not None:
             drawn = _checked(self.drawn_radius, len(tree))
-            radius = honour_drawn(tree.parent, radius, drawn, self.habit.twig_radius)
+            radius = honour_drawn(tree, radius, start, drawn, self.habit.twig_radius)
         return tree.replace(radius=radius)
 
 
-def pipe_radii(tree: TreeSkeleton, habit: Habit) -> Float[np.ndarray, " segment"]:
-    """Radius at every tip by the pipe model, metres."""
+def pipe_radii(tree: TreeSkeleton, habit: Habit) -> tuple[Float[np.ndarray, " segment"], Float[np.ndarray, " segment"]]:
+    """Radius by the pipe model at the tip and at the start of every segment, metres."""
     tips = sum_to_root(tree.parent, is_tip(tree.parent).astype(float))
     beyond = sum_to_root(tree.parent, tree.length) - tree.length  # metres of wood past each tip
-    radius = np.empty(len(tree))
+    at_tip, at_start = np.empty(len(tree)), np.empty(len(tree))
     for name in np.unique(tree.tree):
         rows = np.flatnonzero(tree.tree == name)
         bases = rows[tree.is_base[rows]]
         stem = bases[np.argmax(beyond[bases])]
         ground = max(habit.trunk_ratio * _extent(tree, rows), 1.01 * habit.twig_radius)
-        radius[rows] = _one_tree(tips[rows], beyond[rows], tips[stem], beyond[stem], ground, habit)
-        if habit.leaf_arrangement == "frond":
-            radius[rows] = _palm(tree, rows, ground, beyond, habit)
-    return radius
+        for radius, wood in ((at_tip, beyond), (at_start, beyond + tree.length)):
+            radius[rows] = _one_tree(tips[rows], wood[rows], tips[stem], beyond[stem], ground, habit)
+            if habit.leaf_arrangement == "frond":
+                radius[rows] = _palm(tree, rows, ground, wood[rows], beyond[rows], habit)
+    return at_tip, at_start
 
 
-def _one_tree(tips, beyond, stem_tips: float, stem_wood: float, ground: float, habit: Habit):
+def _one_tree(tips, wood, stem_tips: float, stem_wood: float, ground: float, habit: Habit):
     """ρ (N + λ L)^(1/n), with λ, or else n, from the radius at the ground."""
     twig, exponent = habit.twig_radius, habit.pipe_exponent
     pipes = (ground / twig) ** exponent
@@ -78,46 +81,75 @@ def _one_tree(tips, beyond, stem_tips: float, stem_wood: float, ground: float, h
         exponent = np.log(stem_tips) / np.log(ground / twig)
         pipes = stem_tips
     per_metre = (pipes - stem_tips) / stem_wood if stem_wood > 0 else 0.0
-    return twig * (tips + per_metre * beyond) ** (1.0 / exponent)
+    return twig * (tips + per_metre * wood) ** (1.0 / exponent)
 
 
-def _palm(tree: TreeSkeleton, rows, ground: float, beyond, habit: Habit):
+def _palm(tree: TreeSkeleton, rows, ground: float, wood, beyond, habit: Habit):
     """A nearly cylindrical trunk; fronds from a slim foot to a twig's tip."""
     y = tree.tip[rows, 1]
     trunk = tree.order[rows] == 0
     rise = (y - y.min()) / max(np.ptp(y[trunk]) if trunk.any() else 1.0, 1e-9)
     stem = ground * (1.0 - _PALM_TAPER * np.clip(rise, 0.0, 1.0))
-    longest = max(beyond[rows][~trunk].max(initial=0.0), 1e-9)
-    frond = habit.twig_radius * (1.0 + (_FROND_BASE - 1.0) * beyond[rows] / longest)
+    longest = max(beyond[~trunk].max(initial=0.0), 1e-9)
+    frond = habit.twig_radius * (1.0 + (_FROND_BASE - 1.0) * np.minimum(wood / longest, 1.0))
     radius = np.where(trunk, stem, np.minimum(frond, 0.5 * ground * (1.0 - _PALM_TAPER)))
     return never_thicker(tree.parent, _scatter(len(tree), rows, radius))[rows]
 
 
 def honour_drawn(
-    parent: Int[np.ndarray, " segment"],
+    tree: TreeSkeleton,
     model: Float[np.ndarray, " segment"],
+    model_start: Float[np.ndarray, " segment"],
     drawn: Float[np.ndarray, " segment"],
     twig: float,
 ) -> Float[np.ndarray, " segment"]:
     """Drawn radii where there are any (NaN: none), the model's elsewhere, never growing towards the tips.
 
-    Between a drawn row of radius a (the model said m) and the twigs, r = ρ (r_model / ρ)^γ with γ such
-    that m becomes a: the drawn row keeps its width and twigs stay twigs.
+    From a place of drawn radius a (where the model says m) on towards the twigs, r = ρ (r_model / ρ)^γ with γ such
+    that m becomes a: the place keeps its width and twigs stay twigs. In a limb whose drawn radii differ by
+    less than a tenth that place is the limb's start; in any other limb every drawn row is one.
     """
     if np.isnan(drawn).all():
         return model
-    drawn = _drawn_bases(parent, model, drawn)
-    needed = _largest_beyond(parent, np.nan_to_num(drawn, nan=0.0))
-    radius, anchor, anchor_model = drawn.copy(), drawn.copy(), model.copy()
+    parent = tree.parent
+    even, foot = _evenly_drawn(tree, drawn)
+    pinned = np.where(even, np.nan, drawn)
+    pinned[tree.is_base] = _drawn_bases(parent, model, drawn)[tree.is_base]
+    needed = _needed(parent, pinned, np.where(foot, drawn, np.nan))
+    radius, anchor, anchor_model = pinned.copy(), pinned.copy(), model.copy()
     for rows in generations(parent)[1:]:
         above = parent[rows]
-        anchor[rows], anchor_model[rows] = anchor[above], anchor_model[above]
+        starts = foot[rows]
+        anchor[rows] = np.where(starts, np.minimum(drawn[rows], radius[above]), anchor[above])
+        anchor_model[rows] = np.where(starts, model_start[rows], anchor_model[above])
         filled = _between(model[rows], anchor[rows], anchor_model[rows], twig)
-        wanted = np.where(np.isnan(drawn[rows]), np.maximum(filled, needed[rows]), drawn[rows])
-        radius[rows] = np.minimum(wanted, radius[above])
-        pinned = rows[~np.isnan(drawn[rows])]
-        anchor[pinned], anchor_model[pinned] = radius[pinned], model[pinned]
+        free = np.isnan(pinned[rows])
+        radius[rows] = np.minimum(np.where(free, np.maximum(filled, needed[rows]), pinned[rows]), radius[above])
+        held = rows[~free]
+        anchor[held], anchor_model[held] = radius[held], model[held]
     return radius
+
+
+def _evenly_drawn(tree: TreeSkeleton, drawn):
+    """Rows of limbs that were drawn with one width all along, and which of them is such a limb's first."""
+    known = np.flatnonzero(~np.isnan(drawn) & ~tree.is_base)
+    limbs, first, index = np.unique(tree.limb[known], return_index=True, return_inverse=True)
+    low, high = np.full(len(limbs), np.inf), np.zeros(len(limbs))
+    np.minimum.at(low, index, drawn[known])
+    np.maximum.at(high, index, drawn[known])
+    is_even = high <= _ONE_WIDTH * low
+    even, foot = np.zeros(len(drawn), bool), np.zeros(len(drawn), bool)
+    even[known] = is_even[index]
+    foot[known[first[is_even]]] = True
+    return even, foot
+
+
+def _needed(parent, pinned, at_foot):
+    """The least radius of every row that lets all drawn wood beyond it keep its width."""
+    most = np.nan_to_num(pinned, nan=0.0)
+    for rows in reversed(generations(parent)[1:]):
+        np.maximum.at(most, parent[rows], np.fmax(most[rows], at_foot[rows]))
+    return most
 
 
 def never_thicker(parent, radius):
@@ -149,13 +181,6 @@ def _drawn_bases(parent, model, drawn):
         row = thickest.get(int(base))
         drawn[base] = model[base] if row is None else drawn[row] * np.clip(model[base] / model[row], 1.0, 1.5)
     return drawn
-
-
-def _largest_beyond(parent, value):
-    most = np.array(value, float)
-    for rows in reversed(generations(parent)[1:]):
-        np.maximum.at(most, parent[rows], most[rows])
-    return most
 
 
 def _extent(tree: TreeSkeleton, rows) -> float:
