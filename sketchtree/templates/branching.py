@@ -38,9 +38,8 @@ def branching(drawing: Drawing) -> Branching:
     parent = drawing.parent[child]
     vector = drawing.tip - drawing.start
     length = np.hypot(vector[..., 0], vector[..., 1])
-    seen = (length > SHORT * np.maximum(drawing.size, 1e-12)[:, None])[:, child] & (
-        length > SHORT * np.maximum(drawing.size, 1e-12)[:, None]
-    )[:, parent]
+    long = length > SHORT * np.maximum(drawing.size, 1e-12)[:, None]
+    seen = long[:, child] & long[:, parent]
     angle = _angle(vector[:, child], vector[:, parent])
     apical = _smallest(np.where(seen, angle, np.inf), parent) & seen
     ratio = length[:, child] / np.where(seen, length[:, parent], 1.0)

@@ -13,7 +13,7 @@ that 1 means "as unlike as two species"; and the drawing's posture is a third te
 
     C = ‖f_S − f_E|v‖² / E‖f_A − f_B‖²
     B = mean_x ρ( (μ_x − μ_x,E|v)² / (2 S_x² + σ_x² / n_x) )        S_x sd of μ_x between exemplars
-    P = mean_k ρ( (p_k − p_k,E|v)² / 2 S_k² )                       p the posture, S_k sd between exemplars
+    P = mean_k ρ( (p_k − p_k,E|v)² / 2 S_k² )                       p the posture (what is shown of it), S_k as S_x
     L = −(w_C C + w_B B + w_P P),     ρ(d) = 3 ln(1 + d/3)          heavy tails: one odd trait costs little more
 
 All exemplars and views are one array expression.
@@ -124,7 +124,8 @@ def calibrated_terms(shape: SketchShape, views: Views):
     error = np.nan_to_num(sketch.sd[0] ** 2 / np.maximum(sketch.count[0], 1))
     unlike = (sketch.mean[0] - exemplar.mean) ** 2 / (2 * _spread(exemplar.mean) ** 2 + error + 1e-6)
     unlike = np.where(np.isnan(unlike), 1.0, _heavy(unlike))  # lacking it is as bad as another species
-    held = _heavy((shape.posture - views.posture) ** 2 / (2 * _spread(views.posture) ** 2 + 1e-4))
+    shown = ~np.isnan(shape.posture)  # `aspect` always is
+    held = _heavy((shape.posture - views.posture) ** 2 / (2 * _spread(views.posture) ** 2 + 1e-4))[..., shown]
     return crown, -w_branching * unlike.mean(axis=-1), -w_posture * held.mean(axis=-1)
 
 

@@ -15,7 +15,8 @@ forget where limbs stand on the trunk and where they point. Per view, of the dra
     arch         1 − chord / length of limbs
     stems        log₂ of the number of stems
 
-A drawing without limbs on its stems has its stems for limbs. All are free of scale; mirror images agree.
+What a drawing does not show is NaN: `insertions` and `taper` need three limbs on the stems; where there is no limb
+at all, only `aspect`, `leader` and `stems` are known. All are free of scale; mirror images agree.
 """
 
 import numpy as np
@@ -40,7 +41,7 @@ def posture(drawing: Drawing, width: Float[np.ndarray, " view"] | None = None) -
     first, every = limbs.first_order, limbs.not_stem
     length = limbs.length / height[:, None]
     stem_top = np.where(limbs.stem, limbs.tip[..., 1], -np.inf).max(axis=1)
-    return np.stack([
+    shown = np.stack([
         np.clip(np.log(np.maximum(wide, 1e-9) / height), -3, 3),
         np.percentile(at[:, first], 10, axis=1),
         (stem_top - ground) / height,
@@ -53,6 +54,15 @@ def posture(drawing: Drawing, width: Float[np.ndarray, " view"] | None = None) -
         _mean(1 - limbs.chord[:, every] / np.maximum(limbs.length[:, every], 1e-9), length[:, every]),
         np.full(len(height), np.log2(max(1, int(base.sum())))),
     ], axis=1)  # fmt: skip
+    unknown = [FEATURES.index(name) for name in _hidden(limbs)]
+    shown[:, unknown] = np.nan
+    return shown
+
+
+def _hidden(limbs: "_Limbs") -> tuple[str, ...]:
+    if limbs.stem.all():
+        return tuple(name for name in FEATURES if name not in ("aspect", "leader", "stems"))
+    return ("insertions", "taper") if limbs.first_order.sum() < 3 else ()
 
 
 class _Limbs:
