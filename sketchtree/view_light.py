@@ -16,7 +16,7 @@ _CELLS = 44  # along the longest side
 _PROJECTION = 0.5
 _SKY = [(0.0, 1.0, 0.0)] + [(np.cos(a), 0.55, np.sin(a)) for a in 2 * np.pi * np.arange(5) / 5]  # up and slanting
 
-Points = Float[np.ndarray, "point 3"]
+Points = Float[np.ndarray, "_ 3"]
 
 
 def baked_light(
@@ -32,7 +32,7 @@ def baked_light(
     held = np.bincount(flat, area, minlength=int(np.prod(shape)))
     grid = low + (np.stack(np.unravel_index(np.arange(len(held)), tuple(shape)), axis=1) + 0.5) * cell
     full = held > 0
-    field = [transmittance(grid, grid[full], held[full], direction) for direction in (sun, *_SKY)]
+    field = [transmittance(grid, grid[full], held[full], np.asarray(direction)) for direction in (sun, *_SKY)]
     volumes = [field[0].reshape(shape), np.mean(field[1:], axis=0).reshape(shape)]
     read = lambda volume, at: ndimage.map_coordinates(volume, at, order=1, mode="nearest")  # noqa: E731
     places = [((p - low) / cell - 0.5).T for p in points]

@@ -28,7 +28,7 @@ def beech() -> Painting:
     """Fagus sylvatica: oval with a wavy, hairy edge and straight side veins that end in its waves."""
     half = smooth([(0, 0), (0.10, 0.035), (0.22, 0.14), (0.31, 0.32), (0.325, 0.48), (0.27, 0.68), (0.16, 0.86), (0.06, 0.955), (0, 1)])
     outline = closed(wavy(half, 7, 0.010), wavy(half * [0.97, 1], 7, -0.010))
-    veins = [midrib(0.14, 0.015)] + pinnate(outline, 8, first=0.05, last=0.80, angle=50, bend=10, width=0.009)
+    veins = [midrib(0.14, 0.015)] + pinnate(outline, 8, first=0.05, last=0.80, angle=50.0, bend=10.0, width=0.009)
     return paint_blade(outline, veins, petiole=0.14, reticulation=0.8, seed=2)
 
 
@@ -49,8 +49,8 @@ def maple() -> Painting:
     lobes = reaching([(0.0, 0.645, 0.51), (0.0, 0.49, 0.065)], 0.012, bow=-0.03)
     veins += lobes
     for lobe in lobes:
-        veins += branching(outline, lobe, 3, angle=42, width=0.006)
-    veins += pinnate(outline, 5, first=0.22, last=0.84, angle=42, bend=8, width=0.006)
+        veins += branching(outline, lobe, 3, angle=42.0, width=0.006)
+    veins += pinnate(outline, 5, first=0.22, last=0.84, angle=42.0, bend=8.0, width=0.006)
     return paint_blade(outline, veins, petiole=0.62, seed=3)
 
 
@@ -58,7 +58,7 @@ def birch() -> Painting:
     """Betula pendula: a rhomb drawn out to a point, doubly toothed."""
     half = smooth([(0, 0), (0.10, 0.012), (0.25, 0.09), (0.365, 0.24), (0.355, 0.33), (0.235, 0.54), (0.105, 0.77), (0.035, 0.91), (0, 1)])
     outline = closed(serrate(half, 13, 0.034, double=0.35), serrate(half * [0.97, 1], 13, 0.034, double=0.35, phase=0.4))
-    veins = [midrib(0.34, 0.014)] + pinnate(outline, 6, first=0.05, last=0.74, angle=50, bend=14, width=0.0085)
+    veins = [midrib(0.34, 0.014)] + pinnate(outline, 6, first=0.05, last=0.74, angle=50.0, bend=14.0, width=0.0085)
     return paint_blade(outline, veins, petiole=0.34, seed=4)
 
 
@@ -66,7 +66,7 @@ def willow() -> Painting:
     """Salix babylonica: a narrow lance, finely toothed, often a little sickle-shaped."""
     half = smooth([(0, 0), (0.022, 0.03), (0.05, 0.14), (0.066, 0.32), (0.062, 0.5), (0.045, 0.72), (0.020, 0.89), (0, 1)])
     outline = closed(serrate(half, 42, 0.0035), serrate(half * [0.95, 1], 42, 0.0035, phase=0.5))
-    veins = [midrib(0.07, 0.011)] + pinnate(outline, 16, first=0.05, last=0.85, angle=46, bend=26, width=0.0032)
+    veins = [midrib(0.07, 0.011)] + pinnate(outline, 16, first=0.05, last=0.85, angle=46.0, bend=26.0, width=0.0032)
     return paint_blade(outline, veins, petiole=0.07, reticulation=0.5, seed=5)
 
 
@@ -74,7 +74,7 @@ def poplar() -> Painting:
     """Populus nigra 'Italica': a broad delta with a clear rim, on a long flattened petiole."""
     half = smooth([(0, 0), (0.14, -0.005), (0.32, 0.06), (0.455, 0.19), (0.455, 0.29), (0.305, 0.49), (0.135, 0.73), (0.045, 0.89), (0, 1)])
     outline = closed(serrate(half, 17, 0.018), serrate(half * [0.97, 1], 17, 0.018, phase=0.5))
-    veins = [midrib(0.55, 0.017)] + pinnate(outline, 5, first=0.02, last=0.66, angle=56, bend=24, width=0.011)
+    veins = [midrib(0.55, 0.017)] + pinnate(outline, 5, first=0.02, last=0.66, angle=56.0, bend=24.0, width=0.011)
     return paint_blade(outline, veins, petiole=0.55, seed=6)
 
 
@@ -82,7 +82,7 @@ def apple() -> Painting:
     """Malus domestica: elliptic with a short point, bluntly toothed, the halves tilted up."""
     half = smooth([(0, 0), (0.11, 0.03), (0.22, 0.14), (0.295, 0.34), (0.295, 0.52), (0.225, 0.74), (0.11, 0.90), (0.04, 0.965), (0, 1)])
     outline = closed(serrate(half, 20, 0.018, double=0.25), serrate(half * [0.96, 1], 20, 0.018, double=0.25, phase=0.3))
-    veins = [midrib(0.30, 0.017)] + pinnate(outline, 6, first=0.06, last=0.76, angle=52, bend=28, width=0.009)
+    veins = [midrib(0.30, 0.017)] + pinnate(outline, 6, first=0.06, last=0.76, angle=52.0, bend=28.0, width=0.009)
     return paint_blade(outline, veins, petiole=0.30, seed=7)
 
 
@@ -90,7 +90,7 @@ def hazel() -> Painting:
     """Corylus avellana: nearly round with a heart-shaped foot and a sudden point, doubly toothed."""
     half = smooth([(0, 0), (0.07, -0.045), (0.20, -0.04), (0.345, 0.09), (0.42, 0.30), (0.43, 0.50), (0.36, 0.70), (0.19, 0.875), (0.055, 0.935), (0, 1)])
     outline = closed(serrate(half, 15, 0.034, double=0.4), serrate(half * [0.97, 1], 15, 0.034, double=0.4, phase=0.5))
-    veins = [midrib(0.16, 0.017)] + pinnate(outline, 7, first=0.03, last=0.76, angle=52, bend=10, width=0.0105)
+    veins = [midrib(0.16, 0.017)] + pinnate(outline, 7, first=0.03, last=0.76, angle=52.0, bend=10.0, width=0.0105)
     return paint_blade(outline, veins, petiole=0.16, reticulation=1.3, seed=8)
 
 

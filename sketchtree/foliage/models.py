@@ -71,7 +71,7 @@ _MODELS = {
     model.name: model
     for model in (
         LeafModel(
-            "oak", blades.oak, spur=3, arrangement="alternate", size=0.095, spacing=0.035, inclination=52, droop=0.22, fold=12, curl=0.10,
+            "oak", blades.oak, spur=3, arrangement="alternate", size=0.095, spacing=0.035, inclination=52.0, droop=0.22, fold=12.0, curl=0.10,
             palettes=_seasons(
                 ("#93994f", "#b0a65e", "#c9c68a", "#9a8a55"),
                 ("#4e642c", "#71833f", "#a3ab6c", "#7d8350"),
@@ -79,7 +79,7 @@ _MODELS = {
             ),
         ),
         LeafModel(
-            "beech", blades.beech, spur=2, arrangement="alternate", size=0.075, spacing=0.032, inclination=55, droop=0.22, fold=10, curl=0.08,
+            "beech", blades.beech, spur=2, arrangement="alternate", size=0.075, spacing=0.032, inclination=55.0, droop=0.22, fold=10.0, curl=0.08,
             palettes=_seasons(
                 ("#8fae4c", "#a9bf60", "#c6d28c", "#a59a5c"),
                 ("#4d6a2e", "#769243", "#a3b56c", "#84703f"),
@@ -87,7 +87,7 @@ _MODELS = {
             ), roughness=0.5,
         ),
         LeafModel(
-            "maple", blades.maple, spur=2, arrangement="decussate", size=0.11, spacing=0.06, inclination=58, droop=0.35, fold=9, curl=0.10,
+            "maple", blades.maple, spur=2, arrangement="decussate", size=0.11, spacing=0.06, inclination=58.0, droop=0.35, fold=9.0, curl=0.10,
             palettes=_seasons(
                 ("#95ab4e", "#b3bf62", "#c8d08a", "#a08a4a"),
                 ("#4c6b31", "#759048", "#a5b877", "#93804a"),
@@ -95,7 +95,7 @@ _MODELS = {
             ),
         ),
         LeafModel(
-            "birch", blades.birch, spur=3, arrangement="alternate", size=0.05, spacing=0.026, inclination=60, droop=0.55, fold=8, curl=0.08,
+            "birch", blades.birch, spur=3, arrangement="alternate", size=0.05, spacing=0.026, inclination=60.0, droop=0.55, fold=8.0, curl=0.08,
             palettes=_seasons(
                 ("#9db554", "#b4c66c", "#cbd693", "#a3a260"),
                 ("#587538", "#84994c", "#afbb78", "#90894f"),
@@ -103,7 +103,7 @@ _MODELS = {
             ),
         ),
         LeafModel(
-            "willow", blades.willow, spur=2, arrangement="spiral", size=0.10, spacing=0.022, inclination=38, droop=0.60, fold=9, curl=0.16, shoot=6,
+            "willow", blades.willow, spur=2, arrangement="spiral", size=0.10, spacing=0.022, inclination=38.0, droop=0.60, fold=9.0, curl=0.16, shoot=6.0,
             palettes=_seasons(
                 ("#a5b960", "#bac979", "#d2dba2", "#b0aa62"),
                 ("#6a8548", "#9aac6c", "#bcc794", "#a09a58"),
@@ -111,7 +111,7 @@ _MODELS = {
             ), roughness=0.5,
         ),
         LeafModel(
-            "poplar", blades.poplar, spur=3, arrangement="spiral", size=0.06, spacing=0.03, inclination=50, droop=0.40, fold=9, curl=0.06,
+            "poplar", blades.poplar, spur=3, arrangement="spiral", size=0.06, spacing=0.03, inclination=50.0, droop=0.40, fold=9.0, curl=0.06,
             palettes=_seasons(
                 ("#98ad52", "#b0bd62", "#ccd38e", "#b0a25a"),
                 ("#547437", "#82994b", "#b2bd80", "#a09a5c"),
@@ -119,7 +119,7 @@ _MODELS = {
             ), roughness=0.45,
         ),
         LeafModel(
-            "apple", blades.apple, spur=3, arrangement="spiral", size=0.075, spacing=0.03, inclination=55, droop=0.25, fold=20, curl=0.16,
+            "apple", blades.apple, spur=3, arrangement="spiral", size=0.075, spacing=0.03, inclination=55.0, droop=0.25, fold=20.0, curl=0.16,
             palettes=_seasons(
                 ("#92aa52", "#aaba68", "#c4cd90", "#a08c56"),
                 ("#4c672f", "#738b48", "#a3b078", "#8b7448"),
@@ -127,7 +127,7 @@ _MODELS = {
             ),
         ),
         LeafModel(
-            "hazel", blades.hazel, spur=2, arrangement="alternate", size=0.09, spacing=0.045, inclination=58, droop=0.30, fold=8, curl=0.12,
+            "hazel", blades.hazel, spur=2, arrangement="alternate", size=0.09, spacing=0.045, inclination=58.0, droop=0.30, fold=8.0, curl=0.12,
             palettes=_seasons(
                 ("#96ac50", "#adbc64", "#c6d08c", "#9d8c58"),
                 ("#557436", "#7f9549", "#a8b674", "#8a7a4c"),
@@ -135,9 +135,9 @@ _MODELS = {
             ), roughness=0.75,
         ),
         LeafModel(
-            "spruce", needles.spruce_tuft, arrangement="spiral", size=0.018, spacing=0.004, inclination=34, droop=0.10, planes=2,
+            "spruce", needles.spruce_tuft, arrangement="spiral", size=0.018, spacing=0.004, inclination=34.0, droop=0.10, planes=2,
             needle=needles.SPRUCE_NEEDLE, bundle=20,
-            shoot=6, evergreen=True, curl=0.0, fold=0.0,
+            shoot=6.0, evergreen=True, curl=0.0, fold=0.0,
             palettes=_seasons(
                 ("#3c5733", "#7f9c4e", "#8ba865", "#7a5a3c"),
                 ("#2f4a2e", "#516e42", "#6d8a5c", "#76563a"),
@@ -145,7 +145,7 @@ _MODELS = {
             ), roughness=0.65,
         ),
         LeafModel(
-            "pine", needles.pine_tuft, arrangement="fascicled", size=0.055, spacing=0.01, inclination=24, droop=0.04, planes=3,
+            "pine", needles.pine_tuft, arrangement="fascicled", size=0.055, spacing=0.01, inclination=24.0, droop=0.04, planes=3,
             needle=needles.PINE_NEEDLE, bundle=2,
             shoot=3.0, evergreen=True, curl=0.0, fold=0.0,
             palettes=_seasons(
@@ -155,7 +155,7 @@ _MODELS = {
             ), roughness=0.65,
         ),
         LeafModel(
-            "palm", blades.palm_leaflet, arrangement="frond", size=0.45, spacing=0.035, inclination=52, droop=0.10, fold=30, curl=0.16,
+            "palm", blades.palm_leaflet, arrangement="frond", size=0.45, spacing=0.035, inclination=52.0, droop=0.10, fold=30.0, curl=0.16,
             evergreen=True,
             palettes=_seasons(
                 ("#5f7648", "#93a368", "#b0b888", "#b0a06a"),

@@ -14,12 +14,13 @@ import numpy as np
 from jaxtyping import Float
 from scipy import ndimage
 
-Curve = Float[np.ndarray, "point 2"]
+Curve = Float[np.ndarray, "_ 2"]  # points x, y; one curve need not be as long as another
+Places = list[tuple[float | int, float | int]]
 
 _LEAN = np.radians(50.0)
 
 
-def smooth(points: list[tuple[float, float]], samples: int = 24) -> Curve:
+def smooth(points: Places, samples: int = 24) -> Curve:
     """A half outline through the points: a centripetal Catmull-Rom spline (no loops at tight lobes)."""
     knots = np.asarray(points, float)
     padded = np.vstack([2 * knots[0] - knots[1], knots, 2 * knots[-1] - knots[-2]])
@@ -33,7 +34,7 @@ def smooth(points: list[tuple[float, float]], samples: int = 24) -> Curve:
     return np.vstack([curve.reshape(-1, 2), knots[-1]])
 
 
-def rounded(points: list[tuple[float, float]], radius: float) -> Curve:
+def rounded(points: Places, radius: float) -> Curve:
     """A half outline along the points with every corner rounded off at about `radius` (blade lengths)."""
     knots = np.asarray(points, float)
     arc = np.r_[0, np.cumsum(np.linalg.norm(np.diff(knots, axis=0), axis=1))]
@@ -46,7 +47,7 @@ def rounded(points: list[tuple[float, float]], radius: float) -> Curve:
     return curve
 
 
-def pointed(points: list[tuple[float, float]], sag: float, samples: int = 10) -> Curve:
+def pointed(points: Places, sag: float, samples: int = 10) -> Curve:
     """A half outline with a sharp corner at every point and a hollow of depth `sag` (of the chord) between."""
     knots = np.asarray(points, float)
     chord = np.diff(knots, axis=0)

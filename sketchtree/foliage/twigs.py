@@ -56,9 +56,9 @@ class Twigs:
 def wood_pieces(tree: TreeSkeleton) -> Twigs:
     """All wood of the tree as straight pieces of its rendered centre lines, with their frames and their
     place on their limb; the pieces of a limb stand in order."""
-    lines = centre_lines(tree)
-    if len(lines) == 0:
-        return Twigs(*(np.zeros((0, 3) if name in ("start", "end", "tangent", "side") else 0) for name in Twigs.__dataclass_fields__))
+    lines = centre_lines(tree) if tree.segment_count else None
+    if lines is None or len(lines) == 0:
+        return _no_wood()
     first = np.flatnonzero(np.diff(lines.of_point) == 0)
     row = _row_of_point(tree, lines)[first + 1]
     first, row = first[row != NULL], row[row != NULL]
@@ -82,6 +82,11 @@ def wood_pieces(tree: TreeSkeleton) -> Twigs:
         foot_radius=foot_radius[limb],
         limb_length=lines.length[limb],
     )
+
+
+def _no_wood() -> Twigs:
+    vectors, numbers = np.zeros((0, 3)), np.zeros(0)
+    return Twigs(np.zeros(0, np.int64), vectors, vectors, numbers, numbers, vectors, vectors, numbers, numbers, numbers, numbers)
 
 
 def leafy(pieces: Twigs, order: Int[np.ndarray, " segment"], *, thickest: float, reach: float, share: float) -> Twigs:

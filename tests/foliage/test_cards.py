@@ -1,0 +1,104 @@
+import numpy as np
+import pytest
+
+from sketchtree import keys
+from sketchtree.errors import OptionError
+from sketchtree.foliage.cards import hexagon, leaf_material, leaf_mesh
+from sketchtree.foliage.leaves import Leaves
+from sketchtree.foliage.models import leaf_model, leaf_names, leaf_painting
+from sketchtree.foliage.populate import populate
+from tests.foliage.trees import HABIT, small_tree
+
+KEY = keys.root_key(1)
+BLADES = [name for name in leaf_names() if leaf_model(name).is_blade]
+
+
+@pytest.fixture(scope="module", params=leaf_names())
+def worn(request):
+    leaves = populate(small_tree(), HABIT, key=KEY, model=request.param)
+    return leaves, leaf_mesh(leaves)
+
+
+def test_the_mesh_is_called_leaf_and_its_material_after_the_model(worn):
+    leaves, mesh = worn
+    assert mesh.name == "leaf" and mesh.material.name == f"leaf_{leaves.model}"
+    assert mesh.material.alpha_cutoff == 0.5 and mesh.material.double_sided
+
+
+def test_a_leaf_is_at_most_six_triangles(worn):
+    leaves, mesh = worn
+    assert len(mesh.triangle) <= 6 * len(leaves)
+    assert mesh.triangle.min() == 0 and mesh.triangle.max() == len(mesh.position) - 1
+
+
+def test_columns_are_finite_normals_unit_and_factors_within_range(worn):
+    _, mesh = worn
+    assert all(np.isfinite(column).all() for column in (mesh.position, mesh.normal, mesh.uv, mesh.color))
+    assert np.allclose(np.linalg.norm(mesh.normal, axis=1), 1)
+    assert mesh.uv.min() >= 0 and mesh.uv.max() <= 1
+    assert mesh.color.min() >= 0 and mesh.color.max() <= 1
+
+
+def test_every_card_holds_its_leafs_foot(worn):
+    leaves, mesh = worn
+    corners = mesh.position.reshape(len(leaves), -1, 3)
+    nearest = np.linalg.norm(corners - leaves.position[:, None], axis=2).min(axis=1)
+    assert (nearest < 0.55 * leaves.size).all()
+
+
+def test_a_card_is_as_long_as_its_blade_with_petiole(worn):
+    leaves, mesh = worn
+    corners = mesh.position.reshape(len(leaves), -1, 3) - leaves.position[:, None]
+    along = np.einsum("lvk,lk->lv", corners, leaves.direction).max(axis=1) / leaves.size
+    painting = leaf_painting(leaves.model)
+    assert np.allclose(along, along[0]) and 0.9 < along[0] < painting.top - painting.bottom + 0.1
+
+
+def test_upper_faces_are_counter_clockwise():
+    leaves = populate(small_tree(), HABIT, key=KEY, model="oak")
+    mesh = leaf_mesh(leaves)
+    a, b, c = (mesh.position[mesh.triangle[:, i]] for i in range(3))
+    face = np.cross(b - a, c - a)
+    assert (np.einsum("ij,ij->i", face, np.repeat(leaves.normal, 6, axis=0)) > 0).all()
+
+
+def test_the_texture_stands_upright_on_the_card():
+    mesh = leaf_mesh(Leaves("oak", np.zeros((1, 3)), np.array([[0, 1.0, 0]]), np.array([[0, 0, 1.0]]), np.ones(1), np.zeros(1), np.zeros(1, int)))
+    top, right = np.argmax(mesh.position[:, 1]), np.argmax(mesh.position[:, 0])
+    assert mesh.uv[top, 1] < 0.1 and mesh.uv[right, 0] > 0.9
+
+
+@pytest.mark.parametrize("name", BLADES)
+def test_the_hexagon_holds_the_whole_drawing(name):
+    painting = leaf_painting(name)
+    corners = hexagon(painting)
+    foot, waist, tip = corners[[1, 4, 6]]
+    rows, columns = np.nonzero(painting.coverage > 0.5)
+    height, width = painting.coverage.shape
+    x = np.abs(painting.left + (columns + 0.5) / width * (painting.right - painting.left))
+    y = painting.top + (rows + 0.5) / height * (painting.bottom - painting.top)
+    limit = np.interp(y, [foot[1], waist[1], tip[1]], [foot[0], waist[0], tip[0]])
+    assert (x <= limit + 1e-6).all()
+
+
+@pytest.mark.parametrize("name", BLADES)
+def test_the_hexagon_wastes_less_than_the_rectangle(name):
+    painting, corners = leaf_painting(name), hexagon(leaf_painting(name))
+    foot, waist, tip = corners[[1, 4, 6]]
+    area = (foot[0] + waist[0]) * (waist[1] - foot[1]) + (waist[0] + tip[0]) * (tip[1] - waist[1])
+    assert area <= 1.02 * (painting.right - painting.left) * (painting.top - painting.bottom)
+
+
+def test_every_season_has_its_own_colour():
+    means = [leaf_material("maple", s).base_color_texture[..., :3].mean(axis=(0, 1)) for s in ("spring", "summer", "autumn")]
+    assert all(np.abs(a - b).max() > 15 for a, b in [(means[0], means[1]), (means[1], means[2])])
+
+
+def test_no_leaf_gives_an_empty_mesh():
+    mesh = leaf_mesh(populate(small_tree(), HABIT, key=KEY, season="bare"), season="bare")
+    assert mesh.position.shape == (0, 3) and mesh.triangle.shape == (0, 3) and mesh.color.shape == (0, 4)
+
+
+def test_an_unknown_season_is_refused():
+    with pytest.raises(OptionError, match="There is no season called 'noon'"):
+        leaf_mesh(Leaves.none("oak"), season="noon")
