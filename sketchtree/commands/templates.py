@@ -10,7 +10,7 @@ from sketchtree.commands.planned import not_yet
 from sketchtree.commands.progress import Progress
 from sketchtree.errors import OptionError
 
-_SECTION = "Template database"
+_SECTION = "The template database"
 SCORES = ("calibrated", "chen")
 
 
@@ -74,7 +74,7 @@ def sheet_command(out: Path, db: Path | None, report: Path | None, **_) -> None:
 @click.argument("sketch", type=click.Path(path_type=Path))
 @click.option("--json", "as_json", is_flag=True, help="One JSON array instead of lines.")
 @click.option("--score", type=click.Choice(SCORES), default="calibrated", show_default=True, help="Ours, or exactly the paper's.")
-@click.option("--crown", type=click.Choice(["auto", "off"]), default="auto", show_default=True, help="Use a drawn crown outline, or leave it out.")
+@click.option("--crown", type=click.Choice(["auto", "off"]), default="auto", show_default=True, help="Use a drawn crown, or not.")
 @common
 def match_command(sketch: Path, as_json: bool, score: str, crown: str, db: Path | None, report: Path | None, **_) -> None:
     """Which exemplars a sketch is like, best first."""

@@ -146,7 +146,8 @@ def _record(kind: type, table: dict, file: str, where: str):
         if name in table:
             values[name] = _value(table[name], key, file, f"{where}.{name}")
         elif key.default is dataclasses.MISSING:
-            _fail(file, f"{where}.{name}", "it is missing.", f"Add it: {key.metadata['meaning']} ({key.metadata['unit']}).")
+            meaning, unit = key.metadata["meaning"], key.metadata["unit"]
+            _fail(file, f"{where}.{name}", "it is missing.", f"Add it: {meaning} ({unit}).")
     return kind(**values)
 
 
@@ -161,14 +162,19 @@ def _value(value, key: dataclasses.Field, file: str, where: str):
         return Profile.constant(value) if _is_profile(key) else float(value)
     pairs = isinstance(value, list) and value and all(isinstance(p, list) and len(p) == 2 for p in value)
     if not (_is_profile(key) and pairs and all(_is_number(x) for p in value for x in p)):
-        wanted = "[[place, value], ...]" if key.name == "forks" else "a number or [[place, value], ...]" if _is_profile(key) else "a number"
-        _fail(file, where, f"{value!r} is not {wanted}.", f"It is: {meaning} ({unit}).")
+        _fail(file, where, f"{value!r} is not {_wanted(key)}.", f"It is: {meaning} ({unit}).")
     place = [p[0] for p in value]
     if not all(0 <= at <= 1 for at in place) or any(b <= a for a, b in zip(place, place[1:], strict=False)):
         _fail(file, where, f"its places {place} do not rise from 0 to 1.", "Give places in rising order, from 0 to 1.")
     for _, x in value:
         _in_range(x, key, file, where)
     return Profile(tuple((float(a), float(b)) for a, b in value))
+
+
+def _wanted(key: dataclasses.Field) -> str:
+    if key.name == "forks":
+        return "[[place, value], ...]"
+    return "a number or [[place, value], ...]" if _is_profile(key) else "a number"
 
 
 def _is_profile(key: dataclasses.Field) -> bool:

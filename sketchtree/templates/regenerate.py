@@ -5,6 +5,7 @@ processes share the work. With `count`, recipes are used in turn; each further r
 (`name_2`, `name_3`, …) from a seed of its own.
 """
 
+import signal
 from collections.abc import Callable, Iterator
 from concurrent.futures import ProcessPoolExecutor
 from dataclasses import dataclass
@@ -41,13 +42,16 @@ def orders(folder: Path, *, only: tuple[str, ...] = (), count: int | None = None
     """What to make from the recipes in `folder`, in the order of their names. `seed` is added to the recipes' own."""
     files = sorted(Path(folder).glob("*.toml"))
     if not files:
-        raise TemplateError(f"There are no recipes (*.toml) in {folder}.", remedy="Run it in a checkout, or name a folder with --recipes.")
+        raise TemplateError(
+            f"There are no recipes (*.toml) in {folder}.", remedy="Run it in a checkout, or name a folder with --recipes."
+        )
     recipes = {recipe.name: (recipe, file.name) for file, recipe in ((f, read_recipe(f)) for f in files)}
     if len(recipes) < len(files):
         raise TemplateError(f"Two recipes in {folder} have the same `name`.", remedy="Give each a name of its own.")
     for name in only:
         if name not in recipes:
-            raise TemplateError(f"There is no recipe called {name!r}.", remedy=f"Use one of: {', '.join(sorted(recipes))}.")
+            known = ", ".join(sorted(recipes))
+            raise TemplateError(f"There is no recipe called {name!r}.", remedy=f"Use one of: {known}.")
     chosen = [recipes[name] for name in sorted(recipes) if not only or name in only]
     wanted = len(chosen) if count is None else count
     return [_order(*chosen[i % len(chosen)], i // len(chosen), seed) for i in range(wanted)]
@@ -83,5 +87,7 @@ def _in_turn(wanted: list[Order], jobs: int) -> Iterator[tuple[Exemplar, Views]]
     if jobs <= 1 or len(wanted) <= 1:
         yield from map(make, wanted)
         return
-    with ProcessPoolExecutor(min(jobs, len(wanted)), mp_context=get_context("spawn")) as pool:
+    # Ctrl-C is the parent's to handle; a worker that heard it too would print a traceback.
+    quiet = {"initializer": signal.signal, "initargs": (signal.SIGINT, signal.SIG_IGN)}
+    with ProcessPoolExecutor(min(jobs, len(wanted)), mp_context=get_context("spawn"), **quiet) as pool:
         yield from pool.map(make, wanted)
