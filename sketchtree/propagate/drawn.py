@@ -33,8 +33,8 @@ _PRESSES = 1.08  # times its straight way to the crown: a limb that bends still 
 _MARGIN = 0.12  # of the smaller side of the drawing's branches
 _MARGIN_TWIGS = 2.0  # twig lengths, at least
 _WEEPING = 30.0  # degrees a metre: with more, twigs hang to the ground
-_BEGINS = 0.06  # of the trunk's length: new limbs may start this far below the first drawn one
-_APART = np.cos(np.radians(35.0))  # a new lateral this close to a drawn one's direction is not grown
+_BEGINS = 0.06  # of the trunk's length: a palm's new fronds may start this far below its first drawn one
+_APART = np.cos(np.radians(25.0))  # a new lateral this close to a drawn one's direction is not grown
 
 
 def open_tips(
@@ -108,7 +108,8 @@ def bare_length(tree: TreeSkeleton, library: Library) -> Float[np.ndarray, " seg
     share = library.bare[np.minimum(tree.order, len(library.bare) - 1)]
     bare = share * whole
     first = _first_drawn_lateral(tree, arc)
-    begins = np.where(np.isfinite(first), np.maximum(first - _BEGINS * whole, 0.0), bare)
+    below = _BEGINS if len(library.bare) == 2 else 0.0  # max_order 1: a palm
+    begins = np.where(np.isfinite(first), np.maximum(first - below * whole, 0.0), bare)
     return np.where(tree.order == 0, begins, bare)
 
 
@@ -167,7 +168,9 @@ class DrawnLaterals:
 
     place: Float[np.ndarray, " lateral"]  # limb · stretch + arc of the node, rising
     limb: Int[np.ndarray, " lateral"]  # dense number of the parent limb
+    node: Int[np.ndarray, " lateral"]  # row it grows from
     heading: Float[np.ndarray, "lateral 3"]  # unit
+    end: Float[np.ndarray, "lateral 3"]  # tip of the whole lateral, metres
     length: Float[np.ndarray, " lateral"]  # of the whole lateral, metres
     at: Float[np.ndarray, " segment"]  # the same axis for the tip of every row of the tree
     of_row: Int[np.ndarray, " segment"]
@@ -182,7 +185,10 @@ class DrawnLaterals:
         rows = np.flatnonzero((tree.parent != NULL) & (tree.limb != tree.limb[above]) & (tree.length > 0))
         rows = rows[np.argsort(at[tree.parent[rows]], kind="stable")]
         node = tree.parent[rows]
-        return cls(at[node], of_row[node], tree.vector[rows] / tree.length[rows][:, None], whole[rows], at, of_row)
+        tip = np.zeros(of_row.max(initial=-1) + 1, np.int64)
+        tip[of_row] = np.arange(len(tree))
+        heading = tree.vector[rows] / tree.length[rows][:, None]
+        return cls(at[node], of_row[node], node, heading, tree.tip[tip[of_row[rows]]], whole[rows], at, of_row)
 
     def beside(
         self, new: OpenBranches, spacing: Float[np.ndarray, " segment"]

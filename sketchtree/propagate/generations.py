@@ -23,15 +23,16 @@ from sketchtree.propagate.block import blocks_of, blocks_of_parameters
 from sketchtree.propagate.drawn import DrawnLaterals, bare_length, drawn_nodes, implied_crown, open_tips
 from sketchtree.propagate.envelope import Envelope
 from sketchtree.propagate.fill import GAP, ROUNDS, empty_points, towards
+from sketchtree.propagate.gaps import into_gaps
 from sketchtree.propagate.laterals import split_long
 from sketchtree.propagate.library import library
 from sketchtree.propagate.limb_growth import NODES, grow, plan
-from sketchtree.propagate.open_branch import OpenBranches, limb_arcs
+from sketchtree.propagate.open_branch import OpenBranches, frames, limb_arcs
 from sketchtree.skeleton import Kind, TreeSkeleton
 
 GENERATIONS = 5  # without a crown (Chen §6)
 CROWN_GENERATIONS = 12  # with one, at most
-_BEARING = 2.5  # twig lengths: a shorter limb bears no laterals
+_BEARING = 1.8  # twig lengths: a shorter limb bears no laterals
 _TRUNK_SPACING = 1.6  # of the habit's spacing of laterals
 _SPACING = (0.8, 4.0)  # times the habit's spacing: the least and the most that an exemplar may say
 _LARGEST_SCALE = 1.25
@@ -147,8 +148,10 @@ class _Growth:
         at_most = np.minimum(new.length, _LIKE_DRAWN * usual)
         like = usual * (0.8 + 0.25 * keys.uniform(self.key, new.limb, 12))
         length = np.where(np.isnan(usual), new.length, np.where(new.order == 1, like, at_most))
-        new = replace(new, length=length)
-        return tips.join(new.select(~drawn.beside(new, self.spacing)))
+        new = replace(new, length=length).select(~drawn.beside(new, self.spacing))
+        if self.habit.max_order > 0:
+            new = new.join(self._free(into_gaps(tree, frames(tree), drawn, new, self.key)))
+        return tips.join(new)
 
     def _spacing(self, order, whole):
         """Metres between the nodes of limbs of these orders and whole lengths: midway (as a ratio) between the
@@ -212,7 +215,10 @@ class _Growth:
         block = lib.choose(lib.lateral, nodes.order, nodes.zone, keys.uniform(self.key, nodes.id, 10))
         opened = attach(nodes, block, lib.blocks, self.habit, self.theta, self.key)
         longest = lib.longest[np.minimum(opened.order, len(lib.longest) - 1)] * self.scale
-        opened = replace(opened, length=np.minimum(opened.length, longest))
+        return self._free(replace(opened, length=np.minimum(opened.length, longest)))
+
+    def _free(self, opened: OpenBranches) -> OpenBranches:
+        """The same, each no longer than its way to the crown; those left too short are not opened."""
         if self.envelope is None:
             return opened
         end = opened.origin + opened.length[:, None] * opened.frame[:, :, 1]
