@@ -5,7 +5,15 @@ import pytest
 
 from sketchtree.mrf.factor_graph import factor_graph
 from sketchtree.mrf.interpenetration import moved_apart
-from sketchtree.mrf.typical import STRETCH_LIMIT, TRUNK, depth_of, stretched, typical_elevation
+from sketchtree.mrf.typical import (
+    CROWN_LIMIT,
+    LIMB_LIMIT,
+    STEM_SHARE,
+    depth_of,
+    stretched_crown,
+    stretched_limbs,
+    typical_elevation,
+)
 from tests.mrf.drawings import lone_stroke, sketch, small_tree
 from tests.twins import limb_model as twin
 
@@ -30,22 +38,32 @@ def test_signs_are_the_best_tree_s_and_steepness_is_the_median(small):
     psi = typical_elevation(small, samples, best)
     lateral = small.order > 0
     assert (np.sign(psi[lateral]) == np.sign(best[lateral])).all()
-    np.testing.assert_allclose(np.abs(psi[1:5]), TRUNK * 0.5)
+    np.testing.assert_allclose(np.abs(psi[1:5]), STEM_SHARE * 0.5)
 
 
-def test_the_stretch_brings_the_crown_to_the_samples_depth_within_limits(small):
+def test_the_crown_is_stretched_towards_the_samples_extent_within_limits(small):
     psi = np.where(small.order > 0, 0.3, 0.0)
     for factor in (1.2, 10.0):
         sample = np.arctan(factor * np.tan(psi))
-        ratio = np.ptp(depth_of(small, stretched(small, psi, sample[None]))) / np.ptp(depth_of(small, psi))
-        assert 1.0 < ratio <= STRETCH_LIMIT + 1e-9
+        ratio = np.ptp(depth_of(small, stretched_crown(small, psi, sample[:, None]))) / np.ptp(depth_of(small, psi))
+        assert 1.0 < ratio <= CROWN_LIMIT + 1e-9
         assert ratio <= factor
+
+
+def test_limbs_are_stretched_one_by_one_and_stems_are_not(small):
+    psi = np.where(small.is_base, 0.0, 0.3)
+    sample = np.where(small.limb == 1, np.arctan(1.4 * np.tan(psi)), psi)
+    factor = np.tan(stretched_limbs(small, psi, sample[:, None])) / np.maximum(np.tan(psi), 1e-12)
+    assert 1.0 < factor[5] < LIMB_LIMIT
+    assert factor[5] == pytest.approx(factor[9])
+    np.testing.assert_allclose(np.delete(factor, [0, 5, 9]), 1.0)
 
 
 def test_a_lone_stroke_is_not_stretched():
     graph = factor_graph(lone_stroke())
     psi = np.zeros(len(graph))
-    np.testing.assert_array_equal(stretched(graph, psi, psi[None]), psi)
+    np.testing.assert_array_equal(stretched_crown(graph, psi, psi[:, None]), psi)
+    np.testing.assert_array_equal(stretched_limbs(graph, psi, psi[:, None]), psi)
 
 
 def _crossing(depth=0.0):
