@@ -93,7 +93,7 @@ def centre_lines(tree: TreeSkeleton, underground: float = 0.3) -> CentreLines:
     cut = chains(tree)
     knots = _knots(tree, cut, underground)
     keep = _distinct(knots, 1e-7 * max(tree.height, 1e-6))
-    used = np.flatnonzero(np.bincount(knots.limb[keep], minlength=len(cut.foot)) >= 2)
+    used = np.flatnonzero(np.bincount(knots.limb[keep], minlength=len(cut.foot)) >= 2 + cut.is_stem)
     keep &= np.isin(knots.limb, used)
     knots = _Knots(*(getattr(knots, name)[keep] for name in _Knots.__dataclass_fields__))
     renumber = np.full(len(cut.foot) + 1, NULL)
@@ -205,7 +205,7 @@ def _distinct(knots: _Knots, least: float) -> Bool[np.ndarray, " knot"]:
     """Knots that do not fall on the one before. Of two that coincide, the pinned one stays."""
     step = np.linalg.norm(np.diff(knots.point, axis=0), axis=1)
     twin = np.r_[False, (step <= least) & (np.diff(knots.limb) == 0)]
-    return ~twin
+    return ~twin[: len(knots.limb)]
 
 
 def _velocities(tree, cut, used, knots: _Knots, span):

@@ -85,9 +85,10 @@ def _one_tree(tips, wood, stem_tips: float, stem_wood: float, ground: float, hab
 
 
 def _palm(tree: TreeSkeleton, rows, ground: float, wood, beyond, habit: Habit):
-    """A nearly cylindrical trunk; fronds from a slim foot to a twig's tip."""
+    """A nearly cylindrical trunk up to its last frond; fronds from a slim foot to a twig's tip."""
     y = tree.tip[rows, 1]
-    trunk = tree.order[rows] == 0
+    fronds = sum_to_root(tree.parent, (tree.order > 0).astype(float))[rows]
+    trunk = (tree.order[rows] == 0) & ((fronds > 0) | (fronds.max() == 0))
     rise = (y - y.min()) / max(np.ptp(y[trunk]) if trunk.any() else 1.0, 1e-9)
     stem = ground * (1.0 - _PALM_TAPER * np.clip(rise, 0.0, 1.0))
     longest = max(beyond[~trunk].max(initial=0.0), 1e-9)

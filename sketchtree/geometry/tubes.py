@@ -43,7 +43,7 @@ def sweep(
     """The tubes of all limbs. `offset` shifts the bark of each limb (tiles); `tolerance` is in metres."""
     repeat = repeats(ring, detail.tile)
     paces = pace(ring, repeat, detail.tile)
-    bark = (repeat, paces, lengthwise(ring, paces))
+    bark = (repeat, paces, lengthwise(ring, repeat, detail.tile))
     parts, total = [], 0
     for n in np.unique(side_count):
         part = _sweep_alike(lines, ring, np.flatnonzero(side_count == n), int(n), collar_top, offset, bark, detail, tolerance)

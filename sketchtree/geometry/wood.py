@@ -22,9 +22,9 @@ def wood_mesh(tree: TreeSkeleton, *, bark: str, key: Key[Array, ""], detail: Det
     empty mesh. Raises `OptionError` for an unknown bark.
     """
     material = bark_material(bark)
-    height = max(tree.height, float(np.ptp(tree.tip, axis=0).max(initial=0.0)), 1e-6)
     lines = centre_lines(tree)
-    if len(lines) == 0:
+    height = float(np.ptp(tree.tip, axis=0).max()) if len(lines) else 0.0  # the longest side of the tree's box
+    if height == 0.0:
         return Mesh("wood", np.zeros((0, 3)), np.zeros((0, 3)), np.zeros((0, 2)), np.zeros((0, 3), np.int64), material)
     tolerance = detail.tolerance * height
     count = sides(lines.radius[lines.start[:-1]], tolerance, detail)
