@@ -24,11 +24,12 @@ SHORT = 0.01
 
 @dataclass(frozen=True, eq=False)
 class Branching:
-    """μ, σ and the number of pairs behind them; last axis in the order of `STATISTICS`. Angles in radians."""
+    """μ, σ and the number of pairs behind them, of one tree or of many; angles in radians.
+    The last axis is in the order of `STATISTICS`."""
 
-    mean: Float[np.ndarray, "view statistic"]
-    sd: Float[np.ndarray, "view statistic"]
-    count: Float[np.ndarray, "view statistic"]
+    mean: Float[np.ndarray, "*exemplar view statistic"]
+    sd: Float[np.ndarray, "*exemplar view statistic"]
+    count: Float[np.ndarray, "*exemplar view statistic"]
 
 
 def branching(drawing: Drawing) -> Branching:

@@ -64,9 +64,9 @@ def test_a_line_and_a_point_have_a_footprint_too():
 def test_there_are_36_views_ten_degrees_apart_and_opposite_views_mirror():
     assert len(view_azimuths()) == VIEWS == 36 and view_azimuths()[1] == 10
     point = np.random.default_rng(2).normal(size=(5, 3))
-    np.testing.assert_allclose(project(point, 0), point[:, :2])
-    np.testing.assert_allclose(project(point, 90)[:, 0], -point[:, 2], atol=1e-12)
-    np.testing.assert_allclose(project(point, 200) * [-1, 1], project(point, 20), atol=1e-12)
+    np.testing.assert_allclose(project(point, 0.0), point[:, :2])
+    np.testing.assert_allclose(project(point, 90.0)[:, 0], -point[:, 2], atol=1e-12)
+    np.testing.assert_allclose(project(point, 200.0) * [-1, 1], project(point, 20.0), atol=1e-12)
 
 
 def test_the_root_branch_is_the_stem_up_to_its_first_lateral():
