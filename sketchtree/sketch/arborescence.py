@@ -4,7 +4,7 @@ The minimum spanning arborescence of a directed graph (Chu & Liu 1965; Edmonds 1
 takes one incoming arc, no cycles, least total cost. As Tarjan (1977, "Finding optimum branchings") has it, a walk
 goes from node to node up the cheapest incoming arcs until it meets the finished part. Where it meets itself, the cycle
 becomes one node, whose arcs (u → v) then cost w(u → v) − w(best into v). Arcs wait in heaps; a heap carries what is
-to be taken off all its costs, and the smaller of two heaps is poured into the larger: O(E log² V).
+to be taken off all its costs, and the smaller of two heaps is poured into the larger: O(E log² E).
 """
 
 import heapq
@@ -107,12 +107,12 @@ class _Contraction:
 
     def unfold(self) -> list[int]:
         """The arc into every node: a cycle keeps its own arcs, except where it is entered."""
+        entered = [False] * len(self.arc)
         for whole in range(len(self.arc) - 1, -1, -1):
-            if self.arc[whole] == NULL:
+            if entered[whole] or self.arc[whole] == NULL:
                 continue
             node = self.head[self.arc[whole]]
-            while node != whole and self.cycle[node] not in (whole, NULL):
+            while node != whole:  # the arc enters every cycle nested around its head
+                self.arc[node], entered[node] = self.arc[whole], True
                 node = self.cycle[node]
-            if node != whole:
-                self.arc[node] = self.arc[whole]
         return self.arc

@@ -15,16 +15,16 @@ First only one stroke may stand on the ground (all are forbidden alike): its foo
 from dataclasses import dataclass
 
 import numpy as np
-from jaxtyping import Float, Int
+from jaxtyping import Bool, Float, Int
 
 from sketchtree.axes import NULL
 from sketchtree.sketch.arborescence import arborescence
-from sketchtree.sketch.candidates import REACH, Arcs, candidate_arcs
+from sketchtree.sketch.candidates import REACH, Arcs, bridging_arcs, candidate_arcs
 from sketchtree.sketch.lines import Line, extent, unit
 
 FORBIDDEN = 1e4  # dearer than any tree of sensible attachments
 GROUND = 0.04  # of H: a foot this near to the ground's height may stand on it
-ROUNDS = 8
+ROUNDS = (2, 4)  # at most, for the stem and for the rest
 
 
 @dataclass(frozen=True, eq=False)
@@ -46,16 +46,36 @@ def attach(lines: list[Line]) -> Hanging:
     rising, foot_y = _rising(lines, height)
     lowest = float(foot_y.min())
     alone = 8 * (foot_y - lowest) / height + 0.5 * (1 - rising) + _smallness(lines)[:, None]
-    solution = _solve(lines, arcs, alone + FORBIDDEN)
+    solution = _solve(lines, arcs, alone + FORBIDDEN, ROUNDS[0])
     stem = int(np.argmin(np.where(solution.parent == NULL, solution.cost, np.inf)))
     ground = foot_y[stem, solution.end[stem]]
     standing = 4 + 50 * np.abs(foot_y - ground) / height + 0.5 * (1 - rising)
     allowed = (np.abs(foot_y - ground) <= GROUND * height) & (rising > 0.2)
     standing = np.where(allowed, standing, alone + FORBIDDEN)
-    return _solve(lines, arcs, standing, first=solution.end)
+    hanging = _solve(lines, arcs, standing, ROUNDS[1], first=solution.end)
+    for _ in range(len(lines)):
+        group = _floating(hanging)
+        if group is None:
+            break
+        arcs = arcs.joined(bridging_arcs(lines, group, height))
+        hanging = _solve(lines, arcs, standing, 2, first=hanging.end)
+    return hanging
 
 
-def _solve(lines: list[Line], arcs: Arcs, standing: Float[np.ndarray, "line 2"], first=None) -> Hanging:
+def _floating(hanging: Hanging) -> Bool[np.ndarray, " line"] | None:
+    """The lines that hang on a stroke in mid-air because only each other are near; None if there are none."""
+    stems = np.flatnonzero(hanging.parent == NULL)
+    stems = stems[np.argsort(hanging.cost[stems], kind="stable")]
+    aloft = stems[1:][hanging.cost[stems[1:]] >= FORBIDDEN]
+    if len(aloft) == 0:
+        return None
+    top = np.arange(len(hanging.parent))
+    while (hanging.parent[top] != NULL).any():
+        top = np.where(hanging.parent[top] != NULL, hanging.parent[top], top)
+    return top == aloft[-1]
+
+
+def _solve(lines: list[Line], arcs: Arcs, standing: Float[np.ndarray, "line 2"], rounds: int, first=None) -> Hanging:
     count = len(lines)
     tail = np.r_[arcs.parent, np.full(2 * count, count)]
     head = np.r_[arcs.child, np.repeat(np.arange(count), 2)]
@@ -63,7 +83,7 @@ def _solve(lines: list[Line], arcs: Arcs, standing: Float[np.ndarray, "line 2"],
     both = np.concatenate([arcs.cost, np.repeat(standing.reshape(-1, 1), 2, 1)])
     cost = both.min(1) if first is None else both[np.arange(len(both)), np.r_[first, 0][tail]]
     best, least = None, np.inf
-    for _ in range(ROUNDS):
+    for _ in range(rounds):
         chosen = arborescence(tail, head, cost, count + 1, count)[:count]
         foot = end[chosen]
         cost = both[np.arange(len(both)), np.r_[foot, 0][tail]]

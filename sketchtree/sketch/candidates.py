@@ -16,15 +16,16 @@ end p of stroke i, is a sum of how unlike a branch that would be (ours; weights 
 The direction of j depends on which of its ends is its foot, so the cost has a column for either.
 """
 
-from dataclasses import dataclass
+from dataclasses import dataclass, fields
 
 import numpy as np
 import shapely
-from jaxtyping import Float, Int
+from jaxtyping import Bool, Float, Int
 
 from sketchtree.sketch.lines import Line, angle_between, unit
 
-NEAREST = 16  # strokes tried for every end
+NEAREST = 16  # strokes tried for every end, half as many in a drawing of more than MANY
+MANY = 1000
 REACH = 0.03  # over how much of H a direction is taken
 PRECISE, COARSE = 0.001, 0.01  # of H: bounds of ε
 FOOT = 0.006  # of H: nearer to an end than this is at the end
@@ -41,16 +42,32 @@ class Arcs:
     gap: Float[np.ndarray, " arc"]  # distance, sketch units
     cost: Float[np.ndarray, "arc 2"]  # column: the parent's foot is its first (0) or last (1) point
 
+    def joined(self, other: "Arcs") -> "Arcs":
+        """These and the others."""
+        return Arcs(*(np.concatenate([getattr(self, f.name), getattr(other, f.name)]) for f in fields(self)))
+
 
 def candidate_arcs(lines: list[Line], height: float) -> Arcs:
     """The attachments of every end to the strokes nearest to it. `height` is H."""
     shapes = np.array([line.shape for line in lines], object)
     ends = np.array([line.points[k] for line in lines for k in (0, -1)])
-    row, parent, gap = _near(ends, shapes, height)
+    return _arcs(lines, shapes, ends, *_near(ends, shapes, height), height)
+
+
+def bridging_arcs(lines: list[Line], inside: Bool[np.ndarray, " line"], height: float) -> Arcs:
+    """The attachments of every end of the lines `inside` a group to the nearest lines outside it."""
+    shapes = np.array([line.shape for line in lines], object)
+    ends = np.array([line.points[k] for line in lines for k in (0, -1)])
+    rows = np.flatnonzero(np.repeat(inside, 2))
+    outside = np.flatnonzero(~inside)
+    (row, parent), gap = shapely.STRtree(shapes[outside]).query_nearest(shapely.points(ends[rows]), return_distance=True)
+    return _arcs(lines, shapes, ends, rows[row], outside[parent], gap, height)
+
+
+def _arcs(lines, shapes, ends, row, parent, gap, height: float) -> Arcs:
     child, end = row // 2, row % 2
     s = shapely.line_locate_point(shapes[parent], shapely.points(ends[row]))
-    cost = _costs(lines, shapes, ends, child, end, parent, s, gap, height)
-    return Arcs(child, end, parent, s, gap, cost)
+    return Arcs(child, end, parent, s, gap, _costs(lines, shapes, ends, child, end, parent, s, gap, height))
 
 
 def foot_reach(line: Line, height: float) -> float:
@@ -62,9 +79,9 @@ def foot_reach(line: Line, height: float) -> float:
 def _near(ends, shapes, height: float):
     """(end, line, distance) of the nearest other lines of every end, nearest first."""
     tree = shapely.STRtree(shapes)
-    wanted = min(NEAREST, len(shapes) - 1)
+    wanted = min(NEAREST if len(shapes) <= MANY else NEAREST // 2, len(shapes) - 1)
     points = shapely.points(ends)
-    pending, radius, found = np.arange(len(ends)), 0.03 * height, []
+    pending, radius, found = np.arange(len(ends)), 0.3 * height / np.sqrt(100 + len(shapes)), []
     while len(pending) and wanted:
         row, line = tree.query(points[pending], predicate="dwithin", distance=radius)
         row = pending[row]
@@ -73,7 +90,7 @@ def _near(ends, shapes, height: float):
         enough = np.bincount(row, minlength=len(ends)) >= wanted
         done = enough[row]
         found.append((row[done], line[done]))
-        pending, radius = pending[~enough[pending]], radius * 2.5
+        pending, radius = pending[~enough[pending]], radius * 2
     if not found:
         return (np.zeros(0, np.int64),) * 2 + (np.zeros(0),)
     row, line = (np.concatenate(part) for part in zip(*found, strict=True))
@@ -113,7 +130,7 @@ def _precision(gap, child, count: int, height: float) -> float:
     """ε: how exactly this hand starts its strokes on others."""
     nearest = np.full(count, np.inf)
     np.minimum.at(nearest, child, gap)
-    return float(np.clip(5 * np.median(nearest), PRECISE * height, COARSE * height)) if count > 1 else COARSE * height
+    return float(np.clip(5 * np.median(nearest), PRECISE * height, COARSE * height))
 
 
 def typical_width(line: Line) -> float:

@@ -121,8 +121,12 @@ def _owners(lines: list[Line], height: float) -> Int[np.ndarray, " line"]:
     near = np.minimum(REPEAT[2] * height, SLANT * np.array([line.length for line in lines]))
     middle = shapely.line_interpolate_point(shapes, 0.5, normalized=True)
     inner, outer = shapely.STRtree(shapes).query(middle, predicate="dwithin", distance=near)
+    for end in (0, -1):
+        points = shapely.points(np.array([line.points[end] for line in lines]))
+        close = (outer < inner) & (shapely.distance(points[inner], shapes[outer]) <= near[inner])
+        inner, outer = inner[close], outer[close]
     for a, b in sorted(zip(inner.tolist(), outer.tolist(), strict=True)):
-        if b < a and owner[a] < 0 and owner[b] < 0 and _repeats(lines[a], lines[b], height):
+        if owner[a] < 0 and owner[b] < 0 and _repeats(lines[a], lines[b], height):
             owner[a] = b
     return owner
 

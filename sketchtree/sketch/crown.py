@@ -1,7 +1,7 @@
 """Which curve is the crown? What the file says, else a closed or nearly closed outline around the branches.
 
 A stroke is a crown by its shape if its ends nearly meet, it is round rather than a thin loop
-(4πA/P² ≥ ROUND for the hull-filled outline), it is large, and at least half of the other strokes' upper ends lie in it
+(4πA/P² of its hull times the part of the hull it fills ≥ ROUND), it is large and reaches high, and at least half of the other strokes' upper ends lie in it
 or touch it.
 """
 
@@ -15,6 +15,7 @@ from sketchtree.sketch.strokes import Stroke
 OPEN = 0.35  # widest opening of a nearly closed outline, of its larger side
 ROUND = 0.2  # least 4πA/P² of the outline's convex hull, times its share of the hull's area
 LARGE = 0.3  # least size of a crown, of the drawing's
+HIGH = 0.6  # of the drawing's height: a crown reaches above it (a shadow on the ground does not)
 NEAR = 0.1  # of the drawing's size: a tip this near to the outline counts as inside
 
 
@@ -24,8 +25,9 @@ def crown_strokes(strokes: list[Stroke]) -> list[int]:
         return []
     size = float(np.ptp(np.concatenate([s.points for s in strokes]), axis=0).max())
     tips = np.array([_upper_end(stroke) for stroke in strokes])
-    found = [k for k, stroke in enumerate(strokes) if not stroke.labelled and (is_blob(stroke) or not stroke.filled) and _is_outline(stroke.points, size)]
-    around = [k for k in found if _encloses(strokes[k].points, np.delete(tips, found, 0), size)]
+    found = [k for k, stroke in enumerate(strokes) if not stroke.labelled and _is_outline(stroke.points, size) and (not stroke.filled or is_blob(stroke))]
+    high = _level(strokes, HIGH)
+    around = [k for k in found if strokes[k].points[:, 1].max() >= high and _encloses(strokes[k].points, np.delete(tips, found, 0), size)]
     return around if len(around) < len(strokes) else []
 
 
@@ -56,6 +58,11 @@ def _is_outline(points: Float[np.ndarray, "point 2"], size: float) -> bool:
 def _encloses(points: Float[np.ndarray, "point 2"], tips: Float[np.ndarray, "stroke 2"], size: float) -> bool:
     region = shapely.make_valid(shapely.Polygon(points)).buffer(NEAR * size)
     return len(tips) > 0 and float(shapely.contains_xy(region, tips).mean()) >= 0.5
+
+
+def _level(strokes: list[Stroke], part: float) -> float:
+    y = np.concatenate([stroke.points[:, 1] for stroke in strokes])
+    return float(y.min() + part * np.ptp(y))
 
 
 def _upper_end(stroke: Stroke) -> Float[np.ndarray, " 2"]:

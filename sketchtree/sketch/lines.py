@@ -21,9 +21,10 @@ class Line:
     @cached_property
     def along(self) -> Float[np.ndarray, " point"]:
         """Length of the line up to each point."""
-        return np.r_[0.0, np.cumsum(np.hypot(*np.diff(self.points, axis=0).T))]
+        step = self.points[1:] - self.points[:-1]
+        return np.concatenate([[0.0], np.cumsum(np.hypot(step[:, 0], step[:, 1]))])
 
-    @property
+    @cached_property
     def length(self) -> float:
         """Length of the whole line, sketch units."""
         return float(self.along[-1])

@@ -33,15 +33,20 @@ def is_blob(stroke: Stroke) -> bool:
 
 
 def with_holes(strokes: list[Stroke]) -> list[tuple[int, list[int]]]:
-    """(outer, its holes) among painted shapes: a hole is a later part of the same path, inside it."""
-    areas = [shapely.Polygon(s.points).area if len(s.points) > 2 else 0.0 for s in strokes]
-    inside: dict[int, int] = {}
+    """(outer, its holes) among painted shapes: a hole is another part of the same path, inside it."""
+    paths: dict[str, list[int]] = {}
     for k, stroke in enumerate(strokes):
-        for j, other in enumerate(strokes):
-            same = stroke.id.rpartition("-")[0] in (other.id, other.id.rpartition("-")[0]) and "-" in stroke.id
-            if j != k and same and areas[j] > areas[k] and _polygon([other]).covers(shapely.Point(stroke.points[0])):
-                inside[k] = j
-    return [(k, [h for h, j in inside.items() if j == k]) for k in range(len(strokes)) if k not in inside]
+        stem, _, part = stroke.id.rpartition("-")
+        paths.setdefault(stem if part.isdigit() and stem in paths else stroke.id, []).append(k)
+    found = []
+    for parts in paths.values():
+        parts.sort(key=lambda k: -_polygon([strokes[k]]).area)
+        outers: dict[int, list[int]] = {}
+        for k in parts:
+            around = (j for j in outers if _polygon([strokes[j]]).covers(shapely.Point(strokes[k].points[0])))
+            outers.setdefault(next(around, k), []).append(k)
+        found += [(k, inside[1:]) for k, inside in outers.items()]
+    return sorted(found)
 
 
 def middle_lines(row: int, outer: Stroke, holes: list[Stroke]) -> list[Line]:
