@@ -5,7 +5,7 @@ volume (the Halton sequence, so that they are the same in every run); those fart
 
     gap = GAP · spacing of laterals
 
-from every node are empty. The nearest node that may still bear a lateral grows one towards each, as long as the
+from every node are empty. A near node that may still bear a lateral grows one towards each, as long as the
 way there; its laterals and theirs follow by blocks as everywhere. Rounds of this go on until no point is empty.
 """
 
@@ -20,9 +20,10 @@ from sketchtree.propagate.attach_block import RANKS, Nodes
 from sketchtree.propagate.envelope import Envelope
 from sketchtree.propagate.open_branch import OpenBranches, polar, turn
 
-ROUNDS = 4  # at most
+ROUNDS = 6  # at most
 GAP = 1.6  # spacings of laterals
 _POINTS = 30_000  # at most, over the crown's bounding box
+_NEAR = 6  # nodes of which one grows towards a point
 _WIDEST = np.radians(110.0)  # from a limb: towards points behind it nothing grows
 
 
@@ -42,10 +43,9 @@ def empty_points(
 def towards(
     points: Float[np.ndarray, "point 3"], nodes: Nodes, habit: Habit, round_: int, key: Key[Array, ""] | np.uint64
 ) -> OpenBranches:
-    """One open branch from each node that is the nearest to an empty point, towards it. `nodes` may not be of
+    """One open branch from each node that is near an empty point, towards it. `nodes` may not be of
     the deepest order; `round_` keeps the limb ids of the rounds apart."""
-    rows = _nearest(points, nodes)
-    at, point = rows
+    at, point = _nearest(points, nodes)
     way = point - nodes.tip[at]
     length = np.linalg.norm(way, axis=1)
     divergence, orientation = polar(np.einsum("bji,bj->bi", nodes.frame[at], way))
@@ -69,10 +69,15 @@ def towards(
 
 
 def _nearest(points, nodes) -> tuple[Int[np.ndarray, " branch"], Float[np.ndarray, "branch 3"]]:
-    """(node, point) pairs: every point's nearest node, and of a node's points the nearest."""
+    """(node, point) pairs: for every point, of its nearest nodes one of the lowest order (its limb reaches
+    farthest); and of a node's points the nearest."""
     if len(points) == 0 or len(nodes) == 0:
         return np.zeros(0, np.int64), np.zeros((0, 3))
-    distance, node = cKDTree(nodes.tip).query(points)
+    near = min(_NEAR, len(nodes))
+    distances, found = (x.reshape(len(points), near) for x in cKDTree(nodes.tip).query(points, near))
+    best = np.lexsort((distances, nodes.order[found]), axis=1)[:, 0]
+    each = np.arange(len(points))
+    distance, node = distances[each, best], found[each, best]
     order = np.lexsort((distance, node))
     _, first = np.unique(node[order], return_index=True)
     chosen = order[first]

@@ -34,7 +34,8 @@ GENERATIONS = 5  # without a crown (Chen §6)
 CROWN_GENERATIONS = 12  # with one, at most
 _BEARING = 1.8  # twig lengths: a shorter limb bears no laterals
 _TRUNK_SPACING = 1.6  # of the habit's spacing of laterals
-_SPACING = (0.8, 4.0)  # times the habit's spacing: the least and the most that an exemplar may say
+_CLOSER = 0.65  # times the habit's spacing, nodes lie closer than on the exemplar, which is a skeleton without its twigs
+_SPARSEST = 4.0  # times the habit's spacing, at most
 _LARGEST_SCALE = 1.25
 _PRESSES = 1.08  # times its straight way to the crown: a branch that bends still meets the surface
 _GROUND = (0.015, 0.1)  # of the tree's height: undrawn limbs stay this far above the ground, and up to that much more
@@ -154,12 +155,12 @@ class _Growth:
         return tips.join(new)
 
     def _spacing(self, order, whole):
-        """Metres between the nodes of limbs of these orders and whole lengths: midway (as a ratio) between the
-        exemplar's and the habit's; never more than a hundred or so nodes a limb."""
+        """Metres between the nodes of limbs of these orders and whole lengths: the habit's, or wider where the exemplar
+        has few laterals; never more than a hundred or so nodes a limb."""
         habit = self.habit.lateral_spacing
         wide = np.where((order == 0) & (self.habit.arrangement != "whorled"), _TRUNK_SPACING, 1.0) * habit
         lent = self.library.spacing[np.minimum(order, self.habit.max_order)] * self.scale
-        lent = np.clip(np.maximum(np.sqrt(lent * habit), 0.8 * lent), _SPACING[0] * habit, _SPACING[1] * habit)
+        lent = np.clip(lent - _CLOSER * habit, habit, _SPARSEST * habit)
         return np.maximum(np.where(np.isnan(lent), wide, lent), whole / (4 * NODES))
 
     def run(self, limit: int) -> None:
