@@ -2,12 +2,13 @@
 
 A blade is one card of six triangles, folded along the midrib and bent down at the tip; its outline is the
 smallest hexagon round the drawing, so that little of it is empty. A needle tuft is a few quads crossed on
-its axis. Shading normals lean from the card's own towards "out of the crown":
+its axis. Short shoots are three-sided tubes. Shading normals lean from the card's own towards "out of the crown":
 
     n ∝ (1 − b) n_card + b (p − c)/|p − c|        c: centre of the crown, b: 0.35 for blades, 0.6 for tufts
 """
 
 from functools import lru_cache
+from typing import NamedTuple
 
 import numpy as np
 from jaxtyping import Float, Int
@@ -16,9 +17,11 @@ from sketchtree.foliage.leaves import Leaves
 from sketchtree.foliage.models import LeafModel, leaf_model, leaf_painting
 from sketchtree.foliage.painting import Painting, albedo, normal_map
 from sketchtree.foliage.seasons import check_season, linear
+from sketchtree.foliage.twigs import level_side
 from sketchtree.geometry.mesh import Material, Mesh
 
 _OUTWARD = {True: 0.35, False: 0.6}  # blade, tuft
+_STEM = 0.018  # radius of a short shoot at its foot, leaf sizes
 _BLADE = np.array([[0, 1, 3], [0, 3, 2], [1, 4, 3], [3, 4, 6], [3, 6, 5], [3, 5, 2]])
 
 
@@ -35,14 +38,51 @@ def leaf_mesh(leaves: Leaves, *, season: str = "summer") -> Mesh:
     normal = _outward(np.einsum("vi,lij->lvj", local, frame), position, _OUTWARD[model.is_blade])
     tint = _palette(model, season).factor(leaves.tint)
     vertices = len(card)
+    stem = _stems(leaves, vertices * len(leaves))
+    cards = (triangle[None] + vertices * np.arange(len(leaves))[:, None, None]).reshape(-1, 3)
+    color = np.repeat(np.column_stack([tint, np.ones(len(leaves))]), vertices, axis=0)
     return Mesh(
         name="leaf",
-        position=position.reshape(-1, 3),
-        normal=normal.reshape(-1, 3),
-        uv=np.tile(uv, (len(leaves), 1)),
-        triangle=(triangle[None] + vertices * np.arange(len(leaves))[:, None, None]).reshape(-1, 3),
+        position=np.vstack([position.reshape(-1, 3), stem.position]),
+        normal=np.vstack([normal.reshape(-1, 3), stem.normal]),
+        uv=np.vstack([np.tile(uv, (len(leaves), 1)), stem.uv]),
+        triangle=np.vstack([cards, stem.triangle]),
         material=leaf_material(leaves.model, season),
-        color=np.repeat(np.column_stack([tint, np.ones(len(leaves))]), vertices, axis=0),
+        color=np.vstack([color, np.ones((len(stem.position), 4))]),
+    )
+
+
+class _Stems(NamedTuple):
+    """The short shoots as three-sided tapering tubes, in the texture's petiole."""
+
+    position: Float[np.ndarray, "vertex 3"]
+    normal: Float[np.ndarray, "vertex 3"]
+    uv: Float[np.ndarray, "vertex 2"]
+    triangle: Int[np.ndarray, "triangle 3"]
+
+
+def _stems(leaves: Leaves, first: int) -> _Stems:
+    """`first` is the number of their first vertex."""
+    count = len(leaves.shoot)
+    start, end = leaves.shoot[:, 0], leaves.shoot[:, 1]
+    along = (end - start) / np.maximum(np.linalg.norm(end - start, axis=1, keepdims=True), 1e-12)
+    side = level_side(along)
+    turn = 2 * np.pi * np.arange(3) / 3
+    ring = np.cos(turn)[:, None] * side[:, None] + np.sin(turn)[:, None] * np.cross(along, side)[:, None]
+    radius = _STEM * (float(np.median(leaves.size)) if len(leaves) else 0.0)
+    position = np.stack([start[:, None] + radius * ring, end[:, None] + 0.4 * radius * ring], axis=1)
+    j = np.arange(3)
+    k = (j + 1) % 3
+    sides = np.vstack([np.stack([j, k, k + 3], axis=1), np.stack([j, k + 3, j + 3], axis=1)])
+    painting = leaf_painting(leaves.model)
+    u = -painting.left / (painting.right - painting.left) + 0.002 * (np.tile(j, 2) - 1)
+    foot = (painting.top - _foot(painting)) / (painting.top - painting.bottom)
+    v = foot - np.repeat([0.012, 0.024], 3)
+    return _Stems(
+        position.reshape(-1, 3),
+        np.repeat(ring[:, None], 2, axis=1).reshape(-1, 3),
+        np.tile(np.stack([u, v], axis=1), (count, 1)),
+        (first + sides[None] + 6 * np.arange(count)[:, None, None]).reshape(-1, 3),
     )
 
 

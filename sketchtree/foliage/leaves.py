@@ -1,6 +1,6 @@
 """Where the leaves are: one row a leaf, needle tuft or leaflet."""
 
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 
 import numpy as np
 from jaxtyping import Float, Int
@@ -11,12 +11,14 @@ class Leaves:
     """All leaves of a tree. Metres, world frame; every vector is of unit length."""
 
     model: str  # name of the leaf model
-    position: Float[np.ndarray, "leaf 3"]  # where the petiole meets the wood's surface
+    position: Float[np.ndarray, "leaf 3"]  # where the petiole meets the wood's surface, or a short shoot
     direction: Float[np.ndarray, "leaf 3"]  # from the petiole to the leaf's tip
     normal: Float[np.ndarray, "leaf 3"]  # out of the upper face; perpendicular to `direction`
     size: Float[np.ndarray, " leaf"]  # blade length, metres
     tint: Float[np.ndarray, " leaf"]  # 0-1, place in the model's range of colours
     segment: Int[np.ndarray, " leaf"]  # row of the skeleton that carries it
+    shoot: Float[np.ndarray, "shoot 2 3"] = field(default_factory=lambda: np.zeros((0, 2, 3)))
+    # start (on the wood's surface) and end of the short shoots that some leaves stand on
     kept: float = 1.0  # share of the leaves that the cap left; the sizes of these make up for the rest
 
     def __len__(self) -> int:

@@ -25,9 +25,14 @@ def test_the_mesh_is_called_leaf_and_its_material_after_the_model(worn):
     assert mesh.material.alpha_cutoff == 0.5 and mesh.material.double_sided
 
 
-def test_a_leaf_is_at_most_six_triangles(worn):
+def cards(leaves, mesh):
+    """The corners of every leaf's card; the short shoots stand after them."""
+    return mesh.position[: len(mesh.position) - 6 * len(leaves.shoot)].reshape(len(leaves), -1, 3)
+
+
+def test_a_leaf_is_at_most_six_triangles_and_so_is_a_short_shoot(worn):
     leaves, mesh = worn
-    assert len(mesh.triangle) <= 6 * len(leaves)
+    assert len(mesh.triangle) <= 6 * (len(leaves) + len(leaves.shoot))
     assert mesh.triangle.min() == 0 and mesh.triangle.max() == len(mesh.position) - 1
 
 
@@ -41,14 +46,14 @@ def test_columns_are_finite_normals_unit_and_factors_within_range(worn):
 
 def test_every_card_holds_its_leafs_foot(worn):
     leaves, mesh = worn
-    corners = mesh.position.reshape(len(leaves), -1, 3)
+    corners = cards(leaves, mesh)
     nearest = np.linalg.norm(corners - leaves.position[:, None], axis=2).min(axis=1)
     assert (nearest < 0.55 * leaves.size).all()
 
 
 def test_a_card_is_as_long_as_its_blade_with_petiole(worn):
     leaves, mesh = worn
-    corners = mesh.position.reshape(len(leaves), -1, 3) - leaves.position[:, None]
+    corners = cards(leaves, mesh) - leaves.position[:, None]
     along = np.einsum("lvk,lk->lv", corners, leaves.direction).max(axis=1) / leaves.size
     painting = leaf_painting(leaves.model)
     assert np.allclose(along, along[0]) and 0.9 < along[0] < painting.top - painting.bottom + 0.1
@@ -57,7 +62,7 @@ def test_a_card_is_as_long_as_its_blade_with_petiole(worn):
 def test_upper_faces_are_counter_clockwise():
     leaves = populate(small_tree(), HABIT, key=KEY, model="oak")
     mesh = leaf_mesh(leaves)
-    a, b, c = (mesh.position[mesh.triangle[:, i]] for i in range(3))
+    a, b, c = (mesh.position[mesh.triangle[: 6 * len(leaves), i]] for i in range(3))
     face = np.cross(b - a, c - a)
     assert (np.einsum("ij,ij->i", face, np.repeat(leaves.normal, 6, axis=0)) > 0).all()
 
@@ -92,6 +97,28 @@ def test_the_hexagon_wastes_less_than_the_rectangle(name):
 def test_every_season_has_its_own_colour():
     means = [leaf_material("maple", s).base_color_texture[..., :3].mean(axis=(0, 1)) for s in ("spring", "summer", "autumn")]
     assert all(np.abs(a - b).max() > 15 for a, b in [(means[0], means[1]), (means[1], means[2])])
+
+
+def test_short_shoots_are_opaque_tubes_that_look_outward():
+    leaves = populate(small_tree(), HABIT, key=KEY)
+    mesh = leaf_mesh(leaves)
+    assert len(leaves.shoot)
+    tube = mesh.triangle[6 * len(leaves) :]
+    a, b, c = (mesh.position[tube[:, i]] for i in range(3))
+    assert (np.einsum("ij,ij->i", np.cross(b - a, c - a), mesh.normal[tube].mean(axis=1)) > 0).all()
+    texture = mesh.material.base_color_texture
+    rows, columns = (mesh.uv[np.unique(tube)][:, ::-1] * texture.shape[:2]).astype(int).T
+    assert texture[rows, columns, 3].min() > 127
+
+
+@pytest.mark.parametrize("name", [name for name in BLADES if leaf_model(name).spur > 1])
+def test_every_model_with_short_shoots_has_a_petiole_to_paint_them_with(name):
+    leaves = populate(small_tree(), HABIT, key=KEY, model=name)
+    mesh = leaf_mesh(leaves)
+    uv = mesh.uv[len(mesh.uv) - 6 * len(leaves.shoot) :]
+    texture = mesh.material.base_color_texture
+    rows, columns = (uv[:, ::-1] * texture.shape[:2]).astype(int).T
+    assert texture[rows, columns, 3].min() > 127
 
 
 def test_no_leaf_gives_an_empty_mesh():

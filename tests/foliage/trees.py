@@ -15,7 +15,7 @@ def chain(start, direction, length, count, radii):
     return tips, np.interp(t, [0, 1], radii)
 
 
-def small_tree(twigs=4, twig_length=0.4):
+def small_tree(twigs=4, twig_length=0.6):
     """A 3 m trunk 8 cm thick, and `twigs` level twigs on it; limb ids 1, 11, 12, …"""
     tips, radii = chain((0, 0, 0), (0, 1, 0), 3.0, 6, (0.08, 0.04))
     parent, limb, order = [-1, 0, 1, 2, 3, 4, 5], [1] * 7, [0] * 7
@@ -23,7 +23,7 @@ def small_tree(twigs=4, twig_length=0.4):
     for k in range(twigs):
         turn = 2.4 * k
         foot = 3 + k % 3
-        own, thick = chain(tips[foot], (np.cos(turn), 0.3, np.sin(turn)), twig_length, 3, (0.006, 0.003))
+        own, thick = chain(tips[foot], (np.cos(turn), 0.3, np.sin(turn)), twig_length, 3, (0.012, 0.003))
         parent += [foot, len(tips), len(tips) + 1]
         tips, radii = np.vstack([tips, own]), np.r_[radii, thick]
         limb, order = limb + [11 + k] * 3, order + [1] * 3
@@ -32,7 +32,7 @@ def small_tree(twigs=4, twig_length=0.4):
 
 def single_twig(direction=(1, 0, 0), length=0.5, count=5):
     """A short thick stump with one straight twig from its top; the twig's limb id is 11."""
-    tips, radii = chain((0, 0.5, 0), direction, length, count, (0.006, 0.003))
+    tips, radii = chain((0, 0.5, 0), direction, length, count, (0.012, 0.003))
     parent = np.r_[-1, 0, 1 + np.arange(count)]
     limb, order = np.r_[1, 1, np.full(count, 11)], np.r_[0, 0, np.ones(count, int)]
     tips = np.vstack([[[0, 0, 0], [0, 0.5, 0]], tips])

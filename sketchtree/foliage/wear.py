@@ -1,0 +1,32 @@
+"""What does this tree wear: which leaf, how large, how far apart, in which arrangement?"""
+
+from dataclasses import dataclass
+
+from sketchtree.foliage.arrangement import GOLDEN_ANGLE, leaves_per_node
+from sketchtree.foliage.models import LeafModel, leaf_model
+from sketchtree.parameters import Habit
+
+
+@dataclass(frozen=True)
+class Wear:
+    """A leaf model with the spacing, size and arrangement that one tree gives it."""
+
+    model: LeafModel
+    arrangement: str
+    size: float  # metres, of a blade or a whole tuft
+    spacing: float  # metres between nodes, or between tufts
+    phyllotaxis: float  # degrees
+    whorl: int
+
+
+def wear_of(habit: Habit, model: str | None = None, density: float = 1.0) -> Wear:
+    """The habit's own leaf, or another `model` in its own size, spacing and arrangement. Raises OptionError
+    for an unknown leaf or arrangement."""
+    worn = leaf_model(model or habit.leaf)
+    if worn.name == habit.leaf:
+        arrangement, size, spacing = habit.leaf_arrangement, habit.leaf_size, habit.leaf_spacing
+    else:
+        arrangement, size, spacing = worn.arrangement, worn.size, worn.spacing
+    leaves_per_node(arrangement)
+    turn = habit.phyllotaxis if arrangement == "spiral" == habit.leaf_arrangement else GOLDEN_ANGLE
+    return Wear(worn, arrangement, size / worn.needle, spacing * worn.bundle / density, turn, habit.whorl)
