@@ -1,0 +1,54 @@
+"""Small meshes and skeletons for the tests of the export room."""
+
+import numpy as np
+
+from sketchtree.geometry.mesh import Material, Mesh
+from sketchtree.skeleton import TreeSkeleton
+
+
+def checks(rows: int = 8, channels: int = 3):
+    """A checkerboard; with a fourth channel, alpha follows it."""
+    board = (np.indices((rows, rows)).sum(axis=0) % 2 * 255).astype(np.uint8)
+    return np.repeat(board[..., None], channels, axis=2)
+
+
+def square(name: str = "wood", **material) -> Mesh:
+    """Two triangles in the plane z = 0, facing the viewer, the image upright on them."""
+    return Mesh(
+        name,
+        np.array([(0, 0, 0), (1, 0, 0), (1, 1, 0), (0, 1, 0.0)]),
+        np.broadcast_to([0.0, 0.0, 1.0], (4, 3)),
+        np.array([(0, 1), (1, 1), (1, 0), (0, 0.0)]),
+        np.array([(0, 1, 2), (0, 2, 3)]),
+        Material(f"{name}_checks", **material),
+    )
+
+
+def textured(name: str = "wood") -> Mesh:
+    """The square with every kind of texture."""
+    flat = np.broadcast_to(np.array([128, 128, 255], np.uint8), (8, 8, 3))
+    return square(name, base_color_texture=checks(), normal_texture=flat, roughness_texture=checks()[..., 0])
+
+
+def leafy() -> Mesh:
+    """The square as a leaf: cut out by alpha, seen from both sides, tinted."""
+    import dataclasses
+
+    leaf = square("leaf", base_color_texture=checks(channels=4), alpha_cutoff=0.5, double_sided=True)
+    return dataclasses.replace(leaf, color=np.tile([0.5, 1.0, 0.25, 1.0], (4, 1)))
+
+
+def curved() -> TreeSkeleton:
+    """A stem whose second segment has two drawn points, and a fork of two."""
+    return TreeSkeleton.from_columns(
+        np.array([-1, 0, 1, 2, 2]),
+        np.array([(0, 0, 0), (0, 1, 0), (0.1, 2, 0.3), (0.5, 3, 0), (-0.5, 3, 1 / 3)]),
+        np.array([0.3, 0.2, 0.1, 0.05, 0.04]),
+        order=np.array([0, 0, 0, 0, 1]),
+        limb=np.array([2**62 + 1, 2**62 + 1, 2**62 + 1, 2**62 + 1, 77]),
+        stroke=np.array([0, 0, 0, 0, -1]),
+        kind=np.array([0, 0, 0, 0, 1]),
+        depth_sd=np.array([0, 0.1, np.nan, 0.2, np.nan]),
+        curve_points=np.array([(0, 1.25, 0), (0, 1.5, 0)]),
+        curve_start=np.array([0, 0, 0, 2, 2, 2]),
+    )

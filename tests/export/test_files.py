@@ -1,0 +1,73 @@
+import os
+import stat
+
+import pytest
+
+from sketchtree.errors import ExportError
+from sketchtree.export.files import check_extension, check_writable, whole_file, write_whole
+
+
+def test_a_file_is_written_whole(tmp_path):
+    write_whole(tmp_path / "t.swc", b"1 0")
+    assert (tmp_path / "t.swc").read_bytes() == b"1 0"
+    assert [path.name for path in tmp_path.iterdir()] == ["t.swc"]
+
+
+def test_what_fails_leaves_the_old_file_and_nothing_else(tmp_path):
+    write_whole(tmp_path / "t.swc", b"old")
+    with pytest.raises(RuntimeError), whole_file(tmp_path / "t.swc") as temporary:
+        temporary.write_bytes(b"half")
+        raise RuntimeError
+    assert (tmp_path / "t.swc").read_bytes() == b"old"
+    assert len(list(tmp_path.iterdir())) == 1
+
+
+def test_checking_leaves_nothing_behind(tmp_path):
+    assert check_writable(tmp_path / "t.glb") == tmp_path / "t.glb"
+    assert list(tmp_path.iterdir()) == []
+
+
+def test_a_missing_folder_is_named(tmp_path):
+    with pytest.raises(ExportError, match=r"Can't write .*t\.glb: the folder .*nowhere does not exist\. Create it, or choose another path\."):
+        check_writable(tmp_path / "nowhere" / "t.glb")
+
+
+def test_a_folder_in_place_of_a_file_is_named(tmp_path):
+    with pytest.raises(ExportError, match=r"it is a folder\. Add a file name to the path\."):
+        check_writable(tmp_path)
+
+
+@pytest.mark.skipif(not hasattr(os, "geteuid") or os.geteuid() == 0, reason="the superuser may write anywhere")
+def test_a_read_only_folder_is_named(tmp_path):
+    tmp_path.chmod(stat.S_IRUSR | stat.S_IXUSR)
+    try:
+        with pytest.raises(ExportError, match="permission denied. Choose a folder you may write to"):
+            check_writable(tmp_path / "t.glb")
+    finally:
+        tmp_path.chmod(stat.S_IRWXU)
+
+
+def test_a_full_disk_is_named(tmp_path):
+    with pytest.raises(ExportError, match="no space left on device. Free some space or choose another folder"), whole_file(tmp_path / "t.glb"):
+        raise OSError(28, "No space left on device")
+    assert list(tmp_path.iterdir()) == []
+
+
+@pytest.mark.parametrize("suffix", [".usd", ".usda", ".usdz", ".mtg", ".h5", ".gltf", ".sketchtree"])
+def test_what_later_versions_write_is_named_with_what_this_one_writes(suffix):
+    with pytest.raises(ExportError, match=rf"`{suffix}` files are not written\. This version writes \.glb, \.obj, \.ply, \.stl, \.swc, \.json here\. Write \."):
+        check_extension(f"tree{suffix}")
+
+
+def test_an_unknown_extension_is_named():
+    with pytest.raises(ExportError, match=r"`\.fbx` files are not written.*Choose one of these extensions\."):
+        check_extension("tree.fbx")
+
+
+def test_a_path_without_extension_is_named():
+    with pytest.raises(ExportError, match="it has no extension to tell the format"):
+        check_extension("tree")
+
+
+def test_the_extension_may_be_in_capitals():
+    assert check_extension("Tree.GLB") == ".glb"
