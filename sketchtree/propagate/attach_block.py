@@ -10,7 +10,8 @@ children inherit its angles; Θ's spread (§4) keeps copies from being copies:
     κ      `spread`, the share of Θ's spread that is added to what the blocks differ by themselves
     ε      standard normal numbers of the child's own limb id
 
-The children of a level limb alternate: a block is mirrored in the plane of limb and parent limb
+On an excurrent limb (one whose tip stays ahead) no lateral is longer than half its way to the tip. The children of
+a level limb alternate: a block is mirrored in the plane of limb and parent limb
 (ϕ → −ϕ) where it would put its lateral on the side of the previous one. On a trunk, nodes turn by the habit's
 phyllotaxis instead.
 """
@@ -28,6 +29,8 @@ from sketchtree.propagate.open_branch import Frame, OpenBranches, turn
 RANKS = 64  # ranks along a limb are 64 · node + 1 + number of the lateral at that node
 MINIMUM_LENGTH = 0.6  # of the habit's twig length: shorter laterals are not grown
 LARGEST_REACH = 1.5  # of the habit's ratio of lateral to limb: longer children of a block are forks of it
+EXCURRENT = 0.7  # apical control from which a limb's tip stays ahead of its laterals
+_CONE = 0.5  # of the way to that tip: no lateral of it is longer
 _LENGTH_SD = 0.1
 _STOUTNESS = 0.02  # radius over length of a new limb, at most
 
@@ -83,6 +86,9 @@ def attach(
     limb = keys.child_limb_id(nodes.limb[at], nodes.number[at] * RANKS + 1 + rank)
     reach = np.minimum(blocks.reach[child], LARGEST_REACH * habit.lateral_ratio)
     length = reach * nodes.whole[at] * np.exp(_LENGTH_SD * keys.normal(key, limb, 0))
+    if habit.apical_control >= EXCURRENT:
+        to_tip = (1.0 - nodes.position[at]) * nodes.whole[at]
+        length = np.minimum(length, _CONE * to_tip + MINIMUM_LENGTH * habit.twig_length)
     keep = length >= MINIMUM_LENGTH * habit.twig_length
     at, child, rank, limb, length = (column[keep] for column in (at, child, rank, limb, length))
 

@@ -37,6 +37,7 @@ _TRUNK_SPACING = 1.6  # of the habit's spacing of laterals
 _CLOSER = 0.65  # times the habit's spacing, nodes lie closer than on the exemplar, which is a skeleton without its twigs
 _SPARSEST = 4.0  # times the habit's spacing, at most
 _LARGEST_SCALE = 1.25
+_LIKE_BLOCK = 1.5  # times the length its block says, a new limb on the trunk is no longer than that
 _PRESSES = 1.08  # times its straight way to the crown: a branch that bends still meets the surface
 _GROUND = (0.015, 0.1)  # of the tree's height: undrawn limbs stay this far above the ground, and up to that much more
 _LIKE_DRAWN = 1.1  # times the drawn laterals around it, a new one on a drawn limb is no longer
@@ -148,7 +149,7 @@ class _Growth:
         usual = drawn.usual_length(new)
         at_most = np.minimum(new.length, _LIKE_DRAWN * usual)
         like = usual * (0.8 + 0.25 * keys.uniform(self.key, new.limb, 12))
-        length = np.where(np.isnan(usual), new.length, np.where(new.order == 1, like, at_most))
+        length = np.where(np.isnan(usual), new.length, np.where(new.order == 1, np.minimum(like, _LIKE_BLOCK * new.length), at_most))
         new = replace(new, length=length).select(~drawn.beside(new, self.spacing))
         if self.habit.max_order > 0:
             new = new.join(self._free(into_gaps(tree, frames(tree), drawn, new, self.key)))
