@@ -5,7 +5,7 @@ the arborescence is solved first with the kinder of both, then again with the di
 changes; the cheapest consistent tree of all rounds is kept. The ground may feed every stroke:
 
     cost of standing on the ground   4 + 50 |y − y_ground| / H + (1 − up) / 2     for strokes that rise from the ground
-                                     the same with 8 for 50, + FORBIDDEN            for all others
+                                     the same with 100 (y − y_lowest) / H, + FORBIDDEN   for all others
 
     up   cosine between the stroke leaving that end and the vertical
 
@@ -45,7 +45,7 @@ def attach(lines: list[Line]) -> Hanging:
     arcs = candidate_arcs(lines, height)
     rising, foot_y = _rising(lines, height)
     lowest = float(foot_y.min())
-    alone = 8 * (foot_y - lowest) / height + 0.5 * (1 - rising) + _smallness(lines)[:, None]
+    alone = 100 * (foot_y - lowest) / height + 0.5 * (1 - rising) + _smallness(lines)[:, None]
     solution = _solve(lines, arcs, alone + FORBIDDEN, ROUNDS[0])
     stem = int(np.argmin(np.where(solution.parent == NULL, solution.cost, np.inf)))
     ground = foot_y[stem, solution.end[stem]]

@@ -4,7 +4,7 @@ Every end of a stroke is tried on the strokes nearest to it. The cost of growing
 end p of stroke i, is a sum of how unlike a branch that would be (ours; weights found on drawings of our own):
 
     gap         2 log(1 + ½ g²)               g = |p − q| / ε; within the half width of j a third of it counts
-    angle       3 (φ − 80°)₊ / 100°          φ between i leaving p and j going on from q, root to tip
+    angle       3 (φ − 80°)₊ / 100°          φ between i leaving p and j going on from q; half of it at j's ends
     end         ¼ (1 + Δy / |i|)              Δy from the other end up to p: branches rise more often than they fall
     width       1.5 (log(w_i / w_j) + 0.2)₊   a branch is thinner than its parent
     length      0.2 (log(|i| / |j|))₊         nor often longer
@@ -98,7 +98,7 @@ def _near(ends, shapes, height: float):
     order = np.lexsort((line, gap, row))
     row, line, gap = row[order], line[order], gap[order]
     rank = np.arange(len(row)) - np.searchsorted(row, row)
-    kept = rank < wanted
+    kept = (rank < wanted) | ((rank < 8 * wanted) & (gap <= PRECISE * height))
     return row[kept], line[kept], gap[kept]
 
 
@@ -120,8 +120,8 @@ def _costs(lines, shapes, ends, child, end, parent, s, gap, height: float) -> Fl
     columns = []
     for sign, from_foot in ((1.0, s), (-1.0, length[parent] - s)):
         diverging = np.degrees(angle_between(leaving, sign * forward))
-        at_foot = from_foot < foot
-        angle = np.where(at_foot, 0.5, 1.0) * 3 * np.maximum(diverging - 80, 0) / 100
+        at_end = np.minimum(from_foot, length[parent] - from_foot) < foot
+        angle = np.where(at_end, 0.5, 1.0) * 3 * np.maximum(diverging - 80, 0) / 100
         columns.append(shared + angle + 0.5 * np.exp(-from_foot / (0.015 * height)))
     return np.stack(columns, 1)
 
