@@ -9,11 +9,11 @@ from sketchtree.errors import OptionError
 class Detail:
     """Tolerances are shares of the tree's height, so that a sapling and an oak get alike meshes."""
 
-    tolerance: float = 2e-4  # largest sagitta of a ring's side and of a bend, / height, > 0
+    tolerance: float = 2e-4  # largest sagitta of a ring's side, and half that of a bend, / height, > 0
     fewest_sides: int = 3  # of a ring, ≥ 3
     most_sides: int = 24  # of a ring, ≥ fewest_sides
     longest: float = 0.05  # farthest two rings stand apart, / height, > 0
-    collar_radius: float = 7e-4  # limbs at least this thick at their foot get a collar, / height, ≥ 0
+    collar_radius: float = 1e-3  # limbs at least this thick at their foot get a collar, / height, ≥ 0
     flare: float = 0.45  # how much wider a stem is at the ground, share of its radius, 0-2
     tile: float = 0.5  # side of the bark texture on thick wood, metres, > 0
 

@@ -1,7 +1,7 @@
 """How many sides has a ring, and how many rings a collar?
 
 A regular polygon of n sides misses its circle by r (1 − cos(π / n)); n is the fewest sides for which that is within the
-tolerance. Since limbs taper, r is at most the radius at the limb's foot.
+tolerance. Since limbs taper, r is a little less than the radius at the limb's foot.
 """
 
 import numpy as np
@@ -9,7 +9,7 @@ from jaxtyping import Float, Int
 
 from sketchtree.geometry.detail import Detail
 
-_TYPICAL = 1.0  # radius that sets the number of sides, / radius at the foot
+_TYPICAL = 0.8  # radius that sets the number of sides, / radius at the foot
 
 
 def sides(radius: Float[np.ndarray, " limb"], tolerance: float, detail: Detail) -> Int[np.ndarray, " limb"]:

@@ -4,7 +4,7 @@ Rings stand as far apart as the bend allows: a chord over a bend of curvature κ
 
     Δ(s) = √(8 ε / κ(s)),    0.6 r ≤ Δ ≤ 40 r and Δ ≤ the longest allowed
 
-    ε   tolerance, metres     r   radius     κ   curvature
+    ε   twice the tolerance of `Detail`, metres     r   radius     κ   curvature
 
 and each stretch between two pinned places (tips of drawn rows, both ends) is cut into equal parts of ∫ ds / Δ.
 A ring is perpendicular to the chord over one radius of the line, so that the small tremor of a hand does not tilt
@@ -20,6 +20,7 @@ from sketchtree.geometry.detail import Detail
 from sketchtree.geometry.frames import rotation_minimising
 from sketchtree.geometry.limbs import CentreLines
 
+_BEND = 2.0  # sagitta of a bend / sagitta of a ring's side
 _BACK = np.array([0.0, 0.0, -1.0])  # where the seam is: away from the viewer
 
 
@@ -62,7 +63,7 @@ def rings(
 def _places(lines: CentreLines, detail: Detail, height: float):
     """Limb and place of every ring, before collars and domes."""
     limb = lines.of_point
-    apart = np.sqrt(8.0 * detail.tolerance * height / np.maximum(lines.curvature, 1e-9))
+    apart = np.sqrt(8.0 * _BEND * detail.tolerance * height / np.maximum(lines.curvature, 1e-9))
     apart = np.clip(apart, 0.6 * lines.radius, np.maximum(np.minimum(40.0 * lines.radius, detail.longest * height), 0.6 * lines.radius))
     foot = lines.radius[lines.start[:-1]][limb]
     near_ground = lines.is_stem[limb] & (lines.s < lines.ground[limb] + 3.0 * foot)
