@@ -71,9 +71,9 @@ def _arcs(lines, shapes, ends, row, parent, gap, height: float) -> Arcs:
 
 
 def foot_reach(line: Line, height: float) -> float:
-    """Within this length of an end, a point counts as being at that end: half the line's width, or little of H."""
+    """Within this length of an end, a point counts as being at that end: in the ink of it, or within little of H."""
     width = np.nanmax(line.width) if np.isfinite(line.width).any() else 0.0
-    return float(min(max(FOOT * height, 0.6 * width), 0.25 * line.length))
+    return float(min(max(FOOT * height, width), 0.3 * line.length))
 
 
 def _near(ends, shapes, height: float):

@@ -17,6 +17,7 @@ from sketchtree.sketch.attach import Hanging
 from sketchtree.sketch.candidates import REACH, foot_reach
 from sketchtree.sketch.lines import Line, angle_between, extent
 
+SLACK = 0.012  # of H: a wider gap between a foot and its junction is bridged, a narrower one closed
 OVERSHOOT = 0.025  # of H: how far past its parent a foot may have been drawn
 CROSSES = np.radians(25)  # lines that meet at less run side by side
 RISING = 0.2  # cosine with the vertical above which a line that starts at a foot on the ground is a stem
@@ -33,6 +34,7 @@ class Limb:
     row: Int[np.ndarray, " point"]  # stroke that drew each point
     parent: int = NULL
     s: float = 0.0  # where it sits, length along the parent limb
+    slack: float = 0.0  # its first points are dropped rather than bridged to where it sits, if no farther than this
     joins: list[float] = field(default_factory=list)  # lengths at which the next line begins
 
     def __post_init__(self):
@@ -130,6 +132,7 @@ def _assemble(lines: list[Line], parent, s, order: list[int], heir: list[int], h
         limb = _chain(lines, chain, offset, height)
         if above != NULL:
             limb.parent, limb.s = limb_of[above], float(offset[above] + s[first])
+            limb.slack = max(SLACK * height, foot_reach(lines[above], height))
         for k in chain:
             limb_of[k] = len(limbs)
         limbs.append(limb)
@@ -141,10 +144,11 @@ def _chain(lines: list[Line], chain: list[int], offset, height: float) -> Limb:
     line = lines[chain[0]]
     points, width, row, joins = line.points, line.width, np.full(len(line.points), line.row), []
     length = line.length
-    for k in chain[1:]:
+    for k, before in zip(chain[1:], (lines[j] for j in chain), strict=False):
         offset[k] = length
         joins.append(length)
-        start = beyond(lines[k].points, lines[k].along, points[-1], height)
+        slack = max(SLACK * height, foot_reach(before, height))
+        start = beyond(lines[k].points, lines[k].along, points[-1], slack)
         points = np.concatenate([points, lines[k].points[start:]])
         width = np.concatenate([width, lines[k].width[start:]])
         row = np.concatenate([row, np.full(len(lines[k].points) - start, lines[k].row)])
@@ -152,10 +156,10 @@ def _chain(lines: list[Line], chain: list[int], offset, height: float) -> Limb:
     return Limb(list(chain), points, width, row, joins=joins)
 
 
-def beyond(points, along, junction, height: float) -> int:
-    """The first point to keep when a line is made to start at `junction`: all, if the gap is wide and worth bridging."""
+def beyond(points, along, junction, slack: float) -> int:
+    """The first point to keep when a line is made to start at `junction`: all, if the gap is wider than `slack`."""
     gap = float(np.hypot(*(points[0] - junction)))
-    if gap > 0.012 * height:
+    if gap > slack:
         return 0
     return int(min(np.searchsorted(along, gap, side="right"), len(points) - 1))
 

@@ -98,7 +98,7 @@ def _from_segment(points, a, b) -> Float[np.ndarray, " point"]:
 def _append_limb(table, k: int, limb: Limb, rows: Rows, tree: int, height: float) -> None:
     parent, previous = rows.foot[k], 0.0
     start = table["xy"][parent]
-    kept = np.arange(len(limb.points)) >= (beyond(limb.points, limb.along, start, height) if limb.parent != NULL else 1)
+    kept = np.arange(len(limb.points)) >= (beyond(limb.points, limb.along, start, limb.slack) if limb.parent != NULL else 1)
     for s in rows.s[k]:
         between = kept & (limb.along >= previous) & (limb.along < s - 1e-9 * height) & (limb.points != table["xy"][parent]).any(1)
         xy = np.array([np.interp(s, limb.along, limb.points[:, axis]) for axis in (0, 1)])
