@@ -13,7 +13,6 @@ import numpy as np
 import optimistix
 from jaxtyping import Array, Float, Key
 
-from sketchtree.axes import NULL
 from sketchtree.keys import normal
 from sketchtree.mrf import chains
 from sketchtree.mrf.ascend import ascend
@@ -80,13 +79,13 @@ class Elevation(AbstractSolver):
         return len(self.schedule)
 
     def compile(self, graph: FactorGraph, prior: Prior) -> None:
-        if (graph.limb_parent != NULL).any():
+        if graph.limb_spreads.any():
             state = self.init(graph, prior, jax.random.key(0))
             self._program(graph, state, jax.random.key(0), 1.0)
 
     def init(self, graph: FactorGraph, prior: Prior, key: Key[Array, ""]) -> State:
         nothing = np.zeros(len(graph))
-        if not (graph.limb_parent != NULL).any():
+        if not graph.limb_spreads.any():
             return State(None, None, None, (), 0, nothing, 0.0)
         segments, limbs = bucket(graph)
         posterior = log_posterior(graph, prior, learns=self.theta_mode == "fit", planar=self.planar)
@@ -154,6 +153,6 @@ def _random_limbs(graph: FactorGraph, key, chain_count: int, segments: int) -> F
     start = np.zeros((chain_count, segments), np.float32)
     limb = np.arange(graph.limb_count)
     for chain in range(chain_count):
-        psi = np.clip(START_SD * normal(key, limb, chain), -1.2, 1.2) * (graph.limb_order > 0)
+        psi = np.clip(START_SD * normal(key, limb, chain), -1.2, 1.2) * graph.limb_spreads
         start[chain, : len(graph)] = np.where(graph.is_base, 0.0, psi[graph.limb])
     return start

@@ -4,7 +4,8 @@
     e_i   unit direction on the page            p(i)  parent row, NULL at a base
     j     a limb (stroke): parent limb, order o_j, first row f_j, tip row t_j, insertion u_j ∈ [0, 1]
 
-Limbs are Chen's apical chains: the apical child is the segment that continues its limb.
+Limbs are Chen's apical chains: the apical child is the segment that continues its limb. A tree of three stems or
+more is a shrub: its stems spread like the laterals of an upright axis that was not drawn.
 """
 
 from dataclasses import dataclass
@@ -18,6 +19,7 @@ from sketchtree.mrf.relations import competition_pairs, competitors, sibling_pai
 from sketchtree.sketch.graph import SketchGraph
 
 SHORTEST = 1e-3  # least length on the page, H = 1
+SHRUB = 3  # stems of one tree that make it a shrub
 _GRID = 2.0**-22  # normalised positions are rounded to it, so that the units of the file cannot matter
 
 
@@ -40,6 +42,7 @@ class FactorGraph:
 
     limb_parent: Int[np.ndarray, " limb"]  # NULL for a stem
     limb_order: Int[np.ndarray, " limb"]  # 0 for a stem
+    limb_spreads: Bool[np.ndarray, " limb"]  # may leave the page: laterals, and the stems of a shrub
     limb_first: Int[np.ndarray, " limb"]  # row f_j
     limb_tip: Int[np.ndarray, " limb"]  # row t_j
     limb_length: Float[np.ndarray, " limb"]  # on the page
@@ -91,13 +94,16 @@ def factor_graph(graph: SketchGraph) -> FactorGraph:
     competitor = competition_pairs(
         graph, xy, competitors(graph, length, limb_length), radius=max(np.ptp(xy[:, 0]) / 2, 0.05)
     )
-    sibling, rank_gap = sibling_pairs(graph.limb_parent, insertion)
+    spreads = _spreads(graph, tree)
+    on_ground = spreads & (graph.limb_parent == NULL)
+    host = np.where(on_ground, len(spreads) + tree[graph.limb_first], graph.limb_parent)
+    sibling, rank_gap = sibling_pairs(host, np.where(on_ground, xy[graph.limb_first, 0], insertion))
     is_apical = ~graph.is_base
     is_apical[graph.limb_first] = False
     return FactorGraph(
         scale=scale, parent=graph.parent, xy=xy, length=length, direction=direction, limb=graph.limb, order=order,
         tree=tree, radius=drawn_radius(graph) / scale, is_base=graph.is_base, is_apical=is_apical,
-        is_joined=graph.joined, limb_parent=graph.limb_parent, limb_order=graph.limb_order,
+        is_joined=graph.joined, limb_parent=graph.limb_parent, limb_order=graph.limb_order, limb_spreads=spreads,
         limb_first=graph.limb_first, limb_tip=tip, limb_length=limb_length, insertion=insertion,
         trunk_x=outline.trunk_x(xy[tip, 1], tree[tip]), half_width=outline.half_width(xy[tip, 1], tree[tip]),
         sibling=sibling, rank_gap=rank_gap, competitor=competitor,
@@ -118,6 +124,14 @@ def drawn_radius(graph: SketchGraph) -> Float[np.ndarray, " segment"]:
     total = np.maximum(tip_distance[graph.limb_tip][graph.limb], 1e-12)
     taper = 0.01 * (graph.height or 1.0) * 0.5**graph.order * (1 - 0.6 * tip_distance / total)
     return np.where(np.isfinite(graph.width) & (graph.width > 0), graph.width / 2, taper)
+
+
+def _spreads(graph, tree):
+    """Laterals, and stems of which their tree has three or more."""
+    is_stem = graph.limb_parent == NULL
+    of_tree = tree[graph.limb_first]
+    stems = np.bincount(of_tree[is_stem], minlength=tree.max(initial=-1) + 1)
+    return ~is_stem | (stems[of_tree] >= SHRUB)
 
 
 def _page_vectors(graph, vector):

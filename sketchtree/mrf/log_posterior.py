@@ -25,7 +25,8 @@ from sketchtree.mrf.factors.limb_length import LimbLength
 from sketchtree.mrf.factors.plane import Plane
 from sketchtree.mrf.factors.siblings import DECAY, KAPPA, Siblings
 from sketchtree.mrf.factors.solid_angle import SolidAngle
-from sketchtree.mrf.factors.stem import Stem
+from sketchtree.mrf.factors.stem import SD as STEM_SD
+from sketchtree.mrf.factors.stem import SHRUB_SD, Stem
 from sketchtree.mrf.prior import Prior
 
 SMALLEST_BUCKET = 32
@@ -129,7 +130,10 @@ def log_posterior(
             row=pad.index(apical, segments), parent=pad.index(graph.parent[apical], segments),
             order=pad.index(np.minimum(graph.order[apical], 2), segments), present=pad.real(np.ones(len(apical)), segments),
         ),
-        stem=Stem(row=pad.index(first[stem], limbs), present=pad.real(np.ones(len(stem)), limbs)),
+        stem=Stem(
+            row=pad.index(first[stem], limbs),
+            sd=np.maximum(pad.real(np.where(graph.limb_spreads[stem], SHRUB_SD, STEM_SD), limbs), STEM_SD).astype(dtype), present=pad.real(np.ones(len(stem)), limbs),
+        ),
         limb_length=LimbLength(
             limb=pad.index(lateral, limbs), parent=pad.index(graph.limb_parent[lateral], limbs), order=pad.index(order, limbs),
             insertion=pad.real(graph.insertion[lateral], limbs), present=pad.real(np.ones(len(lateral)), limbs),
@@ -181,7 +185,7 @@ def _aside(graph):
 
 def _sidedness(graph):
     """Weight of extent and crown per tree: 1, falling to .15 where every tip is on one side."""
-    lateral = graph.limb_parent != NULL
+    lateral = graph.limb_spreads
     tree = graph.tree[graph.limb_tip][lateral]
     aside = _aside(graph)[lateral]
     count = np.maximum(np.bincount(tree, minlength=graph.tree.max() + 1), 1)
@@ -192,7 +196,7 @@ def _sidedness(graph):
 
 
 def _extent(graph, pad, shape):
-    lateral = graph.limb_parent != NULL
+    lateral = graph.limb_spreads
     tree = graph.tree[graph.limb_tip] % pad.limbs
     square = np.bincount(tree[lateral], _aside(graph)[lateral] ** 2, minlength=pad.limbs)
     some = np.bincount(tree[lateral], minlength=pad.limbs) > 0
@@ -206,7 +210,7 @@ def _extent(graph, pad, shape):
 
 def _crown(graph, pad, shape):
     above = np.minimum(np.maximum(graph.limb_order - 1, 0), 1)
-    weight = shape * (graph.limb_parent != NULL) * _sidedness(graph)[graph.tree[graph.limb_tip]]
+    weight = shape * graph.limb_spreads * _sidedness(graph)[graph.tree[graph.limb_tip]]
     return Crown(
         tip=pad.index(graph.limb_tip, pad.limbs), aside=pad.real(_aside(graph), pad.limbs),
         half_width=np.maximum(pad.real(graph.half_width, pad.limbs), NARROWEST).astype(pad.dtype),

@@ -30,7 +30,7 @@ LIMB_ALONE, WITH_SUBTREE = 0.2, 0.6  # below the first: the limb alone; below th
 class Moves(eqx.Module):
     """What the proposals need to know of a drawing; padded."""
 
-    lateral: Int[Array, " limb"]  # limbs that grow from another
+    lateral: Int[Array, " limb"]  # limbs that may leave the page
     first: Int[Array, " limb"]  # their first rows
     lateral_count: Int[Array, ""]
     pace: Float[Array, " segment"]  # √P; 0 at bases and padding
@@ -48,7 +48,7 @@ class Draws(NamedTuple):
 
 def moves(graph: FactorGraph, segments: int, limbs: int, dtype=np.float32) -> Moves:
     """The moves of a drawing padded to `segments` and `limbs`."""
-    lateral = np.flatnonzero(graph.limb_parent != NULL)
+    lateral = np.flatnonzero(graph.limb_spreads)
     fill = np.zeros(limbs - len(lateral), int)
     pace = np.zeros(segments)
     pace[: len(graph)] = np.where(graph.is_base, 0.0, 1 / np.sqrt(stiffness(graph)))
@@ -71,7 +71,8 @@ def stiffness(graph: FactorGraph) -> Float[np.ndarray, " segment"]:
     lateral = graph.limb_first[graph.limb_parent != NULL]
     sharp[lateral] += 1 / GENERIC_BELIEF["divergence"][3][0] / 2
     sharp += np.bincount(graph.parent[lateral], minlength=len(graph)) * 0.25 / GENERIC_BELIEF["divergence"][3][0]
-    sharp[graph.limb_first[graph.limb_parent == NULL]] += stem.SD**-2
+    stems = graph.limb_first[graph.limb_parent == NULL]
+    sharp[stems] += np.where(graph.limb_spreads[graph.limb[stems]], stem.SHRUB_SD, stem.SD) ** -2
     return sharp
 
 

@@ -14,7 +14,6 @@ synthetic and the measured trees of `benchmarks`.
 import numpy as np
 from jaxtyping import Float
 
-from sketchtree.axes import NULL
 from sketchtree.mrf.factor_graph import FactorGraph
 from sketchtree.traverse import generations
 
@@ -30,7 +29,7 @@ def typical_elevation(
     """ψ of every row from samples of ψ and the best ψ; radians."""
     size = np.median(np.abs(samples), axis=0)
     psi = np.where(best < 0, -size, size)
-    psi = np.where(graph.order == 0, STEM_SHARE * psi, psi)
+    psi = np.where(graph.limb_spreads[graph.limb], psi, STEM_SHARE * psi)
     some = samples[:: -(-len(samples) // ENOUGH)].T
     return stretched_crown(graph, stretched_limbs(graph, psi, some), some)
 
@@ -42,7 +41,7 @@ def stretched_limbs(
     typical = np.median(np.abs(_limb_rise(graph, samples)), axis=1)
     own = np.abs(_limb_rise(graph, psi[:, None])[:, 0])
     factor = np.clip((typical / np.maximum(own, 1e-6)) ** LIMB_POWER, 1 / LIMB_LIMIT, LIMB_LIMIT)
-    factor = np.where(graph.limb_parent == NULL, 1.0, factor)
+    factor = np.where(graph.limb_spreads, factor, 1.0)
     return np.arctan(np.tan(psi) * factor[graph.limb])
 
 
@@ -52,7 +51,7 @@ def stretched_crown(
     """ψ with the extent of the whole brought towards its median over the samples."""
     extent, own = np.median(np.ptp(depth_of(graph, samples), axis=0)), np.ptp(depth_of(graph, psi))
     factor = np.clip((extent / max(own, 1e-6)) ** CROWN_POWER, 1 / CROWN_LIMIT, CROWN_LIMIT)
-    return np.where(graph.order > 0, np.arctan(np.tan(psi) * factor), psi)
+    return np.where(graph.limb_spreads[graph.limb], np.arctan(np.tan(psi) * factor), psi)
 
 
 def depth_of(graph: FactorGraph, elevation: Float[np.ndarray, "segment *sample"]) -> Float[np.ndarray, "segment *sample"]:

@@ -33,6 +33,13 @@ def small_tree() -> SketchGraph:
     return sketch(parent, xy, limb)
 
 
+def shrub() -> SketchGraph:
+    """Four stems from the ground, a limb on one of them."""
+    parent = [-1, -1, -1, -1, 0, 1, 2, 3, 5, 5, 7]
+    xy = [[0, 0], [4, 1], [8, 0], [11, 0], [-30, 60], [-5, 80], [15, 85], [40, 55], [-10, 100], [10, 100], [60, 75]]
+    return sketch(parent, xy, [0, 1, 2, 3, 0, 1, 2, 3, 1, 4, 3])
+
+
 def lone_stroke() -> SketchGraph:
     """A zigzag without any lateral."""
     return sketch([-1, 0, 1, 2, 3], [[0, 0], [10, 30], [-10, 60], [12, 90], [-8, 120]], [0] * 5)

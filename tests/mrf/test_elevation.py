@@ -14,7 +14,7 @@ from sketchtree.mrf.infer import infer
 from sketchtree.mrf.log_posterior import log_posterior
 from sketchtree.mrf.prior import Prior
 from sketchtree.mrf.solver import RESULTS
-from tests.mrf.drawings import lone_stroke, random_tree, sketch, small_tree
+from tests.mrf.drawings import lone_stroke, random_tree, shrub, sketch, small_tree
 
 SOLVER = Elevation()
 
@@ -114,6 +114,13 @@ def test_degenerate_drawings_stay_finite_and_bounded(world):
     fit = _fit(graph)
     assert np.isfinite(fit.depth).all()
     assert np.abs(fit.depth).max() < 3 * graph.height
+
+
+def test_a_shrub_is_no_fan():
+    fit = _fit(shrub())
+    assert (fit.depth[:4] == 0).all()
+    assert np.ptp(fit.depth) > 30
+    assert np.median(np.abs(fit.depth[4:])) > 5
 
 
 def test_two_trees_are_each_rooted_at_depth_zero():

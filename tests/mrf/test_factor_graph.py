@@ -4,7 +4,7 @@ import numpy as np
 import pytest
 
 from sketchtree.mrf.factor_graph import SHORTEST, factor_graph
-from tests.mrf.drawings import random_tree, sketch, small_tree
+from tests.mrf.drawings import random_tree, shrub, sketch, small_tree
 
 
 def test_height_is_one_and_the_first_base_is_at_the_origin(small):
@@ -103,6 +103,16 @@ def test_it_prints_as_one_line(small):
         "FactorGraph: 10 segments, 6 limbs up to order 2, 6 sibling pairs, "
         f"{len(small.competitor)} competition pairs; H = 105 sketch units"
     )
+
+
+def test_the_stems_of_a_shrub_spread_and_are_siblings():
+    graph = factor_graph(shrub())
+    assert graph.limb_spreads.all()
+    assert {tuple(sorted(pair)) for pair in graph.sibling.tolist()} == {(0, 1), (1, 2), (2, 3), (0, 2), (1, 3), (0, 3)}
+
+
+def test_one_or_two_stems_do_not_spread(small):
+    assert small.limb_spreads.tolist() == [False, True, True, True, True, True]
 
 
 def test_two_trees_each_have_their_own_trunk_line():

@@ -10,7 +10,7 @@ from sketchtree.mrf.conjugate import GENERIC_BELIEF
 from sketchtree.mrf.factor_graph import factor_graph
 from sketchtree.mrf.log_posterior import LogPosterior, bucket, log_posterior
 from sketchtree.mrf.prior import Prior
-from tests.mrf.drawings import lone_stroke, random_tree, small_tree
+from tests.mrf.drawings import lone_stroke, random_tree, shrub, small_tree
 from tests.twins import limb_model as twin
 
 KINDS = ("solid_angle", "lateral", "apical", "stem", "limb_length", "siblings", "competition", "extent", "crown")
@@ -43,7 +43,7 @@ def _psi(graph, seed, sd=0.5):
 
 def _worlds():
     one_sided = small_tree().replace(xy=np.abs(small_tree().xy))
-    return {"small": small_tree(), "random": random_tree(3, 8), "one-sided": one_sided, "collinear": _collinear()}
+    return {"small": small_tree(), "random": random_tree(3, 8), "one-sided": one_sided, "collinear": _collinear(), "shrub": shrub()}
 
 
 def _collinear():
@@ -51,7 +51,7 @@ def _collinear():
     return small_tree().replace(xy=np.array([[0, 10.0 * k] for k in range(11)]))
 
 
-@pytest.mark.parametrize("world", ["small", "random", "one-sided", "collinear"])
+@pytest.mark.parametrize("world", ["small", "random", "one-sided", "collinear", "shrub"])
 @pytest.mark.parametrize("kind", KINDS)
 def test_every_kind_is_its_twin(world, kind, double):
     graph = factor_graph(_worlds()[world])

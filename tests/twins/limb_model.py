@@ -37,6 +37,14 @@ def lateral_limbs(graph):
     return [j for j in range(graph.limb_count) if graph.limb_parent[j] >= 0]
 
 
+def spreading_limbs(graph):
+    """Laterals, and stems of trees that have three or more."""
+    stems = [j for j in range(graph.limb_count) if graph.limb_parent[j] < 0]
+    tree = [graph.tree[graph.limb_tip[j]] for j in range(graph.limb_count)]
+    shrub = [j for j in stems if sum(tree[k] == tree[j] for k in stems) >= 3]
+    return sorted(lateral_limbs(graph) + shrub)
+
+
 def divergences(graph, psi):
     """(order 1 or 2, a) of every lateral limb."""
     v, *_ = vectors(graph, psi)
@@ -84,17 +92,17 @@ def kinds(graph, psi, theta):
         out["limb_length"] += -0.5 * ((r - m) / s) ** 2 - math.log(s)
     for j in range(graph.limb_count):
         if graph.limb_parent[j] < 0:
-            out["stem"] += -0.5 * (psi[graph.limb_first[j]] / 0.08) ** 2
+            out["stem"] += -0.5 * (psi[graph.limb_first[j]] / (0.5 if j in spreading_limbs(graph) else 0.08)) ** 2
     out["siblings"] = siblings(graph, v)
     for i, k in graph.competitor:
         d = math.sqrt(sum((a - b) ** 2 for a, b in zip(tip[i], tip[k])) + 1e-8)
         out["competition"] -= math.exp(-5.0 * d / graph.crown_radius)
     out["extent"] = extent_and_balance(graph, tip)
-    for j in lateral_limbs(graph):
+    for j in spreading_limbs(graph):
         t = graph.limb_tip[j]
         dx = graph.xy[t][0] - graph.trunk_x[j]
         rho = math.sqrt(dx**2 + tip[t][2] ** 2 + 1e-8) / max(graph.half_width[j], 0.06)
-        m, s = (0.0, 0.2) if graph.limb_order[j] == 1 else (-0.12, 0.35)
+        m, s = (0.0, 0.2) if graph.limb_order[j] <= 1 else (-0.12, 0.35)
         out["crown"] -= weight_of(graph, graph.tree[t]) * math.log(1 + ((math.log(rho) - m) / s) ** 2)
     return out
 
@@ -102,8 +110,13 @@ def kinds(graph, psi, theta):
 def siblings(graph, v):
     """Σ −κ c_d w_j · w_k over limbs on one parent limb, ranked by insertion."""
     total = 0.0
-    for parent in range(graph.limb_count):
-        ranked = sorted((graph.insertion[j], j) for j in range(graph.limb_count) if graph.limb_parent[j] == parent)
+    hosts = [[(graph.insertion[j], j) for j in lateral_limbs(graph) if graph.limb_parent[j] == p] for p in range(graph.limb_count)]
+    shrub = [j for j in spreading_limbs(graph) if graph.limb_parent[j] < 0]
+    for tree in sorted({int(graph.tree[graph.limb_tip[j]]) for j in shrub}):
+        own = [j for j in shrub if graph.tree[graph.limb_tip[j]] == tree]
+        hosts.append([(graph.xy[graph.limb_first[j]][0], j) for j in own])
+    for host in hosts:
+        ranked = sorted(host)
         sideways = [_sideways(v[graph.limb_first[j]], v[graph.parent[graph.limb_first[j]]]) for _, j in ranked]
         for a in range(len(sideways)):
             for b in range(a + 1, min(a + 4, len(sideways))):
@@ -120,7 +133,7 @@ def _sideways(v, axis):
 
 def weight_of(graph, tree):
     """1, less where every tip of the tree is on one side."""
-    dx = [graph.xy[graph.limb_tip[j]][0] - graph.trunk_x[j] for j in lateral_limbs(graph) if graph.tree[graph.limb_tip[j]] == tree]
+    dx = [graph.xy[graph.limb_tip[j]][0] - graph.trunk_x[j] for j in spreading_limbs(graph) if graph.tree[graph.limb_tip[j]] == tree]
     rms = math.sqrt(sum(x * x for x in dx) / len(dx))
     one_sided = abs(sum(dx) / len(dx)) / max(rms, 1e-9)
     return 1 - 0.85 * min(max((one_sided - 0.7) / 0.2, 0.0), 1.0)
@@ -130,7 +143,7 @@ def extent_and_balance(graph, tip):
     """Both factors of every tree that has a lateral."""
     total = 0.0
     for tree in sorted(set(graph.tree.tolist())):
-        limbs = [j for j in lateral_limbs(graph) if graph.tree[graph.limb_tip[j]] == tree]
+        limbs = [j for j in spreading_limbs(graph) if graph.tree[graph.limb_tip[j]] == tree]
         if not limbs:
             continue
         z = [tip[graph.limb_tip[j]][2] for j in limbs]
