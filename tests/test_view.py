@@ -27,10 +27,15 @@ def card(height=1.0, alpha=None):
 
 
 @pytest.fixture(scope="module")
-def can_draw(tmp_path_factory):
-    drawn, reason = preview([card()], tmp_path_factory.mktemp("probe") / "p.png", size=(64, 48), supersample=1)
-    if not drawn:
-        pytest.skip(reason)
+def pictures(tmp_path_factory):
+    """A tall opaque card and one whose right half is transparent, each filling a picture of its own."""
+    folder, found = tmp_path_factory.mktemp("pictures"), {}
+    for name, alpha in (("full", 255), ("half", 0)):
+        drawn, reason = preview([card(2.0, alpha)], folder / f"{name}.png", size=(150, 200), view="front", ground=False)
+        if not drawn:
+            pytest.skip(reason)
+        found[name] = Image.open(folder / f"{name}.png")
+    return found
 
 
 def is_green(pixels):
@@ -38,38 +43,29 @@ def is_green(pixels):
     return (green > red + 8) & (green > blue + 20)
 
 
-def test_a_picture_is_written_in_the_size_asked_for(can_draw, tmp_path):
-    assert preview([card()], tmp_path / "a.png", size=(200, 150)) == (True, "")
-    with Image.open(tmp_path / "a.png") as picture:
-        assert picture.size == (200, 150) and picture.format == "PNG"
+def test_a_picture_is_written_in_the_size_asked_for(pictures):
+    assert pictures["full"].size == (150, 200) and pictures["full"].format == "PNG"
 
 
-def test_the_whole_tree_is_in_the_picture_with_a_margin(can_draw, tmp_path):
-    preview([card(2.0)], tmp_path / "a.png", size=(200, 200), view="front", ground=False)
-    green = is_green(np.asarray(Image.open(tmp_path / "a.png")))
+def test_the_whole_tree_is_in_the_picture_with_a_margin(pictures):
+    green = is_green(np.asarray(pictures["full"]))
     assert green.any() and not green[[0, 1, -2, -1]].any() and not green[:, [0, 1, -2, -1]].any()
     assert np.ptp(np.nonzero(green)[0]) > 150
 
 
-def test_transparent_parts_of_a_leaf_are_not_drawn(can_draw, tmp_path):
-    for name, alpha in (("full", 255), ("half", 0)):
-        preview([card(alpha=alpha)], tmp_path / f"{name}.png", size=(200, 200), view="front", ground=False)
-    full, half = (is_green(np.asarray(Image.open(tmp_path / f"{n}.png"))).sum() for n in ("full", "half"))
+def test_transparent_parts_of_a_leaf_are_not_drawn(pictures):
+    full, half = (is_green(np.asarray(pictures[name])).sum() for name in ("full", "half"))
     assert 0.4 < half / full < 0.6
 
 
-def test_several_views_make_one_sheet(can_draw, tmp_path):
-    preview([card()], tmp_path / "a.png", size=(80, 60), view=("front", "side", "top", "three-quarter"))
-    with Image.open(tmp_path / "a.png") as picture:
-        assert picture.size == (160, 120)
-
-
-def test_a_glb_file_gives_the_picture_of_its_meshes(can_draw, tmp_path):
+def test_a_glb_file_and_several_views_make_one_sheet(pictures, tmp_path):
     from sketchtree.export.gltf import write_glb
 
     write_glb(tmp_path / "card.glb", [card(alpha=0)])
-    assert preview(tmp_path / "card.glb", tmp_path / "a.png", size=(100, 100), view="front")[0]
-    assert is_green(np.asarray(Image.open(tmp_path / "a.png"))).any()
+    assert preview(tmp_path / "card.glb", tmp_path / "a.png", size=(80, 60), view=("front", "side", "top", "three-quarter")) == (True, "")
+    with Image.open(tmp_path / "a.png") as sheet:
+        assert sheet.size == (160, 120)
+        assert is_green(np.asarray(sheet)[:60, :80]).any()
 
 
 def test_a_crash_of_the_child_is_survived_and_says_what_to_install(monkeypatch, tmp_path):

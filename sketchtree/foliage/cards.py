@@ -116,15 +116,15 @@ def _card(name: str) -> tuple[Float[np.ndarray, "vertex 3"], Float[np.ndarray, "
         card, flat, triangle = _crossed(painting, model.planes)
     uv = (flat - [painting.left, painting.top]) / [painting.right - painting.left, painting.bottom - painting.top]
     foot = _foot(painting)
-    return card - [0, foot, 0], np.clip(uv, 0, 1), triangle
+    return card - [0, foot, 0], uv, triangle
 
 
 def hexagon(painting: Painting) -> Float[np.ndarray, "7 2"]:
-    """The smallest hexagon, level at foot, waist and tip, that holds the drawing: foot (left, right),
-    waist (left, middle, right), tip (left, right), in blade lengths."""
+    """The smallest hexagon, level at foot, waist and tip, that holds the drawing and stays on its texture: foot
+    (left, right), waist (left, middle, right), tip (left, right), in blade lengths."""
     y, half = _half_widths(painting)
     waist = np.linspace(y[-1], y[0], 42)[3:-3]
-    width = np.linspace(half.max(), 1.5 * half.max(), 24)
+    width = np.linspace(half.max(), max(half.max(), min(painting.right, -painting.left)), 6)
     best = (np.inf,)
     for at in waist:
         below, above = y < at - 1e-9, y > at + 1e-9

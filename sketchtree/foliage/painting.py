@@ -82,8 +82,9 @@ def ribbon(path: Curve, start_width: float, end_width: float) -> Curve:
 def paint_blade(outline: Curve, veins: list[Vein], *, petiole: float, reticulation: float = 1.0, seed: int = 0) -> Painting:
     """A flat blade with a petiole. The first vein is the midrib, petiole included; `reticulation`
     weighs the fine net between the veins."""
-    low = np.minimum(outline.min(axis=0), [0.0, -petiole])
-    canvas = Canvas(low, outline.max(axis=0))
+    half = np.abs(outline[:, 0]).max()
+    foot, tip = min(outline[:, 1].min(), -petiole), outline[:, 1].max()
+    canvas = Canvas(np.array([-half, foot]), np.array([half, tip]))
     body, stalk, lines = canvas.blank(), canvas.blank(), canvas.blank()
     canvas.fill(body, outline)
     for vein in veins:
@@ -98,7 +99,7 @@ def paint_blade(outline: Curve, veins: list[Vein], *, petiole: float, reticulati
     mottle = ndimage.zoom(np.random.default_rng(seed).normal(size=(12, 12)), np.array(blade.shape) / 12, order=1)
     rim = np.clip(ndimage.gaussian_filter(blade, 9.0), 0, 1)
     shade = 1 - 0.10 * soft - 0.13 * net + 0.035 * mottle - 0.10 * (1 - rim) * blade
-    height = -2.2 * soft - 1.1 * ndimage.gaussian_filter(net, 1.0) + 1.4 * rim + 1.5 * ndimage.gaussian_filter(vein, 0.8)
+    height = -2.2 * soft - 0.8 * ndimage.gaussian_filter(net, 1.0) + 1.4 * rim + 1.5 * ndimage.gaussian_filter(vein, 0.8)
     return Painting(np.clip(blade + stem, 0, 1), vein, stem, shade, height, canvas.low[0], canvas.high[0], canvas.low[1], canvas.high[1])
 
 

@@ -86,6 +86,14 @@ def test_the_hexagon_holds_the_whole_drawing(name):
     assert (x <= limit + 1e-6).all()
 
 
+def test_texture_places_are_linear_in_the_card(worn):
+    leaves, mesh = worn
+    painting, count = leaf_painting(leaves.model), len(cards(leaves, mesh)[0])
+    if leaf_model(leaves.model).is_blade:
+        u = (hexagon(painting)[:, 0] - painting.left) / (painting.right - painting.left)
+        assert np.allclose(mesh.uv[:count, 0], u)
+
+
 @pytest.mark.parametrize("name", BLADES)
 def test_the_hexagon_wastes_less_than_the_rectangle(name):
     painting, corners = leaf_painting(name), hexagon(leaf_painting(name))
