@@ -157,7 +157,7 @@ def _mean_laterals(blocks, order):
 def _first_lateral(blocks, order):
     """Where the first laterals sit on limbs of this order; 15 % of the limb where nothing is known."""
     at = blocks.position[_bearing(blocks, order)]
-    return float(np.quantile(at, 0.03)) if len(at) >= 8 else 0.15
+    return float(np.quantile(at, 0.03)) if len(at) >= 3 else 0.15
 
 
 def _spacing(blocks, lender, order):

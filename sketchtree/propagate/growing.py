@@ -1,0 +1,207 @@
+"""The tree while it grows: what has been made, and what is still open.
+
+    spacing    of the nodes of a limb: the habit's, or as wide as on the exemplar, less `_CLOSER`
+    drawn      generation 0; its long rows are split at the nodes that may bear laterals
+    open       the branches that the next generation grows
+    parts      the rows of every generation done
+"""
+
+import dataclasses
+from dataclasses import replace
+from functools import lru_cache
+
+import numpy as np
+from jaxtyping import Int
+
+from sketchtree import keys
+from sketchtree.parameters import Habit
+from sketchtree.propagate.attach_block import MINIMUM_LENGTH, Nodes, attach
+from sketchtree.propagate.block import blocks_of, blocks_of_parameters
+from sketchtree.propagate.drawn import DrawnLaterals, bare_length, drawn_nodes, implied_crown, open_tips
+from sketchtree.propagate.envelope import Envelope
+from sketchtree.propagate.fill import GAP, empty_points, towards
+from sketchtree.propagate.gaps import into_gaps
+from sketchtree.propagate.laterals import split_long
+from sketchtree.propagate.library import library
+from sketchtree.propagate.limb_growth import NODES, grow, plan
+from sketchtree.propagate.open_branch import OpenBranches, frames, limb_arcs
+from sketchtree.skeleton import Kind, TreeSkeleton
+
+_BEARING = 2.2  # twig lengths: a shorter limb bears no laterals
+_BARE_NODES = 8  # about, of a limb that bears none: enough for its curve
+_TRUNK_SPACING = 1.6  # of the habit's spacing of laterals
+_CLOSER = 0.55  # times the habit's spacing, nodes lie closer than on the exemplar, which is a skeleton without its twigs
+_SPARSEST = 4.0  # times the habit's spacing, at most
+_LARGEST_SCALE = 1.25  # of a habit's lengths: a larger tree has more twigs, not larger ones
+_LIKE_BLOCK = 1.5  # times the length its block says, a new limb on the trunk is no longer than that
+_PRESSES = 1.08  # times its straight way to the crown: a branch that bends still meets the surface
+_GROUND = (0.015, 0.1)  # of the tree's height: undrawn limbs stay this far above the ground, and up to that much more
+_LIKE_DRAWN = 1.1  # times the drawn laterals around it, a new one on a drawn limb is no longer
+
+
+class Growing:
+    """The tree while it grows: the rows made so far and the branches still open."""
+
+    def __init__(self, tree, habit, theta, exemplar, crown, max_segments, key):
+        self.habit, self.theta, self.max_segments = habit, theta, max_segments
+        self.key = keys.draw_key(key)
+        self.envelope = Envelope.from_outlines(crown) if len(crown) else implied_crown(tree, habit)
+        self.library = _library(tree, habit, theta, exemplar)
+        self.scale = tree.height
+        self.ground = float(tree.tip[tree.is_base, 1].min())
+        self.drawn = self._split(tree)
+        self.parts, self.rows, self.done, self.stopped_by = [], len(self.drawn.tree), 0, "generations"
+        self.segments = self.drawn.tree.segment_count
+        self.open = self._first_generation()
+        self.outside = len(self.open) == 0 and len(crown) > 0 and not self.envelope.inside(tree.tip).any()
+
+    def _split(self, tree):
+        arc, whole = limb_arcs(tree)
+        self.spacing = self._spacing(tree.order, whole)
+        bears = (tree.order < self.habit.max_order) & (arc > bare_length(tree, self.library))
+        split = split_long(tree, self.spacing, bears)
+        _, whole = limb_arcs(split.tree)
+        self.spacing = self._spacing(split.tree.order, whole)
+        return split
+
+    def _first_generation(self) -> OpenBranches:
+        tree = self.drawn.tree
+        tips = open_tips(tree, self.spacing, self.habit, self.envelope, self.key)
+        self.drawn_nodes = drawn_nodes(self.drawn, tips, self.library, self.habit, self.envelope)
+        new = self._laterals(self.drawn_nodes)
+        drawn = DrawnLaterals.of(tree)
+        usual = drawn.usual_length(new)
+        at_most = np.minimum(new.length, _LIKE_DRAWN * usual)
+        like = usual * (0.8 + 0.25 * keys.uniform(self.key, new.limb, 12))
+        like = np.where(new.order == 1, np.minimum(like, _LIKE_BLOCK * new.length), at_most)
+        length = np.where(np.isnan(usual), new.length, like)
+        new = replace(new, length=length).select(~drawn.beside(new, self.spacing))
+        if self.habit.max_order > 0:
+            new = new.join(self._free(into_gaps(tree, frames(tree), drawn, new, self.key)))
+        return tips.join(new)
+
+    def _spacing(self, order, whole):
+        """Metres between the nodes of limbs of these orders and whole lengths: the habit's, or wider where the exemplar
+        has few laterals; never more than a hundred or so nodes a limb."""
+        habit = self.habit.lateral_spacing
+        wide = np.where((order == 0) & (self.habit.arrangement != "whorled"), _TRUNK_SPACING, 1.0) * habit
+        lent = self.library.spacing[np.minimum(order, self.habit.max_order)] * self.scale
+        lent = np.clip(lent - _CLOSER * habit, habit, _SPARSEST * habit)
+        return np.maximum(np.where(np.isnan(lent), wide, lent), whole / (4 * NODES))
+
+    def run(self, limit: int) -> None:
+        """Generation after generation, until `limit` of them are done or nothing is open."""
+        while self.done < limit and self.generation():
+            pass
+
+    def fill(self, round_: int, limit: int) -> bool:
+        """One round of growth into what is still empty; False where nothing is, or no more may be grown."""
+        if self.envelope is None or self.done >= limit or self.stopped_by == "max_segments":
+            return False
+        nodes = self.drawn_nodes
+        for part, _ in self.parts:
+            nodes = nodes.join(part)
+        empty = empty_points(self.envelope, nodes.tip, GAP * self.habit.lateral_spacing)
+        bears = (nodes.order < self.habit.max_order) & self.envelope.inside(nodes.tip)
+        self.open = towards(empty, nodes.select(bears), self.habit, round_, self.key)
+        before = self.rows
+        self.run(limit)
+        return self.rows > before
+
+    def generation(self) -> bool:
+        """Grow all open branches; False where there was nothing to grow."""
+        if len(self.open) == 0:
+            self.stopped_by = "habit"
+            return False
+        whole = self.open.length + self.open.grown
+        spacing = self._spacing(self.open.order, whole)
+        spacing = np.where(self._bears(self.open.order, whole), spacing, np.maximum(spacing, whole / _BARE_NODES))
+        nodes = plan(self.open, self.library, spacing, self.key)
+        keep = self._within_limit(nodes.count)
+        if not keep.all():
+            self.open = self.open.select(keep)
+            nodes = plan(self.open, self.library, spacing[keep], self.key)
+            self.stopped_by = "max_segments"
+        uneven = _GROUND[0] + _GROUND[1] * keys.uniform(self.key, self.open.limb, 11) ** 2
+        ground = self.ground + uneven * self.scale
+        grown, parent = grow(
+            self.open, nodes, self.library, self.habit, self.theta, self.envelope, ground, self.key,
+            first_row=self.rows,
+        )  # fmt: skip
+        self.parts.append((grown, parent))
+        self.rows, self.segments, self.done = self.rows + len(grown), self.segments + len(grown), self.done + 1
+        if self.stopped_by == "max_segments":
+            self.open = self.open.select(slice(0, 0))
+            return False
+        self.open = self._laterals(grown)
+        return True
+
+    def _laterals(self, nodes: Nodes) -> OpenBranches:
+        """The branches that the blocks on these nodes open."""
+        lib = self.library
+        nodes = nodes.select(self._bears(nodes.order, nodes.whole) & (nodes.zone >= 0))
+        block = lib.choose(lib.lateral, nodes.order, nodes.zone, keys.uniform(self.key, nodes.id, 10))
+        opened = attach(nodes, block, lib.blocks, self.habit, self.theta, self.key)
+        longest = lib.longest[np.minimum(opened.order, len(lib.longest) - 1)] * self.scale
+        return self._free(replace(opened, length=np.minimum(opened.length, longest)))
+
+    def _bears(self, order, whole):
+        """Whether limbs of these orders and whole lengths (metres) bear laterals."""
+        return (order < self.habit.max_order) & (whole >= _BEARING * self.habit.twig_length)
+
+    def _free(self, opened: OpenBranches) -> OpenBranches:
+        """The same, each no longer than its way to the crown; those left too short are not opened."""
+        if self.envelope is None:
+            return opened
+        end = opened.origin + opened.length[:, None] * opened.frame[:, :, 1]
+        reach = _PRESSES * self.envelope.exit_fraction(opened.origin, end, bisections=7)
+        length = opened.length * np.minimum(reach, 1.0)
+        opened = replace(opened, length=length)
+        return opened.select(length >= MINIMUM_LENGTH * self.habit.twig_length)
+
+    def _within_limit(self, count):
+        """Which open branches are grown so that the whole keeps to `max_segments`: thinned evenly, by limb id."""
+        left = self.max_segments - self.segments
+        if count.sum() <= left:
+            return np.ones(len(count), bool)
+        lot = np.argsort(keys.uniform(self.key, self.open.limb, 9), kind="stable")
+        keep = np.zeros(len(count), bool)
+        keep[lot] = np.cumsum(count[lot]) <= left
+        return keep
+
+    def skeleton(self) -> TreeSkeleton:
+        """The drawn rows and all that grew."""
+        if not self.parts:
+            return self.drawn.tree
+        names = ("tip", "radius", "order", "limb", "tree")
+        columns = {name: np.concatenate([getattr(part, name) for part, _ in self.parts]) for name in names}
+        parent = np.concatenate([parent for _, parent in self.parts])
+        return self.drawn.tree.append(columns | {"parent": parent, "kind": np.full(len(parent), int(Kind.PROPAGATED))})
+
+    def generation_of_rows(self) -> Int[np.ndarray, " segment"]:
+        """The generation of every row of `skeleton()`."""
+        count = [len(self.drawn.tree)] + [len(part) for part, _ in self.parts]
+        return np.repeat(np.arange(len(count)), count)
+
+
+_lent_blocks = lru_cache(maxsize=32)(blocks_of)  # an exemplar is one frozen object for all the trees it lends to
+
+
+def _library(tree, habit, theta, exemplar):
+    """The tree's own blocks and those of the exemplar; the habit's where there is none to lend."""
+    supplement = None if exemplar is None else _lent_blocks(exemplar)
+    if supplement is None or not (supplement.lateral_count.any() and supplement.has_apical.any()):
+        exemplar, supplement = None, blocks_of_parameters(theta, habit)
+    return library(blocks_of(tree), supplement, theta, habit.max_order, exemplar)
+
+
+def to_scale(habit: Habit, tree: TreeSkeleton) -> Habit:
+    """The habit's lengths for a tree of another height: a small tree has smaller twigs, a large one
+    more of them."""
+    scale = float(np.clip(tree.height / habit.height, 0.01, _LARGEST_SCALE))
+    return dataclasses.replace(
+        habit,
+        lateral_spacing=habit.lateral_spacing * scale,
+        twig_length=habit.twig_length * scale,
+        gravitropism=habit.gravitropism / scale,
+    )
