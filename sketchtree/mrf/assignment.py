@@ -3,6 +3,7 @@
     V_i = (e_i cos ψ_i, sin ψ_i)     unit direction in 3D           L_i = ℓ_i / cos ψ_i     its length
     p_i = (x_i, y_i, Σ dz)           position of its tip            dz_i = ℓ_i tan ψ_i      its depth
     Λ_j = Σ_{i ∈ j} L_i              length of limb j
+    a_i = angle(V_i, V_p(i))         turn away from its parent segment
 
 ψ_i ∈ (−80°, 80°). x and y are the drawing's whatever ψ is. The depths of tips are sums along the way to the
 base, taken for all rows at once from two running sums: over rows in the order in which a depth-first walk
@@ -17,6 +18,7 @@ import numpy as np
 from jaxtyping import Array, Bool, Float, Int
 
 from sketchtree.mrf.factor_graph import FactorGraph
+from sketchtree.mrf.factors.angles import angle
 from sketchtree.traverse import generation
 
 STEEPEST = np.radians(80.0)  # largest |ψ|
@@ -27,6 +29,8 @@ class Assignment(NamedTuple):
 
     elevation: Float[Array, " segment"]  # ψ, radians
     direction: Float[Array, "segment 3"]  # V; +y at a base
+    parent_direction: Float[Array, "segment 3"]  # V of the parent segment; +y where that is a base
+    turn: Float[Array, " segment"]  # a, radians
     length: Float[Array, " segment"]  # L; 0 at a base
     tip: Float[Array, "segment 3"]  # p
     limb_length: Float[Array, " limb"]  # Λ
@@ -36,6 +40,7 @@ class Page(eqx.Module):
     """The drawing as the unknowns need it, padded with rows that are bases and empty limbs."""
 
     is_segment: Bool[Array, " segment"]  # neither base nor padding
+    parent: Int[Array, " segment"]  # itself at a base
     direction: Float[Array, "segment 2"]  # e
     length: Float[Array, " segment"]  # ℓ
     xy: Float[Array, "segment 2"]
@@ -51,11 +56,12 @@ class Page(eqx.Module):
         """All that follows from ψ."""
         psi = jnp.where(self.is_segment, elevation, 0.0)
         cos, sin = jnp.cos(psi), jnp.sin(psi)
-        flat = self.direction * cos[:, None]
+        direction = jnp.concatenate([self.direction * cos[:, None], sin[:, None]], axis=1)
+        above = direction[self.parent]
         length = self.length / cos
-        tip = jnp.column_stack([self.xy, self.depth(psi)])
+        tip = jnp.concatenate([self.xy, self.depth(psi)[:, None]], axis=1)
         limb_length = jnp.zeros(self.limb_count, psi.dtype).at[self.limb].add(length)
-        return Assignment(psi, jnp.column_stack([flat, sin]), length, tip, limb_length)
+        return Assignment(psi, direction, above, angle(direction, above), length, tip, limb_length)
 
     def depth(self, elevation: Float[Array, " segment"]) -> Float[Array, " segment"]:
         """z of every tip."""
@@ -78,6 +84,7 @@ def page(graph: FactorGraph, segments: int, limbs: int, dtype=np.float32) -> Pag
     tail = np.arange(n, segments)
     return Page(
         is_segment=np.asarray(np.r_[~graph.is_base, np.zeros(pad, bool)]),
+        parent=np.asarray(np.r_[np.where(graph.is_base, np.arange(n), graph.parent), tail], np.int32),
         direction=np.asarray(np.r_[graph.direction, np.tile([0.0, 1.0], (pad, 1))], dtype),
         length=np.asarray(np.r_[graph.length, np.zeros(pad)], dtype),
         xy=np.asarray(np.r_[graph.xy, np.zeros((pad, 2))], dtype),

@@ -79,18 +79,15 @@ class LogPosterior(eqx.Module):
 
     def data(self, assignment: Assignment) -> LimbData:
         """What these depths say about Θ."""
-        weight = self.learns * self.lateral.present
-        bend_weight = self.apical.present * jnp.where(self.apical.order == 0, self.learns_trunk, 1.0)
-        apical_kind = jax.nn.one_hot(self.apical.order, 3) * (self.learns * bend_weight)[:, None]
+        bend_kind = self.apical.kind * self.learns * jnp.concatenate([self.learns_trunk[None], jnp.ones(2, self.learns.dtype)])
         return LimbData(
-            divergence=_moments(self.lateral.divergence(assignment), self.lateral.order, weight),
-            length=_moments(self.limb_length.excess(assignment), self.limb_length.order, weight),
-            bend=(jnp.sum(apical_kind, axis=0), self.apical.bend(assignment) ** 2 @ apical_kind),
+            divergence=_moments(self.lateral.divergence(assignment), self.lateral.kind * self.learns),
+            length=_moments(self.limb_length.excess(assignment), self.limb_length.kind * self.learns),
+            bend=(jnp.sum(bend_kind, axis=0), assignment.turn**2 @ bend_kind),
         )
 
 
-def _moments(value, order, weight):
-    kind = jax.nn.one_hot(order, 2) * weight[:, None]
+def _moments(value, kind):
     count = jnp.sum(kind, axis=0)
     mean = value @ kind / jnp.maximum(count, 1.0)
     return count, mean, jnp.sum(kind * (value[:, None] - mean) ** 2, axis=0)
@@ -116,31 +113,26 @@ def log_posterior(
     lateral = np.flatnonzero(graph.limb_parent != NULL)
     stem = np.flatnonzero(graph.limb_parent == NULL)
     first = graph.limb_first
-    apical = np.flatnonzero(graph.is_apical)
-    order = np.minimum(graph.limb_order[lateral], 2) - 1
+    kind = np.eye(2)[np.minimum(graph.limb_order[lateral], 2) - 1]
     shape = 0.0 if planar else 1.0
     return LogPosterior(
         page=page(graph, segments, limbs, dtype),
         solid_angle=SolidAngle(pad.real(~graph.is_base, segments)),
         lateral=Lateral(
-            row=pad.index(first[lateral], limbs), parent=pad.index(graph.parent[first[lateral]], limbs),
-            order=pad.index(order, limbs), present=pad.real(np.ones(len(lateral)), limbs),
+            row=pad.index(first[lateral], limbs),
+            kind=pad.real(kind, limbs),
         ),
-        apical=Apical(
-            row=pad.index(apical, segments), parent=pad.index(graph.parent[apical], segments),
-            order=pad.index(np.minimum(graph.order[apical], 2), segments), present=pad.real(np.ones(len(apical)), segments),
-        ),
+        apical=Apical(pad.real(np.eye(3)[np.minimum(graph.order, 2)] * graph.is_apical[:, None], segments)),
         stem=Stem(
             row=pad.index(first[stem], limbs),
             sd=np.maximum(pad.real(np.where(graph.limb_spreads[stem], SHRUB_SD, STEM_SD), limbs), STEM_SD).astype(dtype), present=pad.real(np.ones(len(stem)), limbs),
         ),
         limb_length=LimbLength(
-            limb=pad.index(lateral, limbs), parent=pad.index(graph.limb_parent[lateral], limbs), order=pad.index(order, limbs),
-            insertion=pad.real(graph.insertion[lateral], limbs), present=pad.real(np.ones(len(lateral)), limbs),
+            limb=pad.index(lateral, limbs), parent=pad.index(graph.limb_parent[lateral], limbs), kind=pad.real(kind, limbs),
+            insertion=pad.real(graph.insertion[lateral], limbs),
         ),
         siblings=Siblings(
-            row=pad.index(first, limbs), parent=pad.index(graph.parent[first], limbs),
-            pair=pad.index(graph.sibling, 3 * limbs),
+            pair=pad.index(first[graph.sibling], 3 * limbs),
             strength=pad.real(shape * KAPPA * np.array(DECAY)[graph.rank_gap], 3 * limbs),
         ),
         competition=_competition(graph, pad, shape),
@@ -204,6 +196,7 @@ def _extent(graph, pad, shape):
     weight[: graph.tree.max() + 1] = _sidedness(graph)[: pad.limbs]
     return Extent(
         tip=pad.index(graph.limb_tip, pad.limbs), tree=pad.index(tree, pad.limbs), lateral=pad.real(lateral, pad.limbs),
+        count=np.maximum(pad.real(np.bincount(tree[lateral], minlength=pad.limbs), pad.limbs), 1.0).astype(pad.dtype),
         width_square=pad.real(square, pad.limbs), weight=pad.real(shape * some * weight, pad.limbs),
     )  # fmt: skip
 

@@ -9,24 +9,14 @@ Two log τ because a bend is a Gaussian step in two directions.
 
 import equinox as eqx
 import jax.numpy as jnp
-from jaxtyping import Array, Float, Int
-
-from sketchtree.mrf.factors.angles import angle
+from jaxtyping import Array, Float
 
 
 class Apical(eqx.Module):
-    """One factor a segment that continues another of its limb."""
+    """One factor a segment; 0 where it does not continue another of its limb."""
 
-    row: Int[Array, " apical"]
-    parent: Int[Array, " apical"]
-    order: Int[Array, " apical"]  # 0, 1, 2+
-    present: Float[Array, " apical"]
+    kind: Float[Array, "segment 3"]  # 1 in the column of its order, 0 elsewhere and where it continues none
 
-    def bend(self, assignment) -> Float[Array, " apical"]:
-        """a, radians."""
-        return angle(assignment.direction[self.row], assignment.direction[self.parent])
-
-    def log_potential(self, assignment, theta) -> Float[Array, " apical"]:
+    def log_potential(self, assignment, theta) -> Float[Array, " segment"]:
         """The Gaussian in two directions."""
-        tau = theta.bend_sd[self.order]
-        return self.present * (-0.5 * (self.bend(assignment) / tau) ** 2 - 2 * jnp.log(tau))
+        return -0.5 * assignment.turn**2 * (self.kind @ theta.bend_sd**-2) - self.kind @ (2 * jnp.log(theta.bend_sd))

@@ -20,22 +20,15 @@ class Extent(eqx.Module):
     tip: Int[Array, " limb"]  # row
     tree: Int[Array, " limb"]  # 0 … limb − 1
     lateral: Float[Array, " limb"]  # 1 where the limb counts
+    count: Float[Array, " tree"]  # limbs that count, at least 1
     width_square: Float[Array, " tree"]  # Σ (x_t − x_trunk)²
     weight: Float[Array, " tree"]  # 0 at padding
-
-    def log_ratio(self, assignment) -> Float[Array, " tree"]:
-        """r of every tree; 0 at padding."""
-        z = assignment.tip[self.tip, 2] * self.lateral
-        depth_square = jnp.zeros_like(self.weight).at[self.tree].add(z**2)
-        ratio = jnp.where(self.weight > 0, (depth_square + 1e-6) / (self.width_square + 1e-6), 1.0)
-        return 0.5 * jnp.log(ratio)
 
     def log_potential(self, assignment, theta) -> Float[Array, " two_trees"]:
         """Extent of every tree, then balance of every tree."""
         z = assignment.tip[self.tip, 2] * self.lateral
-        count = jnp.zeros_like(self.weight).at[self.tree].add(self.lateral)
-        mean = jnp.zeros_like(self.weight).at[self.tree].add(z) / jnp.maximum(count, 1.0)
-        rms = jnp.sqrt(self.width_square / jnp.maximum(count, 1.0) + 1e-6)
-        extent = -0.5 * self.weight * (self.log_ratio(assignment) / EXTENT_SD) ** 2
-        balance = -0.5 * self.weight * (mean / rms / BALANCE_SD) ** 2
-        return jnp.concatenate([extent, balance])
+        sums = jnp.zeros((len(self.weight), 2), z.dtype).at[self.tree].add(jnp.stack([z, z**2], axis=1))
+        ratio = jnp.where(self.weight > 0, (sums[:, 1] + 1e-6) / (self.width_square + 1e-6), 1.0)
+        extent = 0.5 * jnp.log(ratio) / EXTENT_SD
+        balance = sums[:, 0] / self.count / jnp.sqrt(self.width_square / self.count + 1e-6) / BALANCE_SD
+        return -0.5 * jnp.concatenate([self.weight * extent**2, self.weight * balance**2])

@@ -11,24 +11,19 @@ import equinox as eqx
 import jax.numpy as jnp
 from jaxtyping import Array, Float, Int
 
-from sketchtree.mrf.factors.angles import angle
-
 
 class Lateral(eqx.Module):
     """One factor a limb that grows from another."""
 
     row: Int[Array, " lateral"]  # first segment
-    parent: Int[Array, " lateral"]
-    order: Int[Array, " lateral"]  # 0 for order 1, 1 above
-    present: Float[Array, " lateral"]
+    kind: Float[Array, "lateral 2"]  # 1 in the column of its order (1, 2+); 0 in both at padding
 
     def divergence(self, assignment) -> Float[Array, " lateral"]:
         """a, radians."""
-        return angle(assignment.direction[self.row], assignment.direction[self.parent])
+        return assignment.turn[self.row]
 
     def log_potential(self, assignment, theta) -> Float[Array, " lateral"]:
         """The Gaussian in a, per solid angle."""
         a = self.divergence(assignment)
-        sd = theta.divergence_sd[self.order]
-        gauss = -0.5 * ((a - theta.divergence_mean[self.order]) / sd) ** 2 - jnp.log(sd)
-        return self.present * (gauss - jnp.log(jnp.sin(a) + 0.02))
+        gauss = -0.5 * ((a[:, None] - theta.divergence_mean) / theta.divergence_sd) ** 2 - jnp.log(theta.divergence_sd)
+        return jnp.sum(self.kind * (gauss - jnp.log(jnp.sin(a) + 0.02)[:, None]), axis=1)

@@ -19,9 +19,8 @@ class LimbLength(eqx.Module):
 
     limb: Int[Array, " lateral"]
     parent: Int[Array, " lateral"]  # limb
-    order: Int[Array, " lateral"]  # 0 for order 1, 1 above
+    kind: Float[Array, "lateral 2"]  # 1 in the column of its order (1, 2+); 0 in both at padding
     insertion: Float[Array, " lateral"]
-    present: Float[Array, " lateral"]
 
     def excess(self, assignment) -> Float[Array, " lateral"]:
         """r_j − b (u_j − ½)."""
@@ -30,6 +29,5 @@ class LimbLength(eqx.Module):
 
     def log_potential(self, assignment, theta) -> Float[Array, " lateral"]:
         """The Gaussian in the log ratio."""
-        sd = theta.length_sd[self.order]
-        gauss = -0.5 * ((self.excess(assignment) - theta.length_mean[self.order]) / sd) ** 2 - jnp.log(sd)
-        return self.present * gauss
+        away = (self.excess(assignment)[:, None] - theta.length_mean) / theta.length_sd
+        return jnp.sum(self.kind * (-0.5 * away**2 - jnp.log(theta.length_sd)), axis=1)

@@ -17,14 +17,12 @@ DECAY = (0.0, 1.0, 0.5, 0.25)
 class Siblings(eqx.Module):
     """One factor a pair of siblings."""
 
-    row: Int[Array, " limb"]  # first segment of every limb
-    parent: Int[Array, " limb"]  # and its parent segment
-    pair: Int[Array, "sibling_pair 2"]  # limbs
+    pair: Int[Array, "sibling_pair 2"]  # first segments of the two limbs
     strength: Float[Array, " sibling_pair"]  # κ c_d; 0 at padding
 
     def log_potential(self, assignment, theta) -> Float[Array, " sibling_pair"]:
         """−κ c_d w_j · w_k."""
-        v, axis = assignment.direction[self.row], assignment.direction[self.parent]
+        v, axis = assignment.direction, assignment.parent_direction
         across = v - axis * jnp.sum(v * axis, axis=-1, keepdims=True)
         w = across / jnp.sqrt(jnp.sum(across**2, axis=-1, keepdims=True) + 1e-6)
         return -self.strength * jnp.sum(w[self.pair[:, 0]] * w[self.pair[:, 1]], axis=-1)
