@@ -13,7 +13,7 @@ def oak(pixels: int) -> Relief:
     cracks = furrows(warped(clouds(pixels, 13, 0.03, 0.011, 1.5), 0 * sway, 0.6 * sway), 0.20)
     grain = clouds(pixels, 14, 0.004, 0.016, 1.2)
     height = deep * (0.80 + 0.20 * cracks) + 0.05 * grain * deep
-    color = mixed(ramp(height, 0.05, 0.85), (0.19, 0.15, 0.12), (0.55, 0.485, 0.415))
+    color = mixed(ramp(height, 0.05, 0.85), (0.225, 0.185, 0.15), (0.585, 0.53, 0.465))
     color = mixed(ramp(clouds(pixels, 15, 0.09, 0.12), 0.3, 2.0) * deep * 0.35, color, (0.45, 0.46, 0.38))
     color *= (1.0 + 0.06 * grain + 0.06 * clouds(pixels, 16, 0.12, 0.2))[..., None]
     return Relief(0.014 * height, color, 0.92 - 0.06 * deep)

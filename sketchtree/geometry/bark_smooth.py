@@ -14,8 +14,8 @@ def beech(pixels: int) -> Relief:
     moss = ramp(clouds(pixels, 44, 0.10, 0.16, 1.4), 0.9, 2.4)
     fine = clouds(pixels, 45, 0.004, 0.004, 1.0)
     height = 0.5 + 0.12 * creases + 0.10 * skin + 0.03 * fine
-    color = np.array([0.50, 0.495, 0.465]) * (1.0 + 0.035 * creases + 0.05 * skin + 0.03 * fine)[..., None]
-    color = mixed(0.55 * spots, color, (0.63, 0.635, 0.60))
+    color = np.array([0.57, 0.56, 0.525]) * (1.0 + 0.035 * creases + 0.05 * skin + 0.03 * fine)[..., None]
+    color = mixed(0.55 * spots, color, (0.69, 0.69, 0.655))
     color = mixed(0.25 * moss, color, (0.40, 0.43, 0.31))
     marks = dashes(pixels, 46, 40, (0.01, 0.035), (0.002, 0.005))
     return Relief(0.0022 * (height - 0.2 * marks), mixed(0.35 * marks, color, (0.30, 0.29, 0.27)), 0.78 + 0.04 * skin)

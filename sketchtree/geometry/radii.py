@@ -15,8 +15,8 @@ rows the tree has, and wood without branches tapers gently because leaves were f
 more tips stand than the trunk has pipes, λ is 0 and n grows until they fit. Palms thicken no further
 (monocots have no cambium): their trunk is nearly a cylinder and their fronds thin, whatever they carry.
 
-Radii that were drawn are honoured; the model fills in between them. A limb drawn with one width all along says how
-thick it is where it starts, not that it ends like a pipe: it tapers from there to a twig.
+Radii that were drawn are honoured; the model fills in between them. A stroke of one width all along says how thick the
+wood is where it starts, not that it ends like a pipe: it tapers from there to a twig.
 """
 
 from dataclasses import dataclass
@@ -107,8 +107,8 @@ def honour_drawn(
     """Drawn radii where there are any (NaN: none), the model's elsewhere, never growing towards the tips.
 
     From a place of drawn radius a (where the model says m) on towards the twigs, r = ρ (r_model / ρ)^γ with γ such
-    that m becomes a: the place keeps its width and twigs stay twigs. In a limb whose drawn radii differ by
-    less than a tenth that place is the limb's start; in any other limb every drawn row is one.
+    that m becomes a: the place keeps its width and twigs stay twigs. Where one stroke's radii along a limb differ by
+    less than a tenth, that place is where the stroke starts; else every drawn row is one.
     """
     if np.isnan(drawn).all():
         return model
@@ -132,10 +132,12 @@ def honour_drawn(
 
 
 def _evenly_drawn(tree: TreeSkeleton, drawn):
-    """Rows of limbs that were drawn with one width all along, and which of them is such a limb's first."""
+    """Rows drawn by a stroke of one width all along its limb, and which of them is the first of such a stretch."""
     known = np.flatnonzero(~np.isnan(drawn) & ~tree.is_base)
-    limbs, first, index = np.unique(tree.limb[known], return_index=True, return_inverse=True)
-    low, high = np.full(len(limbs), np.inf), np.zeros(len(limbs))
+    stretch = np.stack([tree.limb[known], tree.stroke[known]], axis=1)
+    _, first, index = np.unique(stretch, axis=0, return_index=True, return_inverse=True)
+    index = index.reshape(-1)
+    low, high = np.full(len(first), np.inf), np.zeros(len(first))
     np.minimum.at(low, index, drawn[known])
     np.maximum.at(high, index, drawn[known])
     is_even = high <= _ONE_WIDTH * low

@@ -118,6 +118,14 @@ def test_a_limb_drawn_with_one_width_tapers_to_a_twig():
     assert (np.diff(radius) <= 0).all()
 
 
+def test_a_limb_of_two_strokes_takes_the_width_of_each_where_it_starts():
+    tree = stick([(0, y, 0) for y in range(9)], 1.0, stroke=np.array([0, 0, 0, 0, 0, 1, 1, 1, 1]))
+    radius = PipeRadii(HABIT, np.r_[np.nan, np.full(4, 0.2), np.full(4, 0.08)])(tree).radius
+    assert 0.1 < radius[4] < 0.2 and 0.05 < radius[5] <= 0.08
+    assert radius[-1] == pytest.approx(0.003)
+    assert (np.diff(radius) <= 0).all()
+
+
 def test_wood_below_a_drawn_lateral_is_thick_enough_to_carry_it():
     tree = fork(50, 0.5)
     drawn = np.full(len(tree), np.nan)
