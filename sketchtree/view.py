@@ -13,7 +13,8 @@ from pathlib import Path
 import numpy as np
 from jaxtyping import Float
 
-from sketchtree.errors import ExportError, OptionError
+from sketchtree.errors import OptionError
+from sketchtree.export.files import check_writable, write_whole
 from sketchtree.geometry.mesh import Mesh
 from sketchtree.view_light import baked_light, ground_light
 
@@ -50,7 +51,7 @@ def preview(
 
     `view` is one of `VIEWS`, or several for a sheet of pictures of that `size` (pixels) each; `azimuth` and
     `elevation` (degrees) override it. `focus` is a place and a radius (metres) to fill the picture instead of the
-    whole tree. Raises OptionError for an unknown view, ExportError for a file that is no GLB.
+    whole tree. Raises OptionError for an unknown view, ExportError for a file that is no GLB or a place that can't be written.
     """
     angles = [_angles(name, azimuth, elevation) for name in ([view] if isinstance(view, str) else view)]
     if isinstance(meshes, (str, Path)):
@@ -156,7 +157,7 @@ def _four(texture):
 
 
 def _in_child(request: dict[str, np.ndarray], png_path: Path, timeout: float) -> tuple[bool, str]:
-    png_path.parent.mkdir(parents=True, exist_ok=True)
+    check_writable(png_path)
     with tempfile.TemporaryDirectory(prefix="sketchtree-view-") as folder:
         asked, drawn = Path(folder) / "request.npz", Path(folder) / "picture.png"
         np.savez(asked, **request)
@@ -168,7 +169,7 @@ def _in_child(request: dict[str, np.ndarray], png_path: Path, timeout: float) ->
             return False, _reason(child)
         if "vtkShaderProgram" in child.stderr:
             return False, REFUSED
-        png_path.write_bytes(drawn.read_bytes())
+        write_whole(png_path, drawn.read_bytes())
     return True, ""
 
 

@@ -124,6 +124,11 @@ def test_what_is_no_glb_is_refused(tmp_path):
         preview(tmp_path / "a.glb", tmp_path / "a.png")
 
 
+def test_a_folder_that_is_not_there_is_refused_before_drawing(tmp_path):
+    with pytest.raises(ExportError, match="does not exist"):
+        preview([card()], tmp_path / "none" / "a.png")
+
+
 def test_a_missing_file_is_refused(tmp_path):
     with pytest.raises(ExportError, match=r"can't be read: No such file or directory\. Check the path\."):
         preview(tmp_path / "none.glb", tmp_path / "a.png")

@@ -64,7 +64,7 @@ def birch() -> Painting:
 
 def willow() -> Painting:
     """Salix babylonica: a narrow lance, finely toothed, often a little sickle-shaped."""
-    half = smooth([(0, 0), (0.022, 0.03), (0.05, 0.14), (0.066, 0.32), (0.062, 0.5), (0.045, 0.72), (0.020, 0.89), (0, 1)])
+    half = smooth([(0, 0), (0.026, 0.03), (0.060, 0.14), (0.079, 0.32), (0.075, 0.5), (0.054, 0.72), (0.023, 0.89), (0, 1)])
     outline = closed(serrate(half, 42, 0.0035), serrate(half * [0.95, 1], 42, 0.0035, phase=0.5))
     veins = [midrib(0.07, 0.011)] + pinnate(outline, 16, first=0.05, last=0.85, angle=46.0, bend=26.0, width=0.0032)
     return paint_blade(outline, veins, petiole=0.07, reticulation=0.5, seed=5)

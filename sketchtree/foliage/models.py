@@ -88,7 +88,7 @@ _MODELS = {
             ), roughness=0.5,
         ),
         LeafModel(
-            "maple", blades.maple, spur=3, every=4, arrangement="decussate", size=0.11, spacing=0.06, inclination=58.0, droop=0.35, fold=9.0, curl=0.10,
+            "maple", blades.maple, spur=3, every=2, arrangement="decussate", size=0.11, spacing=0.06, inclination=58.0, droop=0.35, fold=9.0, curl=0.10,
             palettes=_seasons(
                 ("#95ab4e", "#b3bf62", "#c8d08a", "#a08a4a"),
                 ("#4c6b31", "#759048", "#a5b877", "#93804a"),
@@ -96,7 +96,7 @@ _MODELS = {
             ),
         ),
         LeafModel(
-            "birch", blades.birch, spur=6, every=5, arrangement="alternate", size=0.05, spacing=0.026, inclination=60.0, droop=0.55, fold=8.0, curl=0.08,
+            "birch", blades.birch, spur=6, every=4, arrangement="alternate", size=0.05, spacing=0.026, inclination=60.0, droop=0.55, fold=8.0, curl=0.08,
             palettes=_seasons(
                 ("#9db554", "#b4c66c", "#cbd693", "#a3a260"),
                 ("#587538", "#84994c", "#afbb78", "#90894f"),
@@ -104,7 +104,7 @@ _MODELS = {
             ),
         ),
         LeafModel(
-            "willow", blades.willow, arrangement="spiral", size=0.10, spacing=0.022, inclination=38.0, droop=0.60, fold=9.0, curl=0.16, shoot=6.0,
+            "willow", blades.willow, spur=6, every=4, arrangement="spiral", size=0.10, spacing=0.022, inclination=38.0, droop=0.60, fold=9.0, curl=0.16, shoot=6.0,
             palettes=_seasons(
                 ("#a5b960", "#bac979", "#d2dba2", "#b0aa62"),
                 ("#6a8548", "#9aac6c", "#bcc794", "#a09a58"),
@@ -112,7 +112,7 @@ _MODELS = {
             ), roughness=0.5,
         ),
         LeafModel(
-            "poplar", blades.poplar, spur=5, every=5, arrangement="spiral", size=0.06, spacing=0.03, inclination=50.0, droop=0.40, fold=9.0, curl=0.06,
+            "poplar", blades.poplar, spur=5, every=4, arrangement="spiral", size=0.06, spacing=0.03, inclination=50.0, droop=0.40, fold=9.0, curl=0.06,
             palettes=_seasons(
                 ("#98ad52", "#b0bd62", "#ccd38e", "#b0a25a"),
                 ("#547437", "#82994b", "#b2bd80", "#a09a5c"),
@@ -120,7 +120,7 @@ _MODELS = {
             ), roughness=0.45,
         ),
         LeafModel(
-            "apple", blades.apple, spur=6, every=5, arrangement="spiral", size=0.075, spacing=0.03, inclination=55.0, droop=0.25, fold=20.0, curl=0.16,
+            "apple", blades.apple, spur=6, every=3, arrangement="spiral", size=0.075, spacing=0.03, inclination=55.0, droop=0.25, fold=20.0, curl=0.16,
             palettes=_seasons(
                 ("#92aa52", "#aaba68", "#c4cd90", "#a08c56"),
                 ("#4c672f", "#738b48", "#a3b078", "#8b7448"),
@@ -128,7 +128,7 @@ _MODELS = {
             ),
         ),
         LeafModel(
-            "hazel", blades.hazel, spur=4, every=4, arrangement="alternate", size=0.09, spacing=0.045, inclination=58.0, droop=0.30, fold=8.0, curl=0.12,
+            "hazel", blades.hazel, spur=4, every=3, arrangement="alternate", size=0.09, spacing=0.045, inclination=58.0, droop=0.30, fold=8.0, curl=0.12,
             palettes=_seasons(
                 ("#96ac50", "#adbc64", "#c6d08c", "#9d8c58"),
                 ("#557436", "#7f9549", "#a8b674", "#8a7a4c"),
