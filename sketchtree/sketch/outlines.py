@@ -34,6 +34,13 @@ def subpaths(tag: str, attributes, view: tuple[float, float]) -> list[Subpath]:
 
     `view` is (width, height) of the viewBox, for percentages. Raises ValueError for data that make no sense.
     """
+    found = _shape(tag, attributes, view)
+    if not all(np.isfinite(path.start).all() and np.isfinite(path.cubics).all() for path in found):
+        raise ValueError("a coordinate is not a finite number")
+    return found
+
+
+def _shape(tag: str, attributes, view: tuple[float, float]) -> list[Subpath]:
     if tag == "path":
         return _path(attributes.get("d", ""))
     if tag in ("polyline", "polygon"):

@@ -4,8 +4,8 @@
      "strokes": [{"id": "trunk", "kind": "branch", "points": [[x, y, pressure?, t_ms?], ...],
                   "width": 3, "closed": false, "filled": false, "labelled": false}, ...]}
 
-Only `sketchtree` and every stroke's `points` are required. A kind that is written out counts as labelled
-unless `labelled` says otherwise. What is written reads back as the same sketch, bit for bit.
+A pen without pressure gives `[x, y, null, t_ms]`. Only `sketchtree` and every stroke's `points` are required. A kind
+that is written out counts as labelled unless `labelled` says otherwise. What is written reads back as the same sketch, bit for bit.
 """
 
 import json
@@ -89,7 +89,7 @@ def _stroke(row: Any, k: int, name: str, up: bool) -> Stroke:
             columns[:, :2] * (1.0, 1.0 if up else -1.0),
             StrokeKind(kind or "branch"),
             width=None if width is None else float(width),
-            pressure=columns[:, 2] if columns.shape[1] > 2 else None,
+            pressure=columns[:, 2] if columns.shape[1] > 2 and not _without_pressure(columns) else None,
             time=columns[:, 3] if columns.shape[1] > 3 else None,
             **flags,
         )
@@ -103,20 +103,25 @@ def _columns(points: Any, stroke_id: str, name: str) -> np.ndarray:
         raise SketchError(f"in {name}, its points are not a list of [x, y] rows.", stroke=stroke_id, remedy=_REMEDY)
     size = len(points[0]) if points else 2
     for k, point in enumerate(points):
-        if len(point) != size or not 2 <= size <= 4 or not all(map(_is_number, point)):
+        if len(point) != size or not 2 <= size <= 4 or not all(_is_number(v) or (v is None and j == 2 and size == 4) for j, v in enumerate(point)):
             raise SketchError(
                 f"in {name}, point {k + 1} is {json.dumps(point)[:60]}; [x, y], [x, y, pressure] or [x, y, pressure, t_ms] was expected, the same for all its points.",
                 stroke=stroke_id,
                 remedy=_REMEDY,
             )
     columns = np.array(points, float).reshape(-1, size)
-    if not np.isfinite(columns).all():
+    if not np.isfinite(np.delete(columns, 2, axis=1) if _without_pressure(columns) else columns).all():
         raise SketchError(
             f"in {name}, it has a coordinate that is not a finite number.",
             stroke=stroke_id,
             remedy="Export the drawing again, or delete that stroke.",
         )
     return columns
+
+
+def _without_pressure(columns: np.ndarray) -> bool:
+    """Whether the pen gave times but no pressure: null in every row."""
+    return columns.shape[1] == 4 and bool(np.isnan(columns[:, 2]).all())
 
 
 def _check_ids(strokes: tuple[Stroke, ...], name: str) -> None:
@@ -128,13 +133,18 @@ def _check_ids(strokes: tuple[Stroke, ...], name: str) -> None:
 
 
 def _row(stroke: Stroke) -> dict[str, Any]:
-    columns = [stroke.points]
+    columns = [stroke.points.astype(object)]
     if stroke.pressure is not None or stroke.time is not None:
-        pressure = stroke.pressure if stroke.pressure is not None else np.ones(len(stroke.points))
-        columns += [column[:, None] for column in (pressure, stroke.time) if column is not None]
+        columns.append(np.full((len(stroke.points), 1), None) if stroke.pressure is None else _column(stroke.pressure))
+    if stroke.time is not None:
+        columns.append(_column(stroke.time))
     row = {"id": stroke.id, "kind": str(stroke.kind), "labelled": stroke.labelled, "points": np.hstack(columns).tolist()}
     row |= {flag: True for flag in ("closed", "filled") if getattr(stroke, flag)}
     return row | ({} if stroke.width is None else {"width": stroke.width})
+
+
+def _column(values) -> np.ndarray:
+    return np.asarray(values, float).astype(object)[:, None]
 
 
 def _is_number(value: Any) -> bool:

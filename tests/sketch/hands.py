@@ -3,6 +3,7 @@
 from pathlib import Path
 
 import numpy as np
+import shapely
 
 from sketchtree.sketch.graph import SketchGraph
 from sketchtree.sketch.strokes import Sketch, Stroke
@@ -45,7 +46,5 @@ def farthest(a: SketchGraph, b: SketchGraph) -> float:
 
 def polyline_distance(a: SketchGraph, b: SketchGraph) -> float:
     """Greatest distance of a node of `a` from the drawn curves of `b`, of H."""
-    import shapely
-
     curves = shapely.union_all([shapely.LineString(b.curve(row)) for row in range(len(b)) if not b.is_base[row]])
     return float(shapely.distance(shapely.points(a.xy), curves).max() / a.height)

@@ -1,0 +1,142 @@
+import gzip
+import json
+import time
+
+import numpy as np
+import pytest
+from hands import EXAMPLES, SHARED
+
+from sketchtree.errors import SketchError
+from sketchtree.sketch.formats import read_sketch, write_sketch_json
+from sketchtree.sketch.strokes import Sketch, Stroke, StrokeKind
+
+SVG = '<svg xmlns="http://www.w3.org/2000/svg" viewBox="0 0 9 9">{}</svg>'
+PATH = '<path d="M0 0L1 5" stroke="red" fill="none"/>'
+BAD = {
+    "empty.svg": (b"", "empty.svg is empty"),
+    "blank.svg": (b" \n ", "blank.svg is empty"),
+    "notes.txt": (b"a tree, please", "neither SVG nor sketch JSON"),
+    "junk.svg": (bytes(range(128, 256)) * 9, "neither SVG nor sketch JSON"),
+    "page.svg": (b"<html><body/></html>", "root is <html>, not <svg>"),
+    "cut.svg": (SVG.format(PATH).encode()[:-20], "not well-formed XML.*cut short"),
+    "nothing.svg": (SVG.format("<text>tree</text>").encode(), "holds no strokes"),
+    "flat.svg": (SVG.replace("0 0 9 9", "0 0 0 9").format(PATH).encode(), "width and height above 0"),
+    "words.svg": (SVG.replace("0 0 9 9", "a b").format(PATH).encode(), "four finite numbers are expected"),
+    "crown.svg": (SVG.format(f'<g id="crown">{PATH}</g>').encode(), "no branch strokes: all 1 are labelled crown"),
+    "tree.png": (b"\x89PNG\r\n\x1a\n", "is a PNG picture; this version reads SVG and sketch JSON"),
+    "tree.excalidraw": (b'{"type": "excalidraw"}', "is an Excalidraw drawing"),
+    "tree.inkml": (b'<ink xmlns="http://www.w3.org/2003/InkML"/>', "is digital ink"),
+    "half.svgz": (gzip.compress(SVG.format(PATH).encode())[:-12], "damaged gzip"),
+    "cut.json": (b'{"sketchtree": 1, "str', "not one well-formed JSON document"),
+    "other.json": (b'{"a": 1}', "no key 'sketchtree'"),
+    "list.json": (b"[1, 2]", "no key 'sketchtree'"),
+    "new.json": (b'{"sketchtree": 2, "strokes": []}', "version 2; this program reads up to 1"),
+    "version.json": (b'{"sketchtree": "1", "strokes": []}', "a version number was expected"),
+    "strokes.json": (b'{"sketchtree": 1, "strokes": 3}', "no list 'strokes'"),
+    "none.json": (b'{"sketchtree": 1, "strokes": []}', "holds no strokes"),
+    "y.json": (b'{"sketchtree": 1, "y": "left", "strokes": []}', "'up' or 'down' was expected"),
+    "units.json": (b'{"sketchtree": 1, "units": 3, "strokes": []}', "a word was expected"),
+    "view.json": (b'{"sketchtree": 1, "view_deg": "x", "strokes": []}', "degrees were expected"),
+}
+STROKES = {
+    "it is not an object": 3,
+    "not a list of": {"id": "a", "points": 3},
+    r"point 2 is \[1\]": {"id": "a", "points": [[1, 2], [1]]},
+    "point 1 is": {"id": "a", "points": [["1", 2]]},
+    "it has no points": {"id": "a", "points": []},
+    "not a finite number": {"id": "a", "points": [[float("nan"), 2]]},
+    "its kind is 'leaf'": {"id": "a", "points": [[1, 2]], "kind": "leaf"},
+    "its width is -1": {"id": "a", "points": [[1, 2]], "width": -1},
+    "its 'closed' is 1": {"id": "a", "points": [[1, 2]], "closed": 1},
+}
+
+
+@pytest.mark.parametrize("name", BAD)
+def test_a_bad_file_is_named_with_a_remedy_within_a_second(name, tmp_path):
+    data, message = BAD[name]
+    (tmp_path / name).write_bytes(data)
+    begun = time.perf_counter()
+    with pytest.raises(SketchError, match=message) as error:
+        read_sketch(tmp_path / name)
+    assert name in str(error.value) and error.value.remedy
+    assert time.perf_counter() - begun < 1
+
+
+@pytest.mark.parametrize("message", STROKES)
+def test_a_bad_stroke_of_a_json_sketch_is_named(message, tmp_path):
+    (tmp_path / "t.json").write_text(json.dumps({"sketchtree": 1, "strokes": [STROKES[message]]}))
+    with pytest.raises(SketchError, match=message) as error:
+        read_sketch(tmp_path / "t.json")
+    assert error.value.stroke is not None and "t.json" in str(error.value)
+
+
+def test_two_strokes_of_one_id_are_refused(tmp_path):
+    row = {"id": "a", "points": [[0, 0], [0, 1]]}
+    (tmp_path / "t.json").write_text(json.dumps({"sketchtree": 1, "strokes": [row, row]}))
+    with pytest.raises(SketchError, match="its id is used twice"):
+        read_sketch(tmp_path / "t.json")
+
+
+def test_more_strokes_than_the_limit_is_an_error(tmp_path):
+    (tmp_path / "t.json").write_text(json.dumps({"sketchtree": 1, "strokes": [{"points": [[0, k], [1, k]]} for k in range(5)]}))
+    with pytest.raises(SketchError, match="holds 5 strokes, more than 4.*--max-strokes"):
+        read_sketch(tmp_path / "t.json", max_strokes=4)
+
+
+def test_a_missing_file_and_a_folder_are_named(tmp_path):
+    with pytest.raises(SketchError, match="There is no file .*gone.svg"):
+        read_sketch(tmp_path / "gone.svg")
+    with pytest.raises(SketchError, match="is a folder"):
+        read_sketch(tmp_path)
+
+
+def test_a_gzipped_drawing_reads_like_the_plain_one(tmp_path):
+    (tmp_path / "t.svgz").write_bytes(gzip.compress(SVG.format(PATH).encode()))
+    assert read_sketch(tmp_path / "t.svgz").strokes[0].points.tolist() == [[0, 0], [1, -5]]
+
+
+def test_content_decides_before_the_extension(tmp_path):
+    (tmp_path / "t.json").write_text(SVG.format(PATH))
+    assert len(read_sketch(tmp_path / "t.json")) == 1
+
+
+def same(a: Sketch, b: Sketch) -> bool:
+    fields = ("id", "kind", "labelled", "closed", "width", "filled")
+    arrays = ("points", "pressure", "time")
+    return (a.units, a.view_deg, len(a)) == (b.units, b.view_deg, len(b)) and all(
+        all(getattr(s, f) == getattr(t, f) for f in fields)
+        and all((getattr(s, f) is None) == (getattr(t, f) is None) and (getattr(s, f) is None or np.array_equal(getattr(s, f), getattr(t, f))) for f in arrays)
+        for s, t in zip(a.strokes, b.strokes, strict=True)
+    )
+
+
+@pytest.mark.parametrize("path", sorted(EXAMPLES.glob("*.svg")) + [EXAMPLES / "apple.json"], ids=lambda p: p.name)
+def test_a_sketch_survives_json_bit_for_bit(path, tmp_path):
+    sketch = read_sketch(path)
+    write_sketch_json(sketch, tmp_path / "t.json")
+    assert same(read_sketch(tmp_path / "t.json"), sketch)
+
+
+def test_every_field_of_a_stroke_survives_json(tmp_path):
+    points = [[0.1, 1 / 3], [2e-300, 5e300]]
+    full = Stroke("a b", points, StrokeKind.CROWN, labelled=True, closed=True, width=0.3, pressure=[0.1, 0.7], time=[0.0, 17.0], filled=True)
+    sketch = Sketch((full, Stroke("c", points, pressure=[0.5, 1.0]), Stroke("d", points)), units="mm", view_deg=30.0)
+    write_sketch_json(sketch, tmp_path / "t.json")
+    assert same(read_sketch(tmp_path / "t.json"), sketch)
+
+
+def test_time_without_pressure_survives_json(tmp_path):
+    sketch = Sketch((Stroke("a", [[0, 0], [0, 1]], time=[3.0, 4.0]),))
+    write_sketch_json(sketch, tmp_path / "t.json")
+    assert read_sketch(tmp_path / "t.json").strokes[0].time.tolist() == [3.0, 4.0]
+
+
+def test_a_folder_that_cannot_be_written_is_named(tmp_path):
+    with pytest.raises(SketchError, match="can't be written"):
+        write_sketch_json(Sketch((Stroke("a", [[0, 0]]),)), tmp_path / "gone" / "t.json")
+
+
+@pytest.mark.skipif(not SHARED.exists(), reason="the shared drawings are not beside this checkout")
+def test_a_two_point_stroke_under_a_css_transform_lies_where_a_browser_paints_it():
+    stroke = read_sketch(SHARED / "sketches/svg/rp_blossomTree1.svg").strokes[0]
+    assert stroke.points == pytest.approx(np.array([[127, -209.9995], [127.07358, -199.00004]]))
