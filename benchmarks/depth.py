@@ -2,6 +2,7 @@
 
     python -m benchmarks.depth                                  synthetic and measured trees of our own
     python -m benchmarks.depth --set synthetic --methods okabe elevation
+    python -m benchmarks.depth --set quality --record           the fixed set; its medians become the tests' record
     python -m benchmarks.depth --cases DIR                      CASE.json + CASE.svg pairs: from the exact
                                                                 graph, and through the reader
 Medians over cases, elev of every case, and how often a method's elev is below `okabe`'s in the same run. No template is
@@ -28,6 +29,7 @@ from sketchtree.sketch.graph import SketchGraph
 
 ORDER = ("flat", "random-sign", "okabe", "chen-fixed", "chen", "elevation")
 RIVAL = "okabe"
+RECORD = case_sets.DATA / "depth_record.json"
 Scores = dict[str, dict[str, float]]  # case → figure → value
 
 
@@ -85,6 +87,12 @@ def per_case(result: dict[str, Scores], figure: str = "elev") -> str:
     return "\n".join(lines)
 
 
+def write_record(result: dict[str, Scores]) -> None:
+    """The medians that `tests/mrf/test_depth_quality.py` holds every later version to."""
+    rows = {m: {name: round(row[name], 4) for name in metrics.NAMES} for m, row in summary(result).items()}
+    RECORD.write_text(json.dumps(rows, indent=1) + "\n")
+
+
 def main(arguments: list[str] | None = None) -> None:
     """The command line."""
     parser = argparse.ArgumentParser(prog="python -m benchmarks.depth", description=__doc__.splitlines()[0])
@@ -93,6 +101,7 @@ def main(arguments: list[str] | None = None) -> None:
     parser.add_argument("--skeletons", type=Path, help="a folder of measured trees for the set `real`")
     parser.add_argument("--methods", nargs="+", choices=METHODS, default=list(ORDER))
     parser.add_argument("--json", type=Path, help="write every figure here")
+    parser.add_argument("--record", action="store_true", help="make the medians of the set `quality` the record of the tests")
     parser.add_argument("--seed", type=int, default=0)
     parser.add_argument("--brief", action="store_true", help="medians only")
     options = parser.parse_args(arguments)
@@ -101,6 +110,8 @@ def main(arguments: list[str] | None = None) -> None:
         result = compare(cases, options.methods, read=read, seed=options.seed)
         report[name] = {m: {"median": summary(result)[m], "cases": scores} for m, scores in result.items()}
         print(f"\n{name}: {len(cases)} cases\n{table(result)}", flush=True)
+        if options.record and name == "quality":
+            write_record(result)
         if not options.brief:
             print(f"\n{per_case(result)}", flush=True)
     if options.json:

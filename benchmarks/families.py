@@ -20,7 +20,7 @@ from scipy.spatial import cKDTree
 
 from sketchtree.axes import NULL
 from sketchtree.skeleton import TreeSkeleton
-from sketchtree.traverse import children, generations, sum_to_root
+from sketchtree.traverse import children, generations, is_tip, sum_to_root
 
 UP = np.array([0.0, 1.0, 0.0])
 _THIN = 1e-3  # smallest radius, tree heights
@@ -226,7 +226,7 @@ def _tidy(tip, parent, shortest):
     for rows in generations(tree.parent)[1:]:
         lost[rows] |= lost[tree.parent[rows]]
     tree = tree.select(~lost)
-    leaves = sum_to_root(tree.parent, np.bincount(tree.parent[1:], minlength=len(tree)) == 0)
+    leaves = sum_to_root(tree.parent, is_tip(tree.parent).astype(float))
     return with_limbs(tree.parent, tree.tip, np.maximum(0.022 * (leaves / leaves[0]) ** 0.45, _THIN))
 
 

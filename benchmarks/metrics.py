@@ -103,7 +103,7 @@ def wasserstein(a: np.ndarray, b: np.ndarray) -> float:
 
 def _depth(true, found) -> float:
     extent = max(np.ptp(found[:, 2]), 0.01 * np.ptp(true[:, 0]))
-    return float(min(3.0, abs(np.log(extent / max(np.ptp(true[:, 2]), 1e-6)))))
+    return float(min(3.0, abs(np.log(max(extent, 1e-12) / max(np.ptp(true[:, 2]), 1e-6)))))
 
 
 def _best_mirror(xyz, score) -> float:

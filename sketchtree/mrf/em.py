@@ -9,7 +9,7 @@ Chen et al. 2008, §5.3, an EM-like alternation of a few rounds (the paper: fewe
     γ   ϕ less the turn that the label asks for (§4, cases 1-3); circular mean, and √(−2 ln R) for σ_γ
 
 Ours: floors under the σ (.05, .03 rad, .03 rad, .1 rad), without which they shrink to nothing on small trees; a parameter
-with fewer than two observations stays as it was. Without `learn`, Θ is insisted on and one round is all.
+with fewer than two observations stays as it was; a tree of one stroke stays on the page. Without `learn`, Θ is insisted on and one round is all.
 """
 
 from typing import NamedTuple
@@ -89,6 +89,7 @@ class EM(AbstractSolver):
         reading = state.reading
         for k, part in enumerate(self.e_step):
             reading = part(graph, state.theta, reading, jax.random.fold_in(key, k))
+        reading = reading._replace(depth=np.where(_has_laterals(graph), reading.depth, 0.0))
         theta = maximise(rotations_of(graph, reading), state.theta) if self.learn else state.theta
         moved = float(np.abs(reading.depth - state.reading.depth).sum())
         log_posterior = log_probability(graph, reading, state.theta)
@@ -107,6 +108,12 @@ class EM(AbstractSolver):
 
     def theta(self, graph: FactorGraph, prior: Prior, state: State) -> TreeParameters | None:
         return state.theta
+
+
+def _has_laterals(graph: FactorGraph):
+    """Rows of trees with more than one limb: a lone stroke says nothing of depth, so it stays on the page."""
+    tree = graph.tree[graph.limb_first]
+    return (np.bincount(tree, minlength=int(graph.tree.max()) + 1) > 1)[graph.tree]
 
 
 def rotations_of(graph: FactorGraph, reading: Reading) -> Rotations:

@@ -33,14 +33,14 @@ from sketchtree.parameters import TreeParameters
 from sketchtree.traverse import generation
 
 ATTENUATION = 5.0  # λ, the paper's default
-NEAREST = 16  # competitors kept a node: the nearest on the page; the field of the others is below .003 each
+NEAREST = 12  # competitors kept a node: the nearest on the page; the field of the others is below .003 each
 _COLOURS = 3
-_LONGEST, _SHORTEST, _FIRST = 0.05, 1e-5, 0.01  # step of a sweep, H
-_SHARES = (1.0, 0.5, 0.125)  # of its step that a node tries, and that all take together
+_LONGEST, _SHORTEST, _FIRST = 0.05, 1e-5, 0.02  # step of a sweep, H
+_SHARES = (1.0, 0.5, 0.125)  # of their steps that all nodes of a colour may take together
 
 
 class Pairs(eqx.Module):
-    """What P_ICM is made of, padded; one program serves every drawing of about the same size."""
+    """What P_ICM is made of, padded to a power of two; one program serves every drawing of that size."""
 
     xy: Float[Array, "segment 2"]
     start: Int[Array, " segment"]  # row at whose tip a segment starts
@@ -97,7 +97,7 @@ class ICM(EStepPart):
     """Gradient steps on P_sa · P_d, one node at a time."""
 
     tol: float = 0.01  # ε, drawn heights, > 0
-    max_sweeps: int = 100
+    max_sweeps: int = 150
     competition: float = 1.0  # w_d, 0 or more
 
     def __call__(self, graph: FactorGraph, theta: TreeParameters, reading: Reading, key: Key[Array, ""]) -> Reading:
@@ -134,7 +134,7 @@ class ICM(EStepPart):
         colour = np.where(free, generation(graph.parent) % _COLOURS, _COLOURS)
         nothing = len(graph)  # a padding row, at rest
         first, second = competing(graph)
-        extra = _bucket(len(first) + 1)
+        extra = NEAREST * size
         xy = np.concatenate([graph.xy, _stump(size - len(graph))])
         return Pairs(
             xy=jnp.asarray(xy),
@@ -189,39 +189,33 @@ def sweep(pairs: Pairs, theta, state: State) -> tuple[State, Info]:
 
 
 def _move(pairs: Pairs, theta, state: State, chosen) -> State:
-    """Each chosen node takes the share of its step that raises P most, the others held."""
+    """Each chosen node steps uphill where that alone raises P; all together go as far as P still rises."""
     slope = jax.grad(pairs.log_p)(state.depth, theta)
     turned = slope * state.slope < 0
-    reach = jnp.clip(state.reach * jnp.where(turned, 0.5, 1.2), _SHORTEST, _LONGEST)
+    reach = jnp.clip(state.reach * jnp.where(turned, 0.5, 1.5), _SHORTEST, _LONGEST)
     step = jnp.where(chosen, reach * jnp.sign(slope), 0.0)
+    rises = _gain(pairs, theta, state.depth, step) > 0
+    step = jnp.where(rises, step, 0.0)
     shares = jnp.asarray(_SHARES, step.dtype)
-    gain = jax.vmap(lambda share: _gain(pairs, theta, state.depth, share * step, chosen))(shares)
-    best = jnp.argmax(gain, axis=0)
-    rises = jnp.take_along_axis(gain, best[None], axis=0)[0] > 0
-    step = jnp.where(rises, shares[best] * step, 0.0)
     total = jax.vmap(lambda share: _total_gain(pairs, theta, state.depth, share * step))(shares)
     share = jnp.where(jnp.max(total) >= 0, shares[jnp.argmax(total)], 0.0)
     return State(
         depth=state.depth + share * step,
-        reach=jnp.where(chosen, jnp.maximum(jnp.where(rises, reach, 0.25 * reach), _SHORTEST), state.reach),
+        reach=jnp.where(chosen, jnp.where(rises, reach, jnp.maximum(0.4 * reach, _SHORTEST)), state.reach),
         slope=jnp.where(chosen, slope, state.slope),
         moved=state.moved,
     )
 
 
-def _gain(pairs: Pairs, theta, z, step, chosen):
-    """What each chosen node's own step adds to log P while every other node holds."""
-    new = z + step
+def _gain(pairs: Pairs, theta, z, step):
+    """What each node's own step adds to log P while every other node holds."""
+    new, a, b = z + step, pairs.first, pairs.second
     pair = pairs.log_pair(new, theta) - pairs.log_pair(z, theta)
-    own = jnp.zeros_like(z)
-    above_start = pairs.start[pairs.above]
-    for node in (jnp.arange(len(z)), pairs.start, above_start):  # one of the three is chosen, or none
-        own = own.at[node].add(jnp.where(chosen[node], pair, 0.0))
-    a, b = pairs.first, pairs.second
     before = pairs.log_field(z[a], z[b])
-    own = own.at[a].add(pairs.log_field(new[a], z[b]) - before)
-    own = own.at[b].add(pairs.log_field(z[a], new[b]) - before)
-    return jnp.where(chosen, own, -jnp.inf)
+    mover = jnp.stack([jnp.arange(len(z)), pairs.start, pairs.start[pairs.above]])  # at most one of them steps
+    node = jnp.concatenate([mover.ravel(), a, b])
+    gain = [jnp.tile(pair, 3), pairs.log_field(new[a], z[b]) - before, pairs.log_field(z[a], new[b]) - before]
+    return jnp.zeros_like(z).at[node].add(jnp.concatenate(gain))
 
 
 def _total_gain(pairs: Pairs, theta, z, step):
