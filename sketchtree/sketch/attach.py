@@ -19,12 +19,12 @@ from jaxtyping import Bool, Float, Int
 
 from sketchtree.axes import NULL
 from sketchtree.sketch.arborescence import arborescence
-from sketchtree.sketch.candidates import REACH, Arcs, bridging_arcs, candidate_arcs
+from sketchtree.sketch.candidates import MANY, REACH, Arcs, bridging_arcs, candidate_arcs
 from sketchtree.sketch.lines import Line, extent, unit
 
 FORBIDDEN = 1e4  # dearer than any tree of sensible attachments
 GROUND = 0.04  # of H: a foot this near to the ground's height may stand on it
-ROUNDS = (2, 4)  # at most, for the stem and for the rest
+ROUNDS, FEWER = (2, 4), (1, 2)  # at most, for the stem and for the rest; fewer in a drawing of more than MANY
 
 
 @dataclass(frozen=True, eq=False)
@@ -42,17 +42,18 @@ class Hanging:
 def attach(lines: list[Line]) -> Hanging:
     """The least costly rooted tree (or several) over the lines."""
     height = extent(lines)
+    rounds = ROUNDS if len(lines) <= MANY else FEWER
     arcs = candidate_arcs(lines, height)
     rising, foot_y = _rising(lines, height)
     lowest = float(foot_y.min())
     alone = 100 * (foot_y - lowest) / height + 0.5 * (1 - rising) + _smallness(lines)[:, None]
-    solution = _solve(lines, arcs, alone + FORBIDDEN, ROUNDS[0])
+    solution = _solve(lines, arcs, alone + FORBIDDEN, rounds[0])
     stem = int(np.argmin(np.where(solution.parent == NULL, solution.cost, np.inf)))
     ground = foot_y[stem, solution.end[stem]]
     standing = 4 + 50 * np.abs(foot_y - ground) / height + 0.5 * (1 - rising)
     allowed = (np.abs(foot_y - ground) <= GROUND * height) & (rising > 0.2)
     standing = np.where(allowed, standing, alone + FORBIDDEN)
-    hanging = _solve(lines, arcs, standing, ROUNDS[1], first=solution.end)
+    hanging = _solve(lines, arcs, standing, rounds[1], first=solution.end)
     for _ in range(len(lines)):
         group = _floating(hanging)
         if group is None:

@@ -12,7 +12,6 @@ from sketchtree.sketch.lines import Line
 from sketchtree.sketch.segments import Rows
 
 DOUBTFUL = 0.05  # of H: a foot farther from its parent is worth a warning
-FLOATING = 0.04  # of H: a stem that starts this far above the ground too
 
 
 def describe(
@@ -28,7 +27,8 @@ def describe(
         others = tuple((cleaned.lines[other].id, round(cost, 4)) for other, cost in hanging.alternatives[k])
         parent, reason = above[k]
         cost = float(hanging.cost[k] % FORBIDDEN)
-        attachments.append(Attachment(line.id, parent, (float(point[0]), float(point[1])), gap, round(cost, 4), others, _reason(reason, gap, height)))
+        place = (float(point[0]), float(point[1]))
+        attachments.append(Attachment(line.id, parent, place, gap, round(cost, 4), others, _reason(reason, gap, height)))
     for line, owner, why in cleaned.merged:
         x, y = line.points[0].tolist()
         attachments.append(Attachment(line.id, stroke_ids[owner], (x, y), 0.0, 0.0, (), why))
@@ -50,7 +50,9 @@ def _owners(lines: list[Line], limbs: list[Limb]) -> list[tuple[str | None, str]
     found: list = [None] * len(lines)
     for limb in limbs:
         first, *later = limb.lines
-        found[first] = (None, "stands on the ground") if limb.parent == NULL else (lines[limbs[limb.parent].line_at(limb.s)].id, "a lateral")
+        found[first] = (None, "stands on the ground")
+        if limb.parent != NULL:
+            found[first] = (lines[limbs[limb.parent].line_at(limb.s)].id, "a lateral")
         for before, line in zip(limb.lines, later, strict=False):
             found[line] = (lines[before].id, "carries that stroke on from its tip")
     return found
@@ -59,13 +61,15 @@ def _owners(lines: list[Line], limbs: list[Limb]) -> list[tuple[str | None, str]
 def _reason(reason: str, gap: float, height: float) -> str:
     if reason == "stands on the ground" or gap <= 1e-6 * height:
         return reason
-    return f"{reason}, {'far off: the most likely of its neighbours' if gap > DOUBTFUL * height else 'nearest and at a likely angle'}"
+    far = gap > DOUBTFUL * height
+    return f"{reason}, {'far off: the most likely of its neighbours' if far else 'nearest and at a likely angle'}"
 
 
 def _doubts(attachments: list[Attachment], cleaned: Cleaned, stroke_ids: tuple[str, ...], height: float) -> list[str]:
     far = [a for a in attachments if a.parent is not None and a.gap > DOUBTFUL * height]
     warnings = [
-        f"Stroke {a.stroke} starts {100 * a.gap / height:.0f} % of the drawing's height away from stroke {a.parent}, the likeliest it could grow from."
+        f"Stroke {a.stroke} starts {100 * a.gap / height:.0f} % of the drawing's height away from "
+        f"stroke {a.parent}, the likeliest it could grow from."
         for a in far[:5]
     ]
     if len(far) > 5:

@@ -1,7 +1,8 @@
 """Which strokes are lines in their own right? Doubled points, dots, retraced and repeated strokes taken out.
 
-Shaky hands draw a line twice, go back over it, or leave dots. A branch may also truly lie over another in projection, so a
-stroke is merged only if it repeats the other from end to end, covers most of it, or never leaves its ink. The lines come back in an order and direction of their own, so that the order of the file decides nothing.
+Shaky hands draw a line twice, go back over it, or leave dots. A branch may also truly lie over another in
+projection, so a stroke is merged only if it repeats the other from end to end, covers most of it, or never leaves its
+ink. The lines come back in an order and direction of their own, so that the order of the file decides nothing.
 """
 
 from dataclasses import dataclass

@@ -1,8 +1,8 @@
 """Which curve is the crown? What the file says, else a closed or nearly closed outline around the branches.
 
-A stroke is a crown by its shape if its ends nearly meet, it is round rather than a thin loop
-(4πA/P² of its hull times the part of the hull it fills ≥ ROUND), it is large and reaches high, and at least half of the other strokes' upper ends lie in it
-or touch it.
+A stroke is a crown by its shape if its ends nearly meet, it is round rather than a thin loop (4πA/P² of its hull
+times the part of the hull it fills ≥ ROUND), it is large and reaches high, and at least half of the other strokes'
+upper ends lie in it or near it.
 """
 
 import numpy as np
@@ -25,7 +25,7 @@ def crown_strokes(strokes: list[Stroke]) -> list[int]:
         return []
     size = float(np.ptp(np.concatenate([s.points for s in strokes]), axis=0).max())
     tips = np.array([_upper_end(stroke) for stroke in strokes])
-    found = [k for k, stroke in enumerate(strokes) if not stroke.labelled and _is_outline(stroke.points, size) and (not stroke.filled or is_blob(stroke))]
+    found = [k for k, s in enumerate(strokes) if not s.labelled and _is_outline(s.points, size) and not (s.filled and not is_blob(s))]
     high = _level(strokes, HIGH)
     around = [k for k in found if strokes[k].points[:, 1].max() >= high and _encloses(strokes[k].points, np.delete(tips, found, 0), size)]
     return around if len(around) < len(strokes) else []

@@ -25,7 +25,9 @@ def read_sketch_json(data: bytes, name: str, *, max_strokes: int = 20_000) -> Sk
     try:
         document = json.loads(data)
     except (ValueError, RecursionError) as error:
-        raise SketchError(f"{name} is not one well-formed JSON document ({error}); it may be cut short.", remedy="Save the sketch again.") from None
+        raise SketchError(
+            f"{name} is not one well-formed JSON document ({error}); it may be cut short.", remedy="Save the sketch again."
+        ) from None
     _check_head(document, name)
     rows = document["strokes"]
     if len(rows) > max_strokes:
@@ -103,9 +105,11 @@ def _columns(points: Any, stroke_id: str, name: str) -> np.ndarray:
         raise SketchError(f"in {name}, its points are not a list of [x, y] rows.", stroke=stroke_id, remedy=_REMEDY)
     size = len(points[0]) if points else 2
     for k, point in enumerate(points):
-        if len(point) != size or not 2 <= size <= 4 or not all(_is_number(v) or (v is None and j == 2 and size == 4) for j, v in enumerate(point)):
+        numbers = [value for j, value in enumerate(point) if not (value is None and j == 2 and size == 4)]
+        if len(point) != size or not 2 <= size <= 4 or not all(map(_is_number, numbers)):
             raise SketchError(
-                f"in {name}, point {k + 1} is {json.dumps(point)[:60]}; [x, y], [x, y, pressure] or [x, y, pressure, t_ms] was expected, the same for all its points.",
+                f"in {name}, point {k + 1} is {json.dumps(point)[:60]}; [x, y], [x, y, pressure] or "
+                "[x, y, pressure, t_ms] was expected, the same for all its points.",
                 stroke=stroke_id,
                 remedy=_REMEDY,
             )

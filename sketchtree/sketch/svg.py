@@ -56,7 +56,8 @@ def read_svg(data: bytes, name: str, *, max_strokes: int = 20_000) -> Sketch:
     """The strokes of an SVG file, in document order. Raises SketchError."""
     root = parse_xml(data, name)
     if root.tag.rpartition("}")[2] != "svg":
-        raise SketchError(f"{name} is XML, but its root is <{root.tag.rpartition('}')[2]}>, not <svg>.", remedy="Export the drawing as SVG.")
+        tag = root.tag.rpartition("}")[2]
+        raise SketchError(f"{name} is XML, but its root is <{tag}>, not <svg>.", remedy="Export the drawing as SVG.")
     walk = _Walk(ElementWrapper.from_xml_root(root), name, max_strokes)
     shapes = walk.shapes()
     strokes, warnings = _strokes(shapes, name, walk.view)
@@ -178,7 +179,10 @@ class _Walk:
         except ValueError:
             page = (300.0, 150.0)
         if min(page) <= 0:
-            raise SketchError(f"{self.name} has a page of no size ({size[0]} × {size[1]}).", remedy="Set the page's width and height, and export it again.")
+            raise SketchError(
+                f"{self.name} has a page of no size ({size[0]} × {size[1]}).",
+                remedy="Set the page's width and height, and export it again.",
+            )
         return page
 
     def _view_box(self, element: ElementWrapper) -> tuple[float, float, float, float] | None:
@@ -191,7 +195,10 @@ class _Walk:
         except ValueError:
             finite = False
         if not finite or width <= 0 or height <= 0:
-            raise SketchError(f"{self.name} has viewBox=\"{text[:60]}\": four finite numbers are expected, width and height above 0.", remedy="Set the page size in the drawing program, and export it again.")
+            raise SketchError(
+                f'{self.name} has viewBox="{text[:60]}": four finite numbers are expected, width and height above 0.',
+                remedy="Set the page size in the drawing program, and export it again.",
+            )
         return x, y, width, height
 
     def _nested(self, element: ElementWrapper) -> Matrix:
@@ -246,7 +253,15 @@ def _strokes(shapes: list[_Shape], name: str, view: tuple[float, float]) -> tupl
         stroke_id = _unique((shape.id or f"stroke-{order[id(shape)]}") + (f"-{k + 1}" if k else ""), used)
         try:
             strokes.append(
-                Stroke(stroke_id, line, shape.kind or StrokeKind.BRANCH, labelled=shape.kind is not None, closed=path.closed or shape.filled, width=shape.width, filled=shape.filled)
+                Stroke(
+                    stroke_id,
+                    line,
+                    shape.kind or StrokeKind.BRANCH,
+                    labelled=shape.kind is not None,
+                    closed=path.closed or shape.filled,
+                    width=shape.width,
+                    filled=shape.filled,
+                )
             )
         except SketchError as error:
             raise SketchError(f"in {name}, {error.message}", stroke=stroke_id, remedy=error.remedy) from None
