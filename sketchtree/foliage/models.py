@@ -72,7 +72,7 @@ _MODELS = {
     model.name: model
     for model in (
         LeafModel(
-            "oak", blades.oak, spur=7, every=5, arrangement="alternate", size=0.095, spacing=0.035, inclination=52.0, droop=0.22, fold=12.0, curl=0.10,
+            "oak", blades.oak, spur=7, every=4, arrangement="alternate", size=0.095, spacing=0.035, inclination=52.0, droop=0.22, fold=12.0, curl=0.10,
             palettes=_seasons(
                 ("#93994f", "#b0a65e", "#c9c68a", "#9a8a55"),
                 ("#4e642c", "#71833f", "#a3ab6c", "#7d8350"),
@@ -96,7 +96,7 @@ _MODELS = {
             ),
         ),
         LeafModel(
-            "birch", blades.birch, spur=6, every=4, arrangement="alternate", size=0.05, spacing=0.026, inclination=60.0, droop=0.55, fold=8.0, curl=0.08,
+            "birch", blades.birch, spur=6, every=3, arrangement="alternate", size=0.05, spacing=0.026, inclination=60.0, droop=0.55, fold=8.0, curl=0.08,
             palettes=_seasons(
                 ("#9db554", "#b4c66c", "#cbd693", "#a3a260"),
                 ("#587538", "#84994c", "#afbb78", "#90894f"),
@@ -112,7 +112,7 @@ _MODELS = {
             ), roughness=0.5,
         ),
         LeafModel(
-            "poplar", blades.poplar, spur=5, every=4, arrangement="spiral", size=0.06, spacing=0.03, inclination=50.0, droop=0.40, fold=9.0, curl=0.06,
+            "poplar", blades.poplar, spur=5, every=3, arrangement="spiral", size=0.06, spacing=0.03, inclination=50.0, droop=0.40, fold=9.0, curl=0.06,
             palettes=_seasons(
                 ("#98ad52", "#b0bd62", "#ccd38e", "#b0a25a"),
                 ("#547437", "#82994b", "#b2bd80", "#a09a5c"),

@@ -1,6 +1,14 @@
-"""What does this tree wear: which leaf, how large, how far apart, in which arrangement?"""
+"""What does this tree wear: which leaf, how large, how far apart, in which arrangement?
+
+A tall tree has hundreds of thousands of leaves and is drawn with tens of thousands, so its blades are drawn
+larger, within what the species can grow (ours; H the species' height):
+
+    size = leaf size · min(max((H / 6 m)^0.35, 1), 1.5)
+"""
 
 from dataclasses import dataclass
+
+import numpy as np
 
 from sketchtree.foliage.arrangement import GOLDEN_ANGLE, leaves_per_node
 from sketchtree.foliage.models import LeafModel, leaf_model
@@ -29,4 +37,10 @@ def wear_of(habit: Habit, model: str | None = None, density: float = 1.0) -> Wea
         arrangement, size, spacing = worn.arrangement, worn.size, worn.spacing
     leaves_per_node(arrangement)
     turn = habit.phyllotaxis if arrangement == "spiral" == habit.leaf_arrangement else GOLDEN_ANGLE
+    size *= enlargement(habit) if worn.is_blade and arrangement != "frond" else 1.0
     return Wear(worn, arrangement, size / worn.needle, spacing * worn.bundle / density, turn, habit.whorl)
+
+
+def enlargement(habit: Habit) -> float:
+    """How much larger than in life the blades of this species are drawn, 1 to 1.5."""
+    return float(np.clip((habit.height / 6.0) ** 0.35, 1.0, 1.5))
