@@ -20,7 +20,7 @@ from jaxtyping import Bool, Float
 
 from sketchtree.errors import OptionError
 
-_BISECTIONS = 20  # to 1e-6 of a branch
+_BISECTIONS = 16  # to 2e-5 of a branch
 
 
 @dataclass(frozen=True, eq=False)
