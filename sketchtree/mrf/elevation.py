@@ -27,6 +27,7 @@ from sketchtree.mrf.solver import AbstractSolver
 from sketchtree.mrf.typical import depth_of, typical_elevation
 
 BLOCK = 40  # chain steps a block
+LARGE = 4096  # rows above which every second block is left out
 THIN = 10  # chain steps between kept samples
 START_SD = 0.5  # radians, of a lateral's first ψ
 
@@ -41,6 +42,13 @@ class State(NamedTuple):
     block: int
     best: Float[np.ndarray, " segment"]  # ψ of the best tree so far
     best_value: float  # its E
+
+
+class Block(NamedTuple):
+    """Chain steps that belong together."""
+
+    temperature: float
+    kept: bool  # their states are samples
 
 
 class Info(NamedTuple):
@@ -70,13 +78,14 @@ class Elevation(AbstractSolver):
         return "elevation"
 
     @property
-    def schedule(self) -> tuple[float, ...]:
-        """Temperature of every block."""
-        return (*self.burn, *(1.0,) * self.keep, *self.cool)
-
-    @property
     def default_steps(self) -> int:
-        return len(self.schedule)
+        return len(self.burn) + self.keep + len(self.cool)
+
+    def schedule(self, graph: FactorGraph) -> list[Block]:
+        """What the blocks do; every second one is left out of drawings of thousands of segments."""
+        every = 2 if len(graph) > LARGE else 1
+        burn, cool = ([Block(t, False) for t in heat[every - 1 :: every]] for heat in (self.burn, self.cool))
+        return [*burn, *[Block(1.0, True)] * -(-self.keep // every), *cool]
 
     def compile(self, graph: FactorGraph, prior: Prior) -> None:
         if graph.limb_spreads.any():
@@ -93,13 +102,14 @@ class Elevation(AbstractSolver):
         return State(posterior, moves(graph, segments, limbs), chains.start(start), (), 0, nothing, -np.inf)
 
     def step(self, graph: FactorGraph, prior: Prior, state: State, key: Key[Array, ""]) -> tuple[State, Info]:
-        temperature = self.schedule[state.block]
-        program, arguments = self._program(graph, state, key, temperature)
+        schedule = self.schedule(graph)
+        block = schedule[state.block]
+        program, arguments = self._program(graph, state, key, block.temperature)
         after, path = program(*arguments)
         value = np.asarray(after.value)
         leader = int(np.argmax(value))
         samples = state.samples
-        if len(self.burn) <= state.block < len(self.burn) + self.keep:
+        if block.kept:
             kept = np.asarray(path)[THIN - 1 :: THIN, :, : len(graph)]
             samples = (*samples, kept.reshape(-1, len(graph)))
         best, best_value = state.best, state.best_value
@@ -107,15 +117,15 @@ class Elevation(AbstractSolver):
             best, best_value = np.asarray(after.elevation[leader], np.float64)[: len(graph)], float(value[leader])
         moved = float(np.abs(np.asarray(after.elevation) - np.asarray(state.chains.elevation)).sum(axis=1).mean())
         state = State(state.posterior, state.moves, after, samples, state.block + 1, best, best_value)
-        if state.block == len(self.schedule) and self.polish is not None:
+        if state.block == len(schedule) and self.polish is not None:
             state = self._polished(graph, state)
         info = Info(
-            state.best_value, float(np.median(value)), temperature, float(np.exp(np.median(np.asarray(after.log_step)))), moved
+            state.best_value, float(np.median(value)), block.temperature, float(np.exp(np.median(np.asarray(after.log_step)))), moved
         )
         return state, info
 
     def terminate(self, graph: FactorGraph, prior: Prior, state: State) -> bool:
-        return state.posterior is None or state.block >= len(self.schedule)
+        return state.posterior is None or state.block >= len(self.schedule(graph))
 
     def depth(self, graph: FactorGraph, state: State) -> Float[np.ndarray, " segment"]:
         psi = state.best
@@ -133,7 +143,7 @@ class Elevation(AbstractSolver):
         return None if state.posterior is None else state.best_value
 
     def _chain_count(self, segments: int) -> int:
-        return max(4, min(self.chain_count, self.chain_count * 256 // segments))
+        return max(2, min(self.chain_count, self.chain_count * 256 // segments))
 
     def _program(self, graph: FactorGraph, state: State, key, temperature: float):
         hot = np.full(BLOCK, temperature, np.float32)

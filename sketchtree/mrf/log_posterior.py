@@ -3,7 +3,7 @@
     E(ψ) = Σ_kinds Σ log_potential(assignment(ψ), Θ) + log p(Θ) − log p(Θ | ψ)        (any Θ; see `conjugate`)
 
 The columns are padded to a bucket, so that drawings of like size share one compiled program: segments to a
-power of two, limbs to a quarter, a half or all of that, sibling pairs to three a limb, competition pairs to sixteen.
+power of two, limbs to a quarter, a half or all of that, sibling pairs to three a limb, competition pairs to sixteen (six in very large drawings).
 """
 
 import equinox as eqx
@@ -31,6 +31,8 @@ from sketchtree.mrf.prior import Prior
 
 SMALLEST_BUCKET = 32
 COMPETITION_PER_LIMB = 16
+COMPETITION_PER_LIMB_OF_MANY = 6
+MANY_LIMBS = 1024
 ONE_SIDED = (0.7, 0.9)  # |mean dx| / rms dx at which extent and crown begin to weaken, and have
 
 
@@ -163,7 +165,7 @@ class _Padding:
 
 
 def _competition(graph, pad, shape):
-    length = COMPETITION_PER_LIMB * pad.limbs
+    length = (COMPETITION_PER_LIMB if pad.limbs <= MANY_LIMBS else COMPETITION_PER_LIMB_OF_MANY) * pad.limbs
     pair = graph.competitor
     if len(pair) > length:
         apart = np.linalg.norm(graph.xy[pair[:, 0]] - graph.xy[pair[:, 1]], axis=1)

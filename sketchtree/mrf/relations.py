@@ -3,7 +3,7 @@
 Siblings are limbs on one parent limb, in the order of their insertions; a pair's rank gap d is the
 difference of their ranks, at most 3. Competitors are limb tips, and the middles of long limbs, near enough on
 the page to matter: exp(−λ d / R_c) with λ = 5 falls below .003 at 1.2 R_c. A point keeps its nearest sixteen
-among those after it, so that the pairs grow with the drawing and not with its square.
+among those after it (four in very large drawings), so that the pairs grow with the drawing and not with its square.
 """
 
 import numpy as np
@@ -15,6 +15,8 @@ from sketchtree.axes import NULL
 RANK_GAP = 3
 REACH = 1.2  # of R_c
 NEAREST = 16
+NEAREST_OF_MANY = 4  # where there are more than
+MANY = 2048
 LONG = 0.25  # a limb longer than this (H = 1) also competes at its middle
 
 
@@ -53,10 +55,11 @@ def competition_pairs(
     node do not compete."""
     if len(rows) < 2:
         return np.zeros((0, 2), np.int64)
-    count = min(len(rows), 2 * NEAREST + 1)
+    nearest = NEAREST if len(rows) <= MANY else NEAREST_OF_MANY
+    count = min(len(rows), 2 * nearest + 1)
     distance, near = cKDTree(xy[rows]).query(xy[rows], k=count)
     keep = (distance < REACH * radius) & (near > np.arange(len(rows))[:, None])
-    keep &= np.cumsum(keep, axis=1) <= NEAREST
+    keep &= np.cumsum(keep, axis=1) <= nearest
     first, second = rows[np.nonzero(keep)[0]], rows[near[keep]]
     parent, limb = graph.parent, graph.limb
     apart = (limb[first] != limb[second]) & (parent[first] != parent[second])
