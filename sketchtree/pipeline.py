@@ -195,6 +195,8 @@ def complete(
     with watch("foliage"):
         season = "bare" if leaf is None else options.season
         leaves = populate(skeleton, habit, key=stage_key(key, "foliage"), model=leaf or habit.leaf, season=season)
+    if leaves.kept < 1:
+        warnings += (f"Only {leaves.kept:.0%} of the leaves were kept (at most {len(leaves)}), each larger, so that their area is right.",)
     with watch("mesh"):
         meshes = [wood_mesh(skeleton, bark=bark, key=stage_key(key, "mesh"))]
         if len(leaves):
