@@ -131,9 +131,14 @@ class _Document:
         return self.known[id(material)]
 
     def _material(self, material: Material) -> dict:
-        pbr = {"baseColorFactor": list(map(float, material.base_color)), "metallicFactor": 0.0, "roughnessFactor": float(material.roughness)}
+        pbr = {
+            "baseColorFactor": list(map(float, material.base_color)),
+            "metallicFactor": 0.0,
+            "roughnessFactor": float(material.roughness),
+        }
         if material.base_color_texture is not None:
-            pbr["baseColorTexture"] = {"index": self.texture(material.base_color_texture, "albedo", material.name, photographic=True)}
+            albedo = self.texture(material.base_color_texture, "albedo", material.name, photographic=True)
+            pbr["baseColorTexture"] = {"index": albedo}
         if material.roughness_texture is not None:
             rough = material.roughness_texture
             packed = np.stack([np.full_like(rough, 255), rough, np.zeros_like(rough)], axis=-1)

@@ -25,7 +25,9 @@ def write_meshes(path: str | os.PathLike, meshes: Sequence[Mesh]) -> None:
     path = check_writable(path)
     meshes = [mesh for mesh in meshes if len(mesh.triangle)]
     if not meshes and suffix != ".obj":
-        raise ExportError(f"Can't write {path}: there is no triangle to write.", remedy="Build a tree that has at least one branch.")
+        raise ExportError(
+            f"Can't write {path}: there is no triangle to write.", remedy="Build a tree that has at least one branch."
+        )
     if suffix == ".obj":
         _write_obj(path, meshes)
     else:
@@ -53,7 +55,8 @@ def _write_obj(path: Path, meshes: Sequence[Mesh]) -> None:
 def _mtl(path: Path, material: Material) -> str:
     """One material, its textures written beside the mesh."""
     red, green, blue, alpha = material.base_color
-    lines = [f"newmtl {material.name}", f"Kd {red:.4g} {green:.4g} {blue:.4g}", f"d {alpha:.4g}", "Ks 0 0 0", f"Pr {material.roughness:.4g}", "illum 1"]
+    lines = [f"newmtl {material.name}", f"Kd {red:.4g} {green:.4g} {blue:.4g}", f"d {alpha:.4g}"]
+    lines += ["Ks 0 0 0", f"Pr {material.roughness:.4g}", "illum 1"]
     albedo = material.base_color_texture
     if albedo is not None:
         name = _texture(path, material.name, "albedo", albedo, photographic=True)

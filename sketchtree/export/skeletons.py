@@ -36,8 +36,9 @@ def write_swc(path: str | os.PathLike, tree: TreeSkeleton, *, header: Mapping[st
     lines = [f"# SketchTree {__version__}"]
     lines += [f"# {name}: {str(value).splitlines()[0] if str(value) else ''}" for name, value in header.items()]
     lines += ["# id type x y z radius parent"]
-    columns = zip(*(column.tolist() for column in (node["type"], *node["point"].T + 0.0, node["radius"], node["parent"])), strict=True)
-    lines += ["%d %d %.9g %.9g %.9g %.9g %d" % (i, *row) for i, row in enumerate(columns, 1)]
+    columns = (node["type"], *(node["point"].T + 0.0), node["radius"], node["parent"])
+    rows = zip(*(column.tolist() for column in columns), strict=True)
+    lines += ["%d %d %.9g %.9g %.9g %.9g %d" % (i, *row) for i, row in enumerate(rows, 1)]
     write_whole(path, ("\n".join(lines) + "\n").encode())
 
 
@@ -91,7 +92,10 @@ def read_swc(path: str | os.PathLike) -> TreeSkeleton:
     parent = np.array([NULL if node < 0 else row_of.get(node, -2) for node in parent_id.tolist()], np.int64)
     if (parent == -2).any():
         bad = int(np.flatnonzero(parent == -2)[0])
-        raise SkeletonError(f"{path}, line {line[bad]}: its parent {parent_id[bad]} is not in the file.", remedy="Name an id of the file, or -1.")
+        raise SkeletonError(
+            f"{path}, line {line[bad]}: its parent {parent_id[bad]} is not in the file.",
+            remedy="Name an id of the file, or -1.",
+        )
     order = _parents_first(parent, path)
     renumber = np.argsort(order)
     parent = parent[order]
@@ -120,11 +124,17 @@ def _swc_table(path):
         except ValueError:
             values = []
         if len(values) < 7 or not np.isfinite(values).all():
-            raise SkeletonError(f"{path}, line {number}: expected `id type x y z radius parent`, got `{content.strip()[:60]}`.", remedy="Repair the line or start it with #.")
+            raise SkeletonError(
+                f"{path}, line {number}: expected `id type x y z radius parent`, got `{content.strip()[:60]}`.",
+                remedy="Repair the line or start it with #.",
+            )
         rows.append(values)
         lines.append(number)
     if not rows:
-        raise SkeletonError(f"{path} holds no nodes.", remedy="Give an SWC file with at least one line `id type x y z radius parent`.")
+        raise SkeletonError(
+            f"{path} holds no nodes.",
+            remedy="Give an SWC file with at least one line `id type x y z radius parent`.",
+        )
     return np.array(rows), lines
 
 
@@ -134,7 +144,10 @@ def _parents_first(parent, path):
     while (depth < 0).any():
         ready = (depth < 0) & (parent != NULL) & (depth[parent] >= 0)
         if not ready.any():
-            raise SkeletonError(f"{path}: some nodes hang in a circle.", remedy="Give every branch a path to a node whose parent is -1.")
+            raise SkeletonError(
+                f"{path}: some nodes hang in a circle.",
+                remedy="Give every branch a path to a node whose parent is -1.",
+            )
         depth[ready] = depth[parent[ready]] + 1
     if (parent < np.arange(len(parent))).all():
         return np.arange(len(parent))
@@ -185,7 +198,9 @@ def read_skeleton_json(path: str | os.PathLike) -> TreeSkeleton:
     except (ValueError, KeyError, TypeError) as error:
         raise SkeletonError(f"{path} is not a skeleton of ours.", remedy="Give a JSON file written by `sketchtree`.") from error
     if version != _FORMAT:
-        raise SkeletonError(f"{path} has skeleton format {version}; this version reads {_FORMAT}.", remedy="Update sketchtree.")
+        raise SkeletonError(
+            f"{path} has skeleton format {version}; this version reads {_FORMAT}.", remedy="Update sketchtree."
+        )
     columns = {name: np.array(content["columns"][name], float if name in _FLOATS else np.int64) for name in _INTEGERS + _FLOATS}
     return TreeSkeleton(**_shaped(columns))
 

@@ -117,7 +117,8 @@ def raise_collars(
     vertex[ring] = np.concatenate([deep[:, None], bow, upper, tube[:, -1:]], axis=1)
     skirt = foot - 0.9 * width
     curve = (1 - t[..., 0]) * skirt[:, None] + t[..., 0] * shoulder[:, None]
-    s[ring] = np.concatenate([(skirt - 0.5 * width)[:, None], curve, rise, np.broadcast_to(length[:, None, None], rise[:, :1].shape)], axis=1)
+    top = np.broadcast_to(length[:, None, None], rise[:, :1].shape)
+    s[ring] = np.concatenate([(skirt - 0.5 * width)[:, None], curve, rise, top], axis=1)
     return np.stack([normal, normal], axis=1)
 
 

@@ -62,5 +62,7 @@ def _double_reflection(x, x_next, t, t_next, r):
 
 
 def _reflect(u, v):
+    """u mirrored in the plane perpendicular to v; u itself where v vanishes."""
     squared = np.sum(v * v, axis=-1, keepdims=True)
-    return np.where(squared > 1e-30, u - 2.0 * np.sum(v * u, axis=-1, keepdims=True) / np.where(squared > 1e-30, squared, 1.0) * v, u)
+    share = np.sum(v * u, axis=-1, keepdims=True) / np.where(squared > 1e-30, squared, np.inf)
+    return u - 2.0 * share * v

@@ -159,8 +159,10 @@ def _knots(tree: TreeSkeleton, cut: Chains, underground: float) -> _Knots:
     between = tree.curve_points[tree.curve_start[point_row] + within]
     position = np.repeat(np.arange(len(cut.row)), inner)  # place of the row in cut.row
     start_radius = _foot_radius(tree, cut)
-    begin = np.where(cut.start[:-1][limb_of_row] == np.arange(len(cut.row)), start_radius[limb_of_row], tree.radius[tree.parent[cut.row]])
+    is_first = cut.start[:-1][limb_of_row] == np.arange(len(cut.row))
+    begin = np.where(is_first, start_radius[limb_of_row], tree.radius[tree.parent[cut.row]])
     share = (within + 1.0) / (inner[position] + 1.0)
+    inner_radius = begin[position] * (1 - share) + tree.radius[point_row] * share
     drawn = np.isin(tree.kind, (int(Kind.DRAWN), int(Kind.OBSERVED)))
     stem = np.flatnonzero(cut.is_stem)
     below = tree.tip[cut.foot[stem]] - np.array([0.0, 1.0, 0.0]) * (underground * start_radius[stem])[:, None]
@@ -174,7 +176,7 @@ def _knots(tree: TreeSkeleton, cut: Chains, underground: float) -> _Knots:
     columns = (
         limb,
         np.concatenate([below, tree.tip[cut.foot], between, tree.tip[cut.row]]),
-        np.concatenate([start_radius[stem], start_radius, begin[position] * (1 - share) + tree.radius[point_row] * share, tree.radius[cut.row]]),
+        np.concatenate([start_radius[stem], start_radius, inner_radius, tree.radius[cut.row]]),
         np.concatenate([np.ones(n_stem + n_limb, bool), np.zeros(len(position), bool), drawn[cut.row]]),
         np.concatenate([np.zeros(n_stem + n_limb, bool), drawn[point_row], drawn[cut.row]]),
         np.concatenate([np.full(n_stem, NULL), np.where(cut.is_stem, cut.foot, NULL), np.full(len(position), NULL), cut.row]),

@@ -64,7 +64,9 @@ def _places(lines: CentreLines, detail: Detail, height: float):
     """Limb and place of every ring, before collars and domes."""
     limb = lines.of_point
     apart = np.sqrt(8.0 * _BEND * detail.tolerance * height / np.maximum(lines.curvature, 1e-9))
-    apart = np.clip(apart, 0.6 * lines.radius, np.maximum(np.minimum(40.0 * lines.radius, detail.longest * height), 0.6 * lines.radius))
+    nearest = 0.6 * lines.radius
+    farthest = np.maximum(np.minimum(40.0 * lines.radius, detail.longest * height), nearest)
+    apart = np.clip(apart, nearest, farthest)
     foot = lines.radius[lines.start[:-1]][limb]
     near_ground = lines.is_stem[limb] & (lines.s < lines.ground[limb] + 3.0 * foot)
     apart = np.where(near_ground, np.minimum(apart, 0.4 * foot), apart)
