@@ -101,7 +101,7 @@ def main(arguments: list[str] | None = None) -> None:
     parser.add_argument("--skeletons", type=Path, help="a folder of measured trees for the set `real`")
     parser.add_argument("--methods", nargs="+", choices=METHODS, default=list(ORDER))
     parser.add_argument("--json", type=Path, help="write every figure here")
-    parser.add_argument("--record", action="store_true", help="make the medians of the set `quality` the record of the tests")
+    parser.add_argument("--record", action="store_true", help="make the medians of `quality` the tests' record")
     parser.add_argument("--seed", type=int, default=0)
     parser.add_argument("--brief", action="store_true", help="medians only")
     options = parser.parse_args(arguments)

@@ -133,7 +133,8 @@ def _stroke_rows(tree, tip, chains):
             strokes.append((rows, NULL, NULL))
             continue
         host, carrier = int(rows[0]), owner[int(rows[0])]
-        near = [other for other in used.get(carrier, ()) if np.linalg.norm(tip[other, :2] - tip[host, :2]) < MERGE * HEIGHT]
+        apart = {other: np.linalg.norm(tip[other, :2] - tip[host, :2]) for other in used.get(carrier, ())}
+        near = [other for other, gap in apart.items() if gap < MERGE * HEIGHT]
         host = near[0] if near else host
         used.setdefault(carrier, []).append(host)
         strokes.append((np.r_[host, rows[1:]], carrier, host))
@@ -214,7 +215,8 @@ def _case(lines, name, family, crown):
             between.append(line.point[inner, :2])
             start, previous_point = len(parent) - 1, int(node)
         row_of.append(rows)
-    return make_case(name, family, np.array(parent), np.array(tip), np.array(limb), np.array(radius), HEIGHT, between, crown)
+    columns = (np.array(column) for column in (parent, tip, limb, radius))
+    return make_case(name, family, *columns, HEIGHT, between, crown)
 
 
 def make_case(name, family, parent, tip, limb, radius, height, between=None, crown=(), svg=None) -> Case:
@@ -248,17 +250,16 @@ def svg_of(case: Case) -> str:
     low, size = points.min(0) - margin, np.ptp(points, axis=0) + 2 * margin
     head = f'<svg xmlns="http://www.w3.org/2000/svg" viewBox="{low[0]:.2f} {low[1]:.2f} {size[0]:.2f} {size[1]:.2f}">'
     group = '<g id="branches" fill="none" stroke="#333" stroke-linecap="round">'
-    paths = [
-        _path(f"s{k}", np.concatenate([graph.curve(row)[1 if i else 0 :] for i, row in enumerate(_limb_rows(graph, k))]))
-        for k in range(len(graph.limb_id))
-    ]
+    paths = [_path(f"s{k}", _drawn_line(graph, k)) for k in range(len(graph.limb_id))]
     crown = [_path("crown", outline, close=" Z") for outline in graph.crown]
     crown = ['<g id="crown" fill="none" stroke="#7a7">', *crown, "</g>"] if crown else []
     return "\n".join([head, group, *paths, "</g>", *crown, "</svg>", ""])
 
 
-def _limb_rows(graph, limb):
-    return np.flatnonzero((graph.limb == limb) & ~graph.is_base)
+def _drawn_line(graph, limb):
+    """All drawn points of one limb, its junction first."""
+    rows = np.flatnonzero((graph.limb == limb) & ~graph.is_base)
+    return np.concatenate([graph.curve(row)[1 if i else 0 :] for i, row in enumerate(rows)])
 
 
 def _path(name, points, close=""):

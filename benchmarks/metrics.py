@@ -182,4 +182,5 @@ def win_rate(found: list[float], rival: list[float], *, lower: bool = True) -> f
 def medians(rows: list[dict[str, float]]) -> dict[str, float]:
     """The median of every figure over cases, NaN left out."""
     columns = {name: np.array([row[name] for row in rows], float) for name in rows[0]}
-    return {name: float(np.median(v[np.isfinite(v)])) if np.isfinite(v).any() else float("nan") for name, v in columns.items()}
+    known = {name: column[np.isfinite(column)] for name, column in columns.items()}
+    return {name: float(np.median(column)) if len(column) else float("nan") for name, column in known.items()}

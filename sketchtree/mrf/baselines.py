@@ -8,7 +8,8 @@ that the paper's trees show on average and tosses a coin for the side:
     ψ   elevation of the lateral's first segment      e   its unit direction on the page
     d   unit direction of its parent in space
 
-Where no ψ reaches 50° the nearest angle is taken; |ψ| is at most 60°. The rest of the limb keeps the elevation of its start.
+Where no ψ reaches 50° the nearest angle is taken; |ψ| is at most 60°. The rest of the limb keeps the elevation of its
+start.
 """
 
 from typing import Any, NamedTuple

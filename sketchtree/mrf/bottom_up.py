@@ -85,7 +85,8 @@ class BottomUp(EStepPart):
         psi, value = _best(psi, log_probability(psi))
         for _ in range(_REFINEMENTS):
             around = psi[..., None] + step * np.linspace(-1, 1, 2 * _FINER + 1)
-            psi, value = _best(np.clip(around, -self.steepest, self.steepest), log_probability(np.clip(around, -self.steepest, self.steepest)))
+            around = np.clip(around, -self.steepest, self.steepest)
+            psi, value = _best(around, log_probability(around))
             step /= _FINER
         return psi, value
 

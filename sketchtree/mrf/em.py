@@ -8,8 +8,9 @@ Chen et al. 2008, §5.3, an EM-like alternation of a few rounds (the paper: fewe
     s   |v_i|/|v_pi| of every segment       α   φ where the label is 1       β   φ of the laterals
     γ   ϕ less the turn that the label asks for (§4, cases 1-3); circular mean, and √(−2 ln R) for σ_γ
 
-Ours: floors under the σ (.05, .03 rad, .03 rad, .1 rad), without which they shrink to nothing on small trees; a parameter
-with fewer than two observations stays as it was; a tree of one stroke stays on the page. Without `learn`, Θ is insisted on and one round is all.
+Ours: floors under the σ (.05, .03 rad, .03 rad, .1 rad), without which they shrink to nothing on small trees; a
+parameter with fewer than two observations stays as it was; a tree of one stroke stays on the page. Without `learn`, Θ
+is insisted on and one round is all.
 """
 
 from typing import NamedTuple

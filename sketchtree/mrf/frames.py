@@ -18,7 +18,9 @@ from jaxtyping import Float
 _STRAIGHT = 1e-9  # radians; below it a child has no orientation
 
 
-def turn_then_tilt(turn: Float[np.ndarray, "*pair"], tilt: Float[np.ndarray, "*pair"]) -> Float[np.ndarray, "*pair 3 3"]:
+def turn_then_tilt(
+    turn: Float[np.ndarray, "*pair"], tilt: Float[np.ndarray, "*pair"]
+) -> Float[np.ndarray, "*pair 3 3"]:
     """R_y(turn) R_x(tilt)."""
     a, b, c, d = np.cos(turn), np.sin(turn), np.cos(tilt), np.sin(tilt)
     zero = np.zeros_like(a * c)

@@ -54,7 +54,8 @@ def families(graph: FactorGraph) -> Families:
     """Who shares labels with whom."""
     above = np.where(graph.parent == NULL, NULL, graph.parent)
     at_ground = (graph.parent != NULL) & graph.is_base[np.maximum(graph.parent, 0)]
-    stem_start = {int(graph.parent[row]): int(row) for row in np.flatnonzero(at_ground)[::-1] if graph.limb_parent[graph.limb[row]] == NULL}
+    starts = np.flatnonzero(at_ground & (graph.limb_parent[graph.limb] == NULL))
+    stem_start = {int(graph.parent[row]): int(row) for row in starts[::-1]}
     for row in np.flatnonzero(at_ground):
         start = stem_start[int(graph.parent[row])]
         above[row] = NULL if row == start else start

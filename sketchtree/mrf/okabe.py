@@ -72,7 +72,8 @@ class Okabe(AbstractSolver):
             low, high = np.clip(np.array([-1, 1]) * half_depth[limb] - start, -steep, steep)
             rise = np.linspace(low, high, self.candidates)
             flat = np.array([np.interp(_ALONG, share, line) for line in _line(graph, chain).T]).T
-            q = np.concatenate([np.broadcast_to(flat, (len(rise), *flat.shape)), (start + rise[:, None] * _ALONG)[..., None]], -1)
+            flat = np.broadcast_to(flat, (len(rise), *flat.shape))
+            q = np.concatenate([flat, (start + rise[:, None] * _ALONG)[..., None]], axis=-1)
             best = int(np.argmax(_total_distance(q, np.concatenate(placed))))
             depth[chain] = start + rise[best] * share[1:]
             placed.append(q[best])
@@ -96,13 +97,14 @@ class Okabe(AbstractSolver):
 
 
 def _reaches(graph: FactorGraph):
-    """How far the crown reaches to the left and to the right of the trunk at the height of every limb's tip, 0 or more."""
+    """How far the crown reaches left and right of the trunk at the height of every limb's tip, 0 or more."""
     y, tree = graph.xy[graph.limb_tip, 1], graph.tree[graph.limb_tip]
     low, high = np.full(len(y), np.inf), np.full(len(y), -np.inf)
     for k, crowns in enumerate(graph.outline.crowns):
         at = np.flatnonzero(tree == k)
         for a, b in ((crown, np.roll(crown, -1, axis=0)) for crown in crowns):
-            crosses = (np.minimum(a[:, 1], b[:, 1])[:, None] <= y[at]) & (y[at] <= np.maximum(a[:, 1], b[:, 1])[:, None])
+            below, above = np.minimum(a[:, 1], b[:, 1])[:, None], np.maximum(a[:, 1], b[:, 1])[:, None]
+            crosses = (below <= y[at]) & (y[at] <= above)
             rise = np.where(a[:, 1] == b[:, 1], 1.0, b[:, 1] - a[:, 1])[:, None]
             x = a[:, 0, None] + np.clip((y[at] - a[:, 1, None]) / rise, 0, 1) * (b[:, 0] - a[:, 0])[:, None]
             low[at] = np.minimum(low[at], np.where(crosses, x, np.inf).min(axis=0))

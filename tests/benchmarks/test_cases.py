@@ -46,7 +46,8 @@ def test_drawn_lines_lie_near_their_segments(drawn):
 
 
 def test_a_steady_hand_draws_the_tree_s_own_projection():
-    tree = with_limbs(np.array([-1, 0, 1, 1, 3]), np.array([[0, 0, 0], [0, 0.5, 0], [0, 1, 0], [0.3, 0.7, 0.2], [0.5, 0.9, 0.5]]), np.ones(5))
+    tip = np.array([[0, 0, 0], [0, 0.5, 0], [0, 1, 0], [0.3, 0.7, 0.2], [0.5, 0.9, 0.5]])
+    tree = with_limbs(np.array([-1, 0, 1, 1, 3]), tip, np.ones(5))
     case = draw(tree, Hand(azimuth=0.0, strokes=5, jitter=0.0), name="x", family="x", rng=np.random.default_rng(0))
     shown = {tuple(np.round(p, 6)) for p in case.position}
     assert {tuple(np.round(HEIGHT * p, 6)) for p in tree.tip} >= shown and len(case.graph.limb_id) == 2
@@ -60,7 +61,8 @@ def test_turning_the_tree_shows_it_from_its_side():
 
 
 def test_the_limb_that_goes_on_is_the_long_and_straight_one():
-    tree = with_limbs(np.array([-1, 0, 1, 1, 2]), np.array([[0, 0, 0], [0, 1, 0], [0.1, 2, 0], [1, 1.1, 0], [0.1, 3, 0]]), np.ones(5))
+    tip = np.array([[0, 0, 0], [0, 1, 0], [0.1, 2, 0], [1, 1.1, 0], [0.1, 3, 0]])
+    tree = with_limbs(np.array([-1, 0, 1, 1, 2]), tip, np.ones(5))
     assert tree.limb.tolist() == [0, 0, 0, 1, 0] and tree.order.tolist() == [0, 0, 0, 1, 0]
 
 

@@ -70,7 +70,8 @@ def test_wasserstein_of_a_shift_is_the_shift():
 def test_hull_is_the_better_of_two_mirrors_and_nan_without_laterals():
     case = _crown((0, 0, 0, 3, -1, 1))
     assert metrics.evaluate(case, -case.depth)["hull"] == pytest.approx(1)
-    bare = make_case("bare", "test", np.array([-1, 0]), np.zeros((2, 3)) + [[0, 0, 0], [0, 1, 0]], np.zeros(2, int), np.ones(2), 1.0)
+    stem = np.array([[0.0, 0, 0], [0, 1, 0]])
+    bare = make_case("bare", "test", np.array([-1, 0]), stem, np.zeros(2, int), np.ones(2), 1.0)
     assert np.isnan(metrics.evaluate(bare, np.zeros(2))["hull"])
 
 

@@ -54,12 +54,10 @@ def test_two_children_are_at_the_best_of_both_hypotheses():
                     assert log_probability(graph, swapped, THETA) <= best + 1e-6
     total = {}
     for label in ([0, 0, 1, 2], [0, 0, 2, 1]):
-        tables = [
-            max(log_probability(graph, Reading(np.where(np.arange(4) == k, dz, 0.0), np.array(label)), THETA) for dz in values)
-            - log_probability(graph, Reading(np.zeros(4), np.array(label)), THETA)
-            for k in (2, 3)
-        ]
-        total[tuple(label)] = sum(tables) + log_probability(graph, Reading(np.zeros(4), np.array(label)), THETA)
+        flat = Reading(np.zeros(4), np.array(label))
+        lifted = [[flat._replace(depth=np.where(np.arange(4) == k, dz, 0.0)) for dz in values] for k in (2, 3)]
+        best_of = [max(log_probability(graph, reading, THETA) for reading in readings) for readings in lifted]
+        total[tuple(label)] = sum(best_of) - log_probability(graph, flat, THETA)
     assert max(total, key=total.get) == tuple(reading.label.tolist())
     assert max(total.values()) <= best + 1e-6
 

@@ -79,6 +79,7 @@ def test_total_distance_agrees_with_a_plain_sum():
 
 def test_each_choice_is_the_best_of_its_candidates():
     """With one limb, nothing but the stem repels it, so it takes the hull's far end."""
-    graph = factor_graph(sketch([-1, 0, 1, 2, 1, 2], [[0, 0], [0, 40], [0, 70], [0, 100], [40, 70], [8, 85]], [0, 0, 0, 0, 1, 2]))
+    xy = [[0, 0], [0, 40], [0, 70], [0, 100], [40, 70], [8, 85]]
+    graph = factor_graph(sketch([-1, 0, 1, 2, 1, 2], xy, [0, 0, 0, 0, 1, 2]))
     depth, half = _depth(graph), Okabe()._half_depth(graph)
     assert abs(depth[5]) == pytest.approx(min(half[2], graph.limb_length[2] * np.tan(np.radians(70))))
