@@ -5,9 +5,7 @@
     Λ_j = Σ_{i ∈ j} L_i              length of limb j
     a_i = angle(V_i, V_p(i))         turn away from its parent segment
 
-ψ_i ∈ (−80°, 80°). x and y are the drawing's whatever ψ is. The depths of tips are sums along the way to the
-base, taken for all rows at once from two running sums: over rows in the order in which a depth-first walk
-opens them, less over those that it has closed.
+ψ_i ∈ (−80°, 80°). x and y are the drawing's whatever ψ is.
 """
 
 from typing import NamedTuple
@@ -17,6 +15,7 @@ import jax.numpy as jnp
 import numpy as np
 from jaxtyping import Array, Bool, Float, Int
 
+from sketchtree.mrf.adjoint import from_parents, sum_to_tips
 from sketchtree.mrf.factor_graph import FactorGraph
 from sketchtree.mrf.factors.angles import angle
 from sketchtree.traverse import generation
@@ -36,20 +35,29 @@ class Assignment(NamedTuple):
     limb_length: Float[Array, " limb"]  # Λ
 
 
-class Page(eqx.Module):
-    """The drawing as the unknowns need it, padded with rows that are bases and empty limbs."""
+class Walk(eqx.Module):
+    """A depth-first walk over the rows, and the children of each row."""
 
-    is_segment: Bool[Array, " segment"]  # neither base nor padding
-    parent: Int[Array, " segment"]  # itself at a base
-    direction: Float[Array, "segment 2"]  # e
-    length: Float[Array, " segment"]  # ℓ
-    xy: Float[Array, "segment 2"]
-    limb: Int[Array, " segment"]
     opened: Int[Array, " segment"]  # rows in the order of opening
     closed: Int[Array, " segment"]  # rows in the order of closing
     rank: Int[Array, " segment"]  # place of each row in `opened`
     behind: Int[Array, " segment"]  # how many rows are closed before it opens
     extent: Int[Array, " segment"]  # rows of its subtree, itself included
+    parent: Int[Array, " segment"]  # itself at a base
+    by_parent: Int[Array, " segment"]  # rows in the order of their parents
+    child_start: Int[Array, " segment"]  # a row's children are by_parent[child_start:child_end]
+    child_end: Int[Array, " segment"]
+
+
+class Page(eqx.Module):
+    """The drawing as the unknowns need it, padded with rows that are bases and empty limbs."""
+
+    is_segment: Bool[Array, " segment"]  # neither base nor padding
+    direction: Float[Array, "segment 2"]  # e
+    length: Float[Array, " segment"]  # ℓ
+    xy: Float[Array, "segment 2"]
+    limb: Int[Array, " segment"]
+    walk: Walk
     limb_count: int = eqx.field(static=True)  # padded
 
     def assign(self, elevation: Float[Array, " segment"]) -> Assignment:
@@ -57,7 +65,7 @@ class Page(eqx.Module):
         psi = jnp.where(self.is_segment, elevation, 0.0)
         cos, sin = jnp.cos(psi), jnp.sin(psi)
         direction = jnp.concatenate([self.direction * cos[:, None], sin[:, None]], axis=1)
-        above = direction[self.parent]
+        above = from_parents(direction, self.walk)
         length = self.length / cos
         tip = jnp.concatenate([self.xy, self.depth(psi)[:, None]], axis=1)
         limb_length = jnp.zeros(self.limb_count, psi.dtype).at[self.limb].add(length)
@@ -65,37 +73,43 @@ class Page(eqx.Module):
 
     def depth(self, elevation: Float[Array, " segment"]) -> Float[Array, " segment"]:
         """z of every tip."""
-        rise = self.length * jnp.tan(elevation)
-        zero = jnp.zeros(1, rise.dtype)
-        opened = jnp.cumsum(rise[self.opened])
-        closed = jnp.concatenate([zero, jnp.cumsum(rise[self.closed])])
-        return opened[self.rank] - closed[self.behind]
+        return sum_to_tips(self.length * jnp.tan(elevation), self.walk)
 
 
 def page(graph: FactorGraph, segments: int, limbs: int, dtype=np.float32) -> Page:
     """The page padded to `segments` rows and `limbs` limbs; both at least the graph's own."""
     n = len(graph)
-    extent, rank = _subtrees(graph.parent)
-    opened = np.argsort(rank)
-    depth = generation(graph.parent)
-    behind = rank - depth
-    closed = np.lexsort((-depth, rank + extent))
     pad = segments - n
-    tail = np.arange(n, segments)
     return Page(
         is_segment=np.asarray(np.r_[~graph.is_base, np.zeros(pad, bool)]),
-        parent=np.asarray(np.r_[np.where(graph.is_base, np.arange(n), graph.parent), tail], np.int32),
         direction=np.asarray(np.r_[graph.direction, np.tile([0.0, 1.0], (pad, 1))], dtype),
         length=np.asarray(np.r_[graph.length, np.zeros(pad)], dtype),
         xy=np.asarray(np.r_[graph.xy, np.zeros((pad, 2))], dtype),
         limb=np.asarray(np.r_[graph.limb, np.full(pad, limbs - 1)], np.int32),
-        opened=np.asarray(np.r_[opened, tail], np.int32),
-        closed=np.asarray(np.r_[closed, tail], np.int32),
-        rank=np.asarray(np.r_[rank, tail], np.int32),
-        behind=np.asarray(np.r_[behind, tail], np.int32),
-        extent=np.asarray(np.r_[extent, np.ones(pad)], np.int32),
+        walk=_walk(graph.parent, segments),
         limb_count=limbs,
     )
+
+
+def _walk(parent: Int[np.ndarray, " segment"], segments: int) -> Walk:
+    n = len(parent)
+    tail = np.arange(n, segments)
+    extent, rank = _subtrees(parent)
+    depth = generation(parent)
+    above = np.r_[np.where(parent < 0, np.arange(n), parent), tail]
+    by_parent = np.argsort(above, kind="stable")
+    columns = {
+        "opened": np.r_[np.argsort(rank), tail],
+        "closed": np.r_[np.lexsort((-depth, rank + extent)), tail],
+        "rank": np.r_[rank, tail],
+        "behind": np.r_[rank - depth, tail],
+        "extent": np.r_[extent, np.ones(len(tail), int)],
+        "parent": above,
+        "by_parent": by_parent,
+        "child_start": np.searchsorted(above[by_parent], np.arange(segments), side="left"),
+        "child_end": np.searchsorted(above[by_parent], np.arange(segments), side="right"),
+    }
+    return Walk(**{name: np.asarray(column, np.int32) for name, column in columns.items()})
 
 
 def _subtrees(parent: Int[np.ndarray, " segment"]):

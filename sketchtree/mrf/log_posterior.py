@@ -3,7 +3,7 @@
     E(ψ) = Σ_kinds Σ log_potential(assignment(ψ), Θ) + log p(Θ) − log p(Θ | ψ)        (any Θ; see `conjugate`)
 
 The columns are padded to a bucket, so that drawings of like size share one compiled program: segments to a
-power of two, limbs to a quarter, a half or all of that, sibling pairs to three a limb, competition pairs to sixteen (six in very large drawings).
+power of two, limbs to a quarter, a half or all of that, competing tips to two a limb.
 """
 
 import equinox as eqx
@@ -30,8 +30,8 @@ from sketchtree.mrf.factors.stem import SHRUB_SD, Stem
 from sketchtree.mrf.prior import Prior
 
 SMALLEST_BUCKET = 32
-COMPETITION_PER_LIMB = 16
-COMPETITION_PER_LIMB_OF_MANY = 6
+RIVALS = 12  # that one tip may have
+RIVALS_OF_MANY = 6  # in very large drawings
 MANY_LIMBS = 1024
 ONE_SIDED = (0.7, 0.9)  # |mean dx| / rms dx at which extent and crown begin to weaken, and have
 
@@ -83,7 +83,7 @@ class LogPosterior(eqx.Module):
         """What these depths say about Θ."""
         bend_kind = self.apical.kind * self.learns * jnp.concatenate([self.learns_trunk[None], jnp.ones(2, self.learns.dtype)])
         return LimbData(
-            divergence=_moments(self.lateral.divergence(assignment), self.lateral.kind * self.learns),
+            divergence=_moments(assignment.turn, self.lateral.kind * self.learns),
             length=_moments(self.limb_length.excess(assignment), self.limb_length.kind * self.learns),
             bend=(jnp.sum(bend_kind, axis=0), assignment.turn**2 @ bend_kind),
         )
@@ -115,28 +115,22 @@ def log_posterior(
     lateral = np.flatnonzero(graph.limb_parent != NULL)
     stem = np.flatnonzero(graph.limb_parent == NULL)
     first = graph.limb_first
-    kind = np.eye(2)[np.minimum(graph.limb_order[lateral], 2) - 1]
     shape = 0.0 if planar else 1.0
     return LogPosterior(
         page=page(graph, segments, limbs, dtype),
         solid_angle=SolidAngle(pad.real(~graph.is_base, segments)),
-        lateral=Lateral(
-            row=pad.index(first[lateral], limbs),
-            kind=pad.real(kind, limbs),
-        ),
+        lateral=Lateral(pad.real(np.eye(2)[np.clip(graph.order, 1, 2) - 1] * graph.is_lateral[:, None], segments)),
         apical=Apical(pad.real(np.eye(3)[np.minimum(graph.order, 2)] * graph.is_apical[:, None], segments)),
         stem=Stem(
             row=pad.index(first[stem], limbs),
             sd=np.maximum(pad.real(np.where(graph.limb_spreads[stem], SHRUB_SD, STEM_SD), limbs), STEM_SD).astype(dtype), present=pad.real(np.ones(len(stem)), limbs),
         ),
         limb_length=LimbLength(
-            limb=pad.index(lateral, limbs), parent=pad.index(graph.limb_parent[lateral], limbs), kind=pad.real(kind, limbs),
-            insertion=pad.real(graph.insertion[lateral], limbs),
+            parent=pad.index(np.where(graph.limb_parent == NULL, np.arange(graph.limb_count), graph.limb_parent), limbs),
+            kind=pad.real(np.eye(2)[np.clip(graph.limb_order, 1, 2) - 1] * (graph.limb_parent != NULL)[:, None], limbs),
+            insertion=pad.real(graph.insertion, limbs),
         ),
-        siblings=Siblings(
-            pair=pad.index(first[graph.sibling], 3 * limbs),
-            strength=pad.real(shape * KAPPA * np.array(DECAY)[graph.rank_gap], 3 * limbs),
-        ),
+        siblings=_siblings(graph, pad, shape),
         competition=_competition(graph, pad, shape),
         extent=_extent(graph, pad, shape),
         crown=_crown(graph, pad, shape),
@@ -164,13 +158,38 @@ class _Padding:
         return np.concatenate([column, np.zeros((length - len(column), *column.shape[1:]), column.dtype)])
 
 
+def _siblings(graph, pad, shape):
+    """Every limb's siblings up to three ranks away, each pair from both ends."""
+    sibling, strength = np.zeros((pad.limbs, 6), int), np.zeros((pad.limbs, 6))
+    for (a, b), gap in zip(graph.sibling, graph.rank_gap, strict=True):
+        for limb, other, slot in ((a, b, gap - 1), (b, a, gap + 2)):
+            sibling[limb, slot], strength[limb, slot] = other, shape * KAPPA * DECAY[gap]
+    return Siblings(pad.index(graph.limb_first, pad.limbs), pad.index(sibling, pad.limbs), pad.real(strength, pad.limbs))
+
+
 def _competition(graph, pad, shape):
-    length = (COMPETITION_PER_LIMB if pad.limbs <= MANY_LIMBS else COMPETITION_PER_LIMB_OF_MANY) * pad.limbs
-    pair = graph.competitor
-    if len(pair) > length:
-        apart = np.linalg.norm(graph.xy[pair[:, 0]] - graph.xy[pair[:, 1]], axis=1)
-        pair = pair[np.sort(np.argsort(apart, kind="stable")[:length])]
-    return Competition(pad.index(pair, length), pad.real(np.full(len(pair), shape), length), np.asarray(graph.crown_radius, pad.dtype))
+    """Every competing tip's nearest rivals, each pair from both ends or not at all."""
+    most = RIVALS if pad.limbs <= MANY_LIMBS else RIVALS_OF_MANY
+    rows, index = np.unique(graph.competitor, return_inverse=True)
+    both = index.reshape(-1, 2)
+    one, other = np.r_[both[:, 0], both[:, 1]], np.r_[both[:, 1], both[:, 0]]
+    pair = np.tile(np.arange(len(both)), 2)
+    apart = np.linalg.norm(graph.xy[rows[one]] - graph.xy[rows[other]], axis=1)
+    while len(one):
+        by = np.lexsort((np.arange(len(one)), apart, one))
+        one, other, pair, apart = one[by], other[by], pair[by], apart[by]
+        slot = np.arange(len(one)) - np.searchsorted(one, one)
+        if slot.max() < most:
+            break
+        keep = ~np.isin(pair, pair[slot >= most])
+        one, other, pair, apart = one[keep], other[keep], pair[keep], apart[keep]
+    rival, present = np.zeros((2 * pad.limbs, most), int), np.zeros((2 * pad.limbs, most))
+    if len(one):
+        rival[one, slot], present[one, slot] = other, shape
+    return Competition(
+        pad.index(rows, 2 * pad.limbs), pad.index(rival, 2 * pad.limbs), pad.real(present, 2 * pad.limbs),
+        np.asarray(graph.crown_radius, pad.dtype),
+    )  # fmt: skip
 
 
 def _aside(graph):

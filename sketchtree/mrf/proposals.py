@@ -104,7 +104,7 @@ def mirror(moves: Moves, page: Page, psi, draws: Draws):
     """One limb negated, a limb and its subtree negated, or a limb shifted."""
     j = jnp.minimum((draws.limb * moves.lateral_count).astype(jnp.int32), moves.lateral_count - 1)
     on_limb = page.limb == moves.lateral[j]
-    rank = page.rank - page.rank[moves.first[j]]
-    in_subtree = (rank >= 0) & (rank < page.extent[moves.first[j]])
+    rank = page.walk.rank - page.walk.rank[moves.first[j]]
+    in_subtree = (rank >= 0) & (rank < page.walk.extent[moves.first[j]])
     flipped = jnp.where((draws.kind < LIMB_ALONE) & on_limb | (draws.kind >= LIMB_ALONE) & in_subtree, -psi, psi)
     return jnp.where(draws.kind < WITH_SUBTREE, flipped, psi + jnp.where(on_limb, draws.shift, 0.0))

@@ -9,6 +9,7 @@ It must stay local: extent and crown hold the scale of the depths.
 """
 
 import equinox as eqx
+import jax
 import jax.numpy as jnp
 from jaxtyping import Array, Float, Int
 
@@ -17,14 +18,17 @@ WEIGHT = 1.0  # w_d
 
 
 class Competition(eqx.Module):
-    """One factor a pair of competing tips."""
+    """One factor a competing tip, for its half of the pairs."""
 
-    pair: Int[Array, "competition_pair 2"]  # rows
-    present: Float[Array, " competition_pair"]
+    point: Int[Array, " point"]  # row
+    rival: Int[Array, "point rival"]  # points
+    present: Float[Array, "point rival"]
     crown_radius: Float[Array, ""]  # R_c
 
-    def log_potential(self, assignment, theta) -> Float[Array, " competition_pair"]:
-        """−w_d exp(−λ d / R_c)."""
-        apart = assignment.tip[self.pair[:, 0]] - assignment.tip[self.pair[:, 1]]
+    def log_potential(self, assignment, theta) -> Float[Array, " point"]:
+        """−½ w_d Σ_k exp(−λ d / R_c). The gradient by p_k comes from k's own factor, so here it is held."""
+        tip = assignment.tip[self.point]
+        apart = tip[:, None] - jax.lax.stop_gradient(tip)[self.rival]
         distance = jnp.sqrt(jnp.sum(apart**2, axis=-1) + 1e-8)
-        return -WEIGHT * self.present * jnp.exp(-ATTENUATION * distance / self.crown_radius)
+        twice = -WEIGHT * jnp.sum(self.present * jnp.exp(-ATTENUATION * distance / self.crown_radius), axis=1)
+        return twice - 0.5 * jax.lax.stop_gradient(twice)

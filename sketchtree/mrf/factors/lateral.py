@@ -9,21 +9,16 @@ The last term makes the density one over the angle: a sphere has 2π sin a direc
 
 import equinox as eqx
 import jax.numpy as jnp
-from jaxtyping import Array, Float, Int
+from jaxtyping import Array, Float
 
 
 class Lateral(eqx.Module):
-    """One factor a limb that grows from another."""
+    """One factor a segment; 0 where it is not the first of a limb that grows from another."""
 
-    row: Int[Array, " lateral"]  # first segment
-    kind: Float[Array, "lateral 2"]  # 1 in the column of its order (1, 2+); 0 in both at padding
+    kind: Float[Array, "segment 2"]  # 1 in the column of its order (1, 2+), 0 elsewhere
 
-    def divergence(self, assignment) -> Float[Array, " lateral"]:
-        """a, radians."""
-        return assignment.turn[self.row]
-
-    def log_potential(self, assignment, theta) -> Float[Array, " lateral"]:
+    def log_potential(self, assignment, theta) -> Float[Array, " segment"]:
         """The Gaussian in a, per solid angle."""
-        a = self.divergence(assignment)
+        a = assignment.turn
         gauss = -0.5 * ((a[:, None] - theta.divergence_mean) / theta.divergence_sd) ** 2 - jnp.log(theta.divergence_sd)
         return jnp.sum(self.kind * (gauss - jnp.log(jnp.sin(a) + 0.02)[:, None]), axis=1)

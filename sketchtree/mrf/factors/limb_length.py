@@ -15,19 +15,18 @@ SLOPE = -0.8  # b
 
 
 class LimbLength(eqx.Module):
-    """One factor a limb that grows from another."""
+    """One factor a limb; 0 where it does not grow from another."""
 
-    limb: Int[Array, " lateral"]
-    parent: Int[Array, " lateral"]  # limb
-    kind: Float[Array, "lateral 2"]  # 1 in the column of its order (1, 2+); 0 in both at padding
-    insertion: Float[Array, " lateral"]
+    parent: Int[Array, " limb"]  # itself at a stem
+    kind: Float[Array, "limb 2"]  # 1 in the column of its order (1, 2+), 0 elsewhere
+    insertion: Float[Array, " limb"]
 
-    def excess(self, assignment) -> Float[Array, " lateral"]:
+    def excess(self, assignment) -> Float[Array, " limb"]:
         """r_j − b (u_j − ½)."""
         length = jnp.log(assignment.limb_length + 1e-9)
-        return length[self.limb] - length[self.parent] - SLOPE * (self.insertion - 0.5)
+        return length - length[self.parent] - SLOPE * (self.insertion - 0.5)
 
-    def log_potential(self, assignment, theta) -> Float[Array, " lateral"]:
+    def log_potential(self, assignment, theta) -> Float[Array, " limb"]:
         """The Gaussian in the log ratio."""
         away = (self.excess(assignment)[:, None] - theta.length_mean) / theta.length_sd
         return jnp.sum(self.kind * (-0.5 * away**2 - jnp.log(theta.length_sd)), axis=1)

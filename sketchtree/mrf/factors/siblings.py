@@ -7,6 +7,7 @@ The phase of the spiral is marginalised: only differences of azimuth matter.
 """
 
 import equinox as eqx
+import jax
 import jax.numpy as jnp
 from jaxtyping import Array, Float, Int
 
@@ -15,14 +16,17 @@ DECAY = (0.0, 1.0, 0.5, 0.25)
 
 
 class Siblings(eqx.Module):
-    """One factor a pair of siblings."""
+    """One factor a limb, for its half of the pairs."""
 
-    pair: Int[Array, "sibling_pair 2"]  # first segments of the two limbs
-    strength: Float[Array, " sibling_pair"]  # κ c_d; 0 at padding
+    first: Int[Array, " limb"]  # row
+    sibling: Int[Array, "limb 6"]  # limbs up to three ranks before and after
+    strength: Float[Array, "limb 6"]  # κ c_d; 0 where there is none
 
-    def log_potential(self, assignment, theta) -> Float[Array, " sibling_pair"]:
-        """−κ c_d w_j · w_k."""
-        v, axis = assignment.direction, assignment.parent_direction
+    def log_potential(self, assignment, theta) -> Float[Array, " limb"]:
+        """−½ κ Σ_k c_d w_j · w_k. The gradient by w_k comes from k's own factor, so here it is held."""
+        v, axis = assignment.direction[self.first], assignment.parent_direction[self.first]
         across = v - axis * jnp.sum(v * axis, axis=-1, keepdims=True)
         w = across / jnp.sqrt(jnp.sum(across**2, axis=-1, keepdims=True) + 1e-6)
-        return -self.strength * jnp.sum(w[self.pair[:, 0]] * w[self.pair[:, 1]], axis=-1)
+        others = jnp.sum(self.strength[:, :, None] * jax.lax.stop_gradient(w)[self.sibling], axis=1)
+        twice = -jnp.sum(w * others, axis=-1)
+        return twice - 0.5 * jax.lax.stop_gradient(twice)
