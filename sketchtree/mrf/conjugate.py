@@ -87,6 +87,9 @@ GENERIC_BELIEF = {
     "bend": [[6.0, 6.0, 6.0], [0.016, 0.051, 0.165]],
 }
 
+MOST_TEMPLATE_LIMBS = 8.0  # κ0 + n is held to this
+TEMPLATE_NU = 12.0  # ν0 under a template
+
 
 def limb_prior(prior: Prior, dtype=np.float32) -> LimbBelief:
     """The conjugate prior: the generic one, moved by the template's own statistics where it has any.
@@ -103,7 +106,7 @@ def limb_prior(prior: Prior, dtype=np.float32) -> LimbBelief:
         n = np.asarray(limbs.bend_count, float)
         nu, s2 = generic["bend"]
         moved = (nu * s2 + n * np.asarray(limbs.bend_square)) / (nu + 2 * n)
-        generic["bend"] = np.stack([np.where(n > 0, 12.0, nu), np.where(n > 0, moved, s2)])
+        generic["bend"] = np.stack([np.where(n > 0, TEMPLATE_NU, nu), np.where(n > 0, moved, s2)])
     return LimbBelief(**{name: np.asarray(value, dtype) for name, value in generic.items()})
 
 
@@ -112,9 +115,8 @@ def _moved(belief, n, mean, variance):
     some = n > 0
     moved = (kappa * m + n * mean) / (kappa + n)
     shrunk = (nu * s2 + n * variance) / (nu + n)
-    return np.stack(
-        [np.where(some, moved, m), np.where(some, np.minimum(kappa + n, 8.0), kappa), np.where(some, 12.0, nu), np.where(some, shrunk, s2)]
-    )
+    told = np.stack([moved, np.minimum(kappa + n, MOST_TEMPLATE_LIMBS), np.full(2, TEMPLATE_NU), shrunk])
+    return np.where(some, told, belief)
 
 
 def _normal_update(belief, count, mean, square):

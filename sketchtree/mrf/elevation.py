@@ -27,7 +27,7 @@ from sketchtree.mrf.solver import AbstractSolver
 from sketchtree.mrf.typical import depth_of, typical_elevation
 
 BLOCK = 40  # chain steps a block
-LARGE = 4096  # rows above which every second block is left out
+LARGE = ((4096, 2), (16384, 4))  # above so many rows only every second, every fourth block is run
 THIN = 10  # chain steps between kept samples
 START_SD = 0.5  # radians, of a lateral's first ψ
 
@@ -82,8 +82,8 @@ class Elevation(AbstractSolver):
         return len(self.burn) + self.keep + len(self.cool)
 
     def schedule(self, graph: FactorGraph) -> list[Block]:
-        """What the blocks do; every second one is left out of drawings of thousands of segments."""
-        every = 2 if len(graph) > LARGE else 1
+        """What the blocks do; drawings of thousands of segments have fewer."""
+        every = max([1, *(thin for rows, thin in LARGE if len(graph) > rows)])
         burn, cool = ([Block(t, False) for t in heat[every - 1 :: every]] for heat in (self.burn, self.cool))
         return [*burn, *[Block(1.0, True)] * -(-self.keep // every), *cool]
 
@@ -119,10 +119,8 @@ class Elevation(AbstractSolver):
         state = State(state.posterior, state.moves, after, samples, state.block + 1, best, best_value)
         if state.block == len(schedule) and self.polish is not None:
             state = self._polished(graph, state)
-        info = Info(
-            state.best_value, float(np.median(value)), block.temperature, float(np.exp(np.median(np.asarray(after.log_step)))), moved
-        )
-        return state, info
+        pace = float(np.exp(np.median(np.asarray(after.log_step))))
+        return state, Info(state.best_value, float(np.median(value)), block.temperature, pace, moved)
 
     def terminate(self, graph: FactorGraph, prior: Prior, state: State) -> bool:
         return state.posterior is None or state.block >= len(self.schedule(graph))

@@ -33,6 +33,7 @@ SMALLEST_BUCKET = 32
 RIVALS = 12  # that one tip may have
 RIVALS_OF_MANY = 6  # in very large drawings
 MANY_LIMBS = 1024
+LATERALS_FOR_TRUNK = 3  # below which a trunk's bend is not learnt
 ONE_SIDED = (0.7, 0.9)  # |mean dx| / rms dx at which extent and crown begin to weaken, and have
 
 
@@ -81,7 +82,8 @@ class LogPosterior(eqx.Module):
 
     def data(self, assignment: Assignment) -> LimbData:
         """What these depths say about Θ."""
-        bend_kind = self.apical.kind * self.learns * jnp.concatenate([self.learns_trunk[None], jnp.ones(2, self.learns.dtype)])
+        learns_bend = jnp.concatenate([self.learns_trunk[None], jnp.ones(2, self.learns.dtype)])
+        bend_kind = self.apical.kind * self.learns * learns_bend
         return LimbData(
             divergence=_moments(assignment.turn, self.lateral.kind * self.learns),
             length=_moments(self.limb_length.excess(assignment), self.limb_length.kind * self.learns),
@@ -111,10 +113,9 @@ def log_posterior(
 ) -> LogPosterior:
     """Compile a drawing and a prior to padded columns."""
     segments, limbs = bucket(graph)
-    pad = _Padding(segments, limbs, dtype)
-    lateral = np.flatnonzero(graph.limb_parent != NULL)
+    pad = _Padding(limbs, dtype)
+    is_lateral = graph.limb_parent != NULL
     stem = np.flatnonzero(graph.limb_parent == NULL)
-    first = graph.limb_first
     shape = 0.0 if planar else 1.0
     return LogPosterior(
         page=page(graph, segments, limbs, dtype),
@@ -122,12 +123,13 @@ def log_posterior(
         lateral=Lateral(pad.real(np.eye(2)[np.clip(graph.order, 1, 2) - 1] * graph.is_lateral[:, None], segments)),
         apical=Apical(pad.real(np.eye(3)[np.minimum(graph.order, 2)] * graph.is_apical[:, None], segments)),
         stem=Stem(
-            row=pad.index(first[stem], limbs),
-            sd=np.maximum(pad.real(np.where(graph.limb_spreads[stem], SHRUB_SD, STEM_SD), limbs), STEM_SD).astype(dtype), present=pad.real(np.ones(len(stem)), limbs),
+            row=pad.index(graph.limb_first[stem], limbs),
+            sd=pad.real(np.where(graph.limb_spreads[stem], SHRUB_SD, STEM_SD), limbs, fill=1.0),
+            present=pad.real(np.ones(len(stem)), limbs),
         ),
         limb_length=LimbLength(
-            parent=pad.index(np.where(graph.limb_parent == NULL, np.arange(graph.limb_count), graph.limb_parent), limbs),
-            kind=pad.real(np.eye(2)[np.clip(graph.limb_order, 1, 2) - 1] * (graph.limb_parent != NULL)[:, None], limbs),
+            parent=pad.index(np.where(is_lateral, graph.limb_parent, np.arange(graph.limb_count)), limbs),
+            kind=pad.real(np.eye(2)[np.clip(graph.limb_order, 1, 2) - 1] * is_lateral[:, None], limbs),
             insertion=pad.real(graph.insertion, limbs),
         ),
         siblings=_siblings(graph, pad, shape),
@@ -137,25 +139,25 @@ def log_posterior(
         plane=Plane(pad.real((1 - shape) * ~graph.is_base, segments)),
         belief=limb_prior(prior, dtype),
         learns=np.asarray(float(learns), dtype),
-        learns_trunk=np.asarray(float(len(lateral) >= 3), dtype),
+        learns_trunk=np.asarray(float(is_lateral.sum() >= LATERALS_FOR_TRUNK), dtype),
     )  # fmt: skip
 
 
 class _Padding:
-    """Columns as jax arrays of a given length; index columns are filled with 0, others with 0.0."""
+    """Columns of a given length; the tail of index columns is 0, that of others `fill`."""
 
-    def __init__(self, segments: int, limbs: int, dtype):
+    def __init__(self, limbs: int, dtype):
         self.limbs, self.dtype = limbs, dtype
 
-    def real(self, column, length):
-        return np.asarray(self._filled(np.asarray(column, float), length), self.dtype)
+    def real(self, column, length, fill=0.0):
+        return self._filled(np.asarray(column, float), length, fill).astype(self.dtype)
 
     def index(self, column, length):
-        return np.asarray(self._filled(np.asarray(column), length), np.int32)
+        return self._filled(np.asarray(column, int), length, 0).astype(np.int32)
 
     @staticmethod
-    def _filled(column, length):
-        return np.concatenate([column, np.zeros((length - len(column), *column.shape[1:]), column.dtype)])
+    def _filled(column, length, fill):
+        return np.concatenate([column, np.full((length - len(column), *column.shape[1:]), fill, column.dtype)])
 
 
 def _siblings(graph, pad, shape):
@@ -217,7 +219,7 @@ def _extent(graph, pad, shape):
     weight[: graph.tree.max() + 1] = _sidedness(graph)[: pad.limbs]
     return Extent(
         tip=pad.index(graph.limb_tip, pad.limbs), tree=pad.index(tree, pad.limbs), lateral=pad.real(lateral, pad.limbs),
-        count=np.maximum(pad.real(np.bincount(tree[lateral], minlength=pad.limbs), pad.limbs), 1.0).astype(pad.dtype),
+        count=pad.real(np.maximum(np.bincount(tree[lateral], minlength=pad.limbs), 1), pad.limbs),
         width_square=pad.real(square, pad.limbs), weight=pad.real(shape * some * weight, pad.limbs),
     )  # fmt: skip
 
@@ -227,7 +229,7 @@ def _crown(graph, pad, shape):
     weight = shape * graph.limb_spreads * _sidedness(graph)[graph.tree[graph.limb_tip]]
     return Crown(
         tip=pad.index(graph.limb_tip, pad.limbs), aside=pad.real(_aside(graph), pad.limbs),
-        half_width=np.maximum(pad.real(graph.half_width, pad.limbs), NARROWEST).astype(pad.dtype),
-        mean=pad.real(np.array(MEAN)[above], pad.limbs), sd=np.maximum(pad.real(np.array(SD)[above], pad.limbs), 0.1).astype(pad.dtype),
+        half_width=pad.real(np.maximum(graph.half_width, NARROWEST), pad.limbs, fill=1.0),
+        mean=pad.real(np.array(MEAN)[above], pad.limbs), sd=pad.real(np.array(SD)[above], pad.limbs, fill=1.0),
         weight=pad.real(weight, pad.limbs),
     )  # fmt: skip

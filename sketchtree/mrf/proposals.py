@@ -103,7 +103,7 @@ def langevin_log_density(moves: Moves, at, start, gradient, step, temperature):
 def mirror(moves: Moves, page: Page, psi, draws: Draws):
     """One limb negated, a limb and its subtree negated, or a limb shifted."""
     j = jnp.minimum((draws.limb * moves.lateral_count).astype(jnp.int32), moves.lateral_count - 1)
-    on_limb = page.limb == moves.lateral[j]
+    on_limb = (page.limb == moves.lateral[j]) & page.is_segment
     rank = page.walk.rank - page.walk.rank[moves.first[j]]
     in_subtree = (rank >= 0) & (rank < page.walk.extent[moves.first[j]])
     flipped = jnp.where((draws.kind < LIMB_ALONE) & on_limb | (draws.kind >= LIMB_ALONE) & in_subtree, -psi, psi)
