@@ -230,14 +230,18 @@ def page_to_world(graph: SketchGraph, height: float) -> Similarity:
 def drawn_radius(sketch: Sketch, graph: SketchGraph, similarity: Similarity, habit: Habit) -> Float[np.ndarray, " segment"]:
     """Half the drawn width of each branch, metres; NaN where the widths say nothing.
 
-    An outline filled with ink shows how thick the wood is. A pen's line does not: it shows which branch is
-    thicker than which, so lines thinner than such a tree's trunk are thickened alike until the trunk is right."""
+    An outline filled with ink shows how thick the wood is. A pen's line does not: it shows which branch is thicker
+    than which. The thinnest line then stands for a branch as thin as the line, the thickest for the trunk of such
+    a tree, and those between for what lies between on a logarithmic scale."""
     radius = graph.width * similarity.scale / 2
     inked = np.array([stroke.filled for stroke in sketch.strokes], bool)
     if np.isnan(radius).all() or inked[graph.stroke].any():
         return radius
-    height = similarity.scale * np.ptp(graph.xy[:, 1])
-    return radius * max(1.0, habit.trunk_ratio * height / np.nanmax(radius))
+    thinnest, thickest = np.nanmin(radius), np.nanmax(radius)
+    trunk = habit.trunk_ratio * similarity.scale * float(np.ptp(graph.xy[:, 1]))
+    if thickest <= thinnest or trunk <= thickest:
+        return radius
+    return radius * (trunk / thickest) ** (np.log(radius / thinnest) / np.log(thickest / thinnest))
 
 
 def leaf_model(wanted: str | None, habit: Habit, templates: Database | None) -> str | None:
