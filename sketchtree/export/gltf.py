@@ -92,7 +92,7 @@ class _Document:
             "NORMAL": self.accessor(_unit32(mesh.normal), "VEC3", _FLOAT, _VERTEX),
             "TEXCOORD_0": self.accessor(mesh.uv.astype("<f4"), "VEC2", _FLOAT, _VERTEX),
         }
-        if mesh.material.normal_texture is not None:
+        if mesh.material.normal_texture is not None and mesh.material.alpha_cutoff is None:  # cards: readers derive them
             attributes["TANGENT"] = self.accessor(_tangents32(mesh), "VEC4", _FLOAT, _VERTEX)
         if mesh.color is not None:
             tint = np.round(np.clip(mesh.color, 0.0, 1.0) * 255.0).astype("u1")
