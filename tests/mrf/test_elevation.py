@@ -154,3 +154,12 @@ def test_polishing_never_loses():
 def test_a_drawing_of_many_limbs_takes_a_larger_bucket():
     fit = _fit(random_tree(0, 12))
     assert np.isfinite(fit.depth).all()
+
+
+def test_very_large_drawings_have_fewer_blocks():
+    small = factor_graph(small_tree())
+    large = factor_graph(random_tree(0, 2200))
+    whole, thinned = SOLVER.schedule(small), SOLVER.schedule(large)
+    assert len(whole) == SOLVER.default_steps
+    assert len(thinned) == 2 + 3 + 2
+    assert [block.temperature for block in thinned if block.kept] == [1.0, 1.0, 1.0]
