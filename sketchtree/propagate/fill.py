@@ -12,7 +12,6 @@ way there; its laterals and theirs follow by blocks as everywhere. Rounds of thi
 import numpy as np
 from jaxtyping import Array, Float, Int, Key
 from scipy.spatial import cKDTree
-from scipy.stats import qmc
 
 from sketchtree import keys
 from sketchtree.parameters import Habit
@@ -33,6 +32,8 @@ def empty_points(
     """Points inside the envelope that are farther than `gap` metres from every tip."""
     low, high = envelope.bounds
     count = int(np.clip(4.0 * np.prod(high - low) / gap**3, 64, _POINTS))
+    from scipy.stats import qmc  # half a second to import, and only `fill` needs it
+
     cube = qmc.Halton(3, scramble=False).random(count)
     point = low + cube * (high - low)
     point = point[envelope.inside(point)]
