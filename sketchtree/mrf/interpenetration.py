@@ -3,7 +3,8 @@
 The factor is −w Σ softplus((½(r_i + r_k) − d_ik)/δ) with d_ik the distance of two axes, in the limit of a hard wall: of all
 depths without overlap those nearest to the inferred ones. Each round moves the overlapping tips, and all that grows from
 them, by what is missing (`apart.pushes`); a push may cause another overlap, so there are several. Kin do not count: pairs
-that share a node, a grandparent or a limb. Stems and drawings without overlap are returned as they are.
+that share a node, a grandparent or a limb. Drawings without overlap are returned as they are, and so are those of more
+than `MOST_ROWS` rows: there the lines lie so close on the page that most of them would have to move.
 """
 
 import numpy as np
@@ -14,10 +15,13 @@ from sketchtree.mrf.factor_graph import FactorGraph
 from sketchtree.traverse import sum_from_root
 
 ROUNDS = 24
+MOST_ROWS = 6000
 
 
 def moved_apart(graph: FactorGraph, depth: Float[np.ndarray, " segment"]) -> Float[np.ndarray, " segment"]:
     """Depths (H = 1) with as few overlapping segments as the rounds allow, near the given ones."""
+    if len(graph) > MOST_ROWS:
+        return depth
     pair = candidates(graph)
     best, fewest = depth, None
     for _ in range(ROUNDS + 1):
