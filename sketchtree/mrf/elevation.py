@@ -67,7 +67,7 @@ class Elevation(AbstractSolver):
     theta_mode: str = "fit"  # "fit": Θ is learnt; "fixed": it stays the prior's
     planar: bool = False  # the tree grew flat
     typical: bool = True  # show median steepness and stretch; False: the best tree itself
-    chain_count: int = 16  # fewer on drawings above 512 rows
+    chain_count: int = 24  # fewer on drawings above 256 rows
     burn: tuple[float, ...] = (3.0, 1.7, 1.0)  # temperature of each block
     keep: int = 5  # blocks at temperature 1 whose states are samples
     cool: tuple[float, ...] = (0.4, 0.1, 0.02, 1e-4)
@@ -141,7 +141,7 @@ class Elevation(AbstractSolver):
         return None if state.posterior is None else state.best_value
 
     def _chain_count(self, segments: int) -> int:
-        return max(2, min(self.chain_count, self.chain_count * 512 // segments))
+        return max(2, min(self.chain_count, self.chain_count * 256 // segments))
 
     def _program(self, graph: FactorGraph, state: State, key, temperature: float):
         hot = np.full(BLOCK, temperature, np.float32)

@@ -13,7 +13,7 @@ from sketchtree.mrf.log_posterior import bucket, log_posterior
 from sketchtree.mrf.prior import Prior
 from tests.mrf.drawings import random_tree, sketch, small_tree
 
-CHAINS, BLOCK = 16, 40
+CHAINS, BLOCK = 24, 40
 
 
 def _run(graph, blocks, seed=0, temperature=1.0):
@@ -43,7 +43,7 @@ def test_samples_have_the_moments_of_the_enumerated_posterior():
     value = np.asarray(jax.jit(lambda p, x: jax.vmap(lambda at: p(at))(x))(posterior, grid), float)
     weight = np.exp(value - value.max())
     weight /= weight.sum()
-    path, _ = _run(graph, 48)
+    path, _ = _run(graph, 32)
     samples = path[200:].reshape(-1, 3)
     for expect, found in (
         (weight @ np.abs(grid[:, 2]), np.abs(samples[:, 2]).mean()),
