@@ -40,6 +40,9 @@ from sketchtree.templates.database import Database
 from sketchtree.templates.exemplar import Exemplar
 from sketchtree.templates.match import Match, match
 
+_STOUT = 1.6  # a trunk drawn thicker than its species has is at most this many times as thick
+_THIN = 0.12  # radius of the thinnest line's branch / radius of the trunk, at most
+
 STAGES = ("read", "match", "infer", "propagate", "foliage", "mesh", "export")
 """Stages in the order they run; `seconds` in the report has one entry each."""
 
@@ -231,17 +234,19 @@ def drawn_radius(sketch: Sketch, graph: SketchGraph, similarity: Similarity, hab
     """Half the drawn width of each branch, metres; NaN where the widths say nothing.
 
     An outline filled with ink shows how thick the wood is. A pen's line does not: it shows which branch is thicker
-    than which. The thinnest line then stands for a branch as thin as the line, the thickest for the trunk of such
-    a tree, and those between for what lies between on a logarithmic scale."""
+    than which. The thickest line then stands for the trunk of such a tree (or up to `_STOUT` times that, if it was
+    drawn so), the thinnest for a branch no thicker than `_THIN` of it, and those between for what lies between on a
+    logarithmic scale."""
     radius = graph.width * similarity.scale / 2
     inked = np.array([stroke.filled for stroke in sketch.strokes], bool)
     if np.isnan(radius).all() or inked[graph.stroke].any():
         return radius
     thinnest, thickest = np.nanmin(radius), np.nanmax(radius)
     trunk = habit.trunk_ratio * similarity.scale * float(np.ptp(graph.xy[:, 1]))
-    if thickest <= thinnest or trunk <= thickest:
-        return radius
-    return radius * (trunk / thickest) ** (np.log(radius / thinnest) / np.log(thickest / thinnest))
+    stem = float(np.clip(thickest, trunk, _STOUT * trunk))
+    twig = min(float(thinnest), _THIN * stem)
+    span = np.log(thickest / thinnest)
+    return twig * (stem / twig) ** (np.log(radius / thinnest) / span) if span > 1e-9 else np.full(len(radius), np.nan)
 
 
 def leaf_model(wanted: str | None, habit: Habit, templates: Database | None) -> str | None:
