@@ -146,6 +146,7 @@ def sketch_to_tree(
 ) -> TreeModel:
     """Every stage in order (Chen et al. 2008, Figure 2). `sketch` may be a path to a file."""
     watch = watch or Watch()
+    leaf_model(tree.leaf, Habit(), templates), bark_model(tree.bark, Habit())  # refuse a wrong name before the work
     drawn = draw_out(sketch, templates, key=key, options=reading, watch=watch)
     return complete(drawn, templates, key=key, options=tree, watch=watch)
 

@@ -1,0 +1,54 @@
+"""One contract for every source and stage that is installed: types, requirements, same key same tree."""
+
+from pathlib import Path
+
+import numpy as np
+import pytest
+
+from sketchtree import keys, stage
+from sketchtree.geometry.radii import PipeRadii
+from sketchtree.parameters import GENERIC, Habit
+from sketchtree.pipeline import ReadingOptions, SketchSource
+from sketchtree.propagate.generations import Propagate
+from sketchtree.skeleton import Kind, TreeSkeleton
+
+CURVY = Path(__file__).resolve().parents[1] / "examples" / "curvy.svg"
+KEY = keys.root_key(5)
+STAGES = {"propagate": Propagate(Habit(), GENERIC, generations=2), "radii": PipeRadii(Habit())}
+
+
+@pytest.fixture(scope="module")
+def drawn() -> TreeSkeleton:
+    return SketchSource(ReadingOptions(method="okabe"))(CURVY, key=KEY)
+
+
+def test_built_in_sources_and_stages_come_through_the_plug_in_door():
+    assert stage.sources()["sketch"] is SketchSource
+    assert {name: stage.stages()[name] for name in STAGES} == {name: type(one) for name, one in STAGES.items()}
+
+
+def test_a_source_gives_a_skeleton_of_what_was_drawn(drawn):
+    assert isinstance(SketchSource(), stage.SkeletonSource)
+    assert (drawn.kind == Kind.DRAWN).all() and drawn.segment_count > 20
+
+
+@pytest.mark.parametrize("name", STAGES)
+def test_a_stage_gives_a_skeleton_and_leaves_the_drawing_where_it_was(drawn, name):
+    assert isinstance(STAGES[name], stage.SkeletonStage)
+    tree = STAGES[name](drawn, key=KEY)
+    assert isinstance(tree, TreeSkeleton)
+    kept = {tuple(tip) for tip in tree.tip[tree.kind == Kind.DRAWN]}
+    assert {tuple(tip) for tip in drawn.tip} <= kept
+
+
+@pytest.mark.parametrize("name", STAGES)
+def test_the_same_key_gives_the_same_tree(drawn, name):
+    one, two = (STAGES[name](drawn, key=KEY) for _ in range(2))
+    for column in ("parent", "tip", "radius", "limb", "order", "curve_points"):
+        np.testing.assert_array_equal(getattr(one, column), getattr(two, column))
+
+
+@pytest.mark.parametrize("name", STAGES)
+def test_an_empty_tree_stays_empty(name):
+    empty = TreeSkeleton.from_columns(np.zeros(0, int), np.zeros((0, 3)), np.zeros(0))
+    assert len(STAGES[name](empty, key=KEY)) == 0
