@@ -16,7 +16,8 @@ more tips stand than the trunk has pipes, λ is 0 and n grows until they fit. Pa
 (monocots have no cambium): their trunk is nearly a cylinder and their fronds thin, whatever they carry.
 
 Radii that were drawn are honoured; the model fills in between them. A stroke of one width all along says how thick the
-wood is where it starts, not that it ends like a pipe: it tapers from there to a twig.
+wood is where it starts, not that it ends like a pipe: it tapers from there to a twig. A hairline is no measure of wood:
+nothing is thinner than a twig, nor than `_LEAST` of what the model says it takes to carry what stands beyond.
 """
 
 from dataclasses import dataclass
@@ -30,6 +31,7 @@ from sketchtree.skeleton import TreeSkeleton
 from sketchtree.traverse import generations, is_tip, sum_to_root
 
 _PALM_TAPER = 0.18  # how much thinner a palm's trunk is at its head
+_LEAST = 1.0 / 3.0  # drawn wood is at least this share of the model's radius
 _ONE_WIDTH = 1.1  # widths that differ by less than this factor count as one
 _FROND_BASE = 3.0  # radius of a frond's foot / radius of its tip
 
@@ -108,12 +110,15 @@ def honour_drawn(
 
     From a place of drawn radius a (where the model says m) on towards the twigs, r = ρ (r_model / ρ)^γ with γ such
     that m becomes a: the place keeps its width and twigs stay twigs. Where one stroke's radii along a limb differ by
-    less than a tenth, that place is where the stroke starts; else every drawn row is one.
+    less than a tenth, that place is where the stroke starts; else every drawn row is one. A drawn radius below
+    max(ρ, m / 3) counts as that: no row of the result is thinner.
     """
     if np.isnan(drawn).all():
         return model
     parent = tree.parent
     even, foot = _evenly_drawn(tree, drawn)
+    least = np.maximum(_LEAST * np.where(foot, model_start, model), twig)
+    drawn = np.where(np.isnan(drawn), np.nan, np.maximum(drawn, least))
     pinned = np.where(even, np.nan, drawn)
     pinned[tree.is_base] = _drawn_bases(parent, model, drawn)[tree.is_base]
     needed = _needed(parent, pinned, np.where(foot, drawn, np.nan))
@@ -125,7 +130,8 @@ def honour_drawn(
         anchor_model[rows] = np.where(starts, model_start[rows], anchor_model[above])
         filled = _between(model[rows], anchor[rows], anchor_model[rows], twig)
         free = np.isnan(pinned[rows])
-        radius[rows] = np.minimum(np.where(free, np.maximum(filled, needed[rows]), pinned[rows]), radius[above])
+        filled = np.maximum(filled, np.maximum(needed[rows], np.maximum(_LEAST * model[rows], twig)))
+        radius[rows] = np.minimum(np.where(free, filled, pinned[rows]), radius[above])
         held = rows[~free]
         anchor[held], anchor_model[held] = radius[held], model[held]
     return radius
@@ -166,8 +172,7 @@ def never_thicker(parent, radius):
 def _between(model, anchor, anchor_model, twig: float):
     span = np.log(np.maximum(anchor_model, 1.001 * twig) / twig)
     gamma = np.log(np.maximum(anchor, 1.001 * twig) / twig) / span
-    bent = twig * np.maximum(model / twig, 1.0) ** gamma
-    return np.where(anchor > 1.01 * twig, bent, anchor * np.minimum(model / anchor_model, 1.0))
+    return twig * np.maximum(model / twig, 1.0) ** gamma
 
 
 def _drawn_bases(parent, model, drawn):
@@ -182,7 +187,8 @@ def _drawn_bases(parent, model, drawn):
     thickest = dict(zip(stems.tolist(), known[first].tolist(), strict=True))
     for base in np.flatnonzero((parent < 0) & np.isnan(drawn)):
         row = thickest.get(int(base))
-        drawn[base] = model[base] if row is None else drawn[row] * np.clip(model[base] / model[row], 1.0, 1.5)
+        scaled = model[base] if row is None else drawn[row] * np.clip(model[base] / model[row], 1.0, 1.5)
+        drawn[base] = max(scaled, _LEAST * model[base])
     return drawn
 
 

@@ -135,6 +135,23 @@ def test_wood_below_a_drawn_lateral_is_thick_enough_to_carry_it():
     assert radius[1] >= 0.4 and radius[0] >= 0.4
 
 
+@pytest.mark.parametrize("width", [1e-6, 1e-4, 0.02])
+def test_wood_drawn_too_thin_is_a_third_of_what_its_twigs_need(width):
+    tree = bushy(5)
+    model, _ = pipe_radii(tree, HABIT)
+    thin = np.where(tree.order < 2, width * 0.98 ** np.arange(len(tree)), np.nan)
+    radius = PipeRadii(HABIT, np.maximum(thin, 1e-9))(tree).radius
+    assert (radius >= np.maximum(model / 3, HABIT.twig_radius) * (1 - 1e-12)).all()
+
+
+def test_a_hairline_of_one_width_still_carries_its_twigs():
+    tree = bushy(5)
+    model, _ = pipe_radii(tree, HABIT)
+    radius = PipeRadii(HABIT, np.where(tree.order == 0, 1e-5, np.nan))(tree).radius
+    assert (radius >= np.maximum(model / 3, HABIT.twig_radius) * (1 - 1e-12)).all()
+    assert (radius[1:] <= radius[tree.parent[1:]] * (1 + 1e-12)).all()
+
+
 def test_a_tree_of_one_point_gets_a_radius():
     assert PipeRadii(HABIT)(stick([(0, 0, 0)], 1.0)).radius[0] > 0
 
