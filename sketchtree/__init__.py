@@ -43,7 +43,8 @@ _HOMES = {
     "sketchtree.export.gltf": ("write_glb",),
     "sketchtree.export.skeletons": ("write_swc", "read_swc", "write_skeleton_json", "read_skeleton_json"),
     "sketchtree.view": ("preview",),
-    "sketchtree.pipeline": ("sketch_to_tree", "draw_out", "complete", "ReadingOptions", "TreeOptions", "TreeModel"),
+    "sketchtree.options": ("ReadingOptions", "TreeOptions"),
+    "sketchtree.pipeline": ("sketch_to_tree", "draw_out", "complete", "TreeModel"),
     "sketchtree.errors": ("SketchTreeError", "SketchError", "SkeletonError", "TemplateError", "ExportError"),
 }
 _HOME_OF = {name: module for module, names in _HOMES.items() for name in names}

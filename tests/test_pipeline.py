@@ -5,10 +5,11 @@ from pathlib import Path
 
 import numpy as np
 import pytest
+from scipy.spatial import cKDTree
 
 import sketchtree as st
 from sketchtree.foliage.populate import populate
-from sketchtree.pipeline import drawn_radius, page_to_world
+from sketchtree.page import drawn_radius, page_to_world
 from sketchtree.sketch.strokes import Stroke
 
 ROOT = Path(__file__).resolve().parents[1]
@@ -44,13 +45,27 @@ def test_every_example_becomes_a_whole_tree_with_the_drawing_in_it(path, templat
         assert mesh.triangle.min() >= 0 and mesh.triangle.max() < len(mesh.position)
 
 
-def test_no_leaf_stands_away_from_the_wood(apple):
-    wood = apple.meshes[0].position
-    from scipy.spatial import cKDTree
+def surface_points(mesh: st.Mesh, step: float) -> np.ndarray:
+    """Points along every edge of a mesh, at most `step` metres apart."""
+    edge = np.concatenate([mesh.triangle[:, [0, 1]], mesh.triangle[:, [1, 2]]])
+    start, end = mesh.position[edge[:, 0]], mesh.position[edge[:, 1]]
+    count = np.maximum(1, np.ceil(np.linalg.norm(end - start, axis=1) / step).astype(int))
+    row = np.repeat(np.arange(len(edge)), count)
+    share = (np.arange(len(row)) - np.repeat(np.cumsum(count) - count, count)) / count[row]
+    return start[row] + share[:, None] * (end - start)[row]
 
-    bearing = apple.leaves.position[:: max(1, len(apple.leaves) // 2000)]
-    distance, _ = cKDTree(wood).query(bearing)
-    assert np.quantile(distance, 0.98) < 0.02 * apple.skeleton.height
+
+def test_no_leaf_stands_away_from_the_wood(apple):
+    wood = cKDTree(surface_points(apple.meshes[0], 0.01))
+    stem = apple.leaves.shoot  # a short shoot starts on the wood and bears leaves along it
+    share = np.linspace(0, 1, 21)[None, :, None]
+    along = (stem[:, :1] * (1 - share) + stem[:, 1:] * share).reshape(-1, 3)
+    foot = apple.leaves.position
+    gap, _ = wood.query(foot[:: max(1, len(foot) // 3000)])
+    on_shoot, _ = cKDTree(along).query(foot[:: max(1, len(foot) // 3000)])
+    assert np.minimum(gap, on_shoot).max() < 0.03
+    root, _ = wood.query(stem[:, 0])
+    assert root.max() < 0.03
 
 
 def test_changing_the_leaves_never_moves_a_branch(apple, templates):

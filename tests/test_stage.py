@@ -8,7 +8,8 @@ import pytest
 from sketchtree import keys, stage
 from sketchtree.geometry.radii import PipeRadii
 from sketchtree.parameters import GENERIC, Habit
-from sketchtree.pipeline import ReadingOptions, SketchSource
+from sketchtree.options import ReadingOptions
+from sketchtree.pipeline import SketchSource
 from sketchtree.propagate.generations import Propagate
 from sketchtree.skeleton import Kind, TreeSkeleton
 

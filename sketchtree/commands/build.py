@@ -42,18 +42,20 @@ def build(sketch: Path, output: Path, seed: int, quiet: bool, json_log: bool, re
     from sketchtree.commands import writing
 
     writing.check_outputs(sketch, output, report, wanted["skeleton"], wanted["preview"])
+    from sketchtree import options as choices
     from sketchtree import pipeline
     from sketchtree.keys import root_key
     from sketchtree.templates.database import Database
+    from sketchtree.watch import Watch
 
     imported = time.perf_counter() - began
-    reading, tree = writing.split_options(wanted, pipeline.ReadingOptions, pipeline.TreeOptions)
+    reading, tree = writing.split_options(wanted, choices.ReadingOptions, choices.TreeOptions)
     progress = Progress(pipeline.STAGES, quiet=quiet, json_log=json_log)
-    watch = pipeline.Watch(progress)
+    watch = Watch(progress)
     with progress.running():
         templates = None if db is None and reading.template == "none" else Database.open(db)
         model = pipeline.sketch_to_tree(sketch, templates, key=root_key(seed), reading=reading, tree=tree, watch=watch)
-        run = writing.Run("build", seed, imported, began, watch, pipeline.options_as_dict(reading, tree))
+        run = writing.Run("build", seed, imported, began, watch, choices.options_as_dict(reading, tree))
         with watch("export"):
             unseen = writing.write_tree(model, output, run, skeleton=wanted["skeleton"], preview=wanted["preview"])
         record = writing.record(run, model.drawn, model, extra_warnings=unseen)

@@ -28,18 +28,20 @@ def infer(sketch: Path, output: Path, frame: str, seed: int, quiet: bool, json_l
     from sketchtree.commands import writing
 
     writing.check_outputs(sketch, output, report, kinds=writing.SKELETONS)
+    from sketchtree import options as choices
     from sketchtree import pipeline
     from sketchtree.keys import root_key
     from sketchtree.templates.database import Database
+    from sketchtree.watch import Watch
 
     imported = time.perf_counter() - began
-    (reading,) = writing.split_options(wanted, pipeline.ReadingOptions)
+    (reading,) = writing.split_options(wanted, choices.ReadingOptions)
     progress = Progress(("read", "match", "infer", "export"), quiet=quiet, json_log=json_log)
-    watch = pipeline.Watch(progress)
+    watch = Watch(progress)
     with progress.running():
         templates = None if db is None and reading.template == "none" else Database.open(db)
         drawn = pipeline.draw_out(sketch, templates, key=root_key(seed), options=reading, watch=watch)
-        run = writing.Run("infer", seed, imported, began, watch, pipeline.options_as_dict(reading) | {"frame": frame})
+        run = writing.Run("infer", seed, imported, began, watch, choices.options_as_dict(reading) | {"frame": frame})
         with watch("export"):
             writing.write_drawn(drawn, output, run, frame=frame)
         record = writing.record(run, drawn)

@@ -1,0 +1,41 @@
+"""Which template, which leaf, which bark: the best match, or what the user named."""
+
+from sketchtree.errors import OptionError, TemplateError
+from sketchtree.foliage.models import leaf_names
+from sketchtree.geometry.bark import bark_names
+from sketchtree.parameters import Habit
+from sketchtree.sketch.graph import SketchGraph
+from sketchtree.templates.database import Database
+from sketchtree.templates.exemplar import Exemplar
+from sketchtree.templates.match import Match, match
+
+
+def choose_template(graph: SketchGraph, templates: Database | None, wanted: str) -> tuple[list[Match], Exemplar | None]:
+    """All exemplars ranked (§7), and the one to use: the best, or the one the user named."""
+    if wanted == "none" or templates is None:
+        return [], None
+    if wanted != "auto" and wanted not in templates.names:
+        names = ", ".join(templates.names)
+        raise TemplateError(f"There is no template called “{wanted}”.", remedy=f"Choose auto, none or one of: {names}.")
+    matches = match(graph, templates)
+    return matches, templates.exemplar(matches[0].name if wanted == "auto" else wanted)
+
+
+def leaf_model(wanted: str | None, habit: Habit, templates: Database | None) -> str | None:
+    """The leaf model to use; None for no leaves. `wanted` is a model, an exemplar or "none"."""
+    if wanted is None:
+        return habit.leaf
+    if wanted == "none":
+        return None
+    if wanted in leaf_names():
+        return wanted
+    if templates is not None and wanted in templates.names:
+        return templates.exemplar(wanted).habit.leaf
+    raise OptionError(f"There is no leaf called “{wanted}”.", remedy=f"Choose none, a template's name or one of: {', '.join(leaf_names())}.")
+
+
+def bark_model(wanted: str | None, habit: Habit) -> str:
+    """The bark to use, the template's by default."""
+    if wanted is not None and wanted not in bark_names():
+        raise OptionError(f"There is no bark called “{wanted}”.", remedy=f"Choose one of: {', '.join(bark_names())}.")
+    return wanted or habit.bark

@@ -1,0 +1,49 @@
+"""What a user may choose: the options of reading a sketch and of completing its tree."""
+
+import dataclasses
+from dataclasses import dataclass
+
+import numpy as np
+
+from sketchtree.errors import OptionError
+
+
+@dataclass(frozen=True)
+class ReadingOptions:
+    """How a sketch becomes drawn branches in 3D."""
+
+    template: str = "auto"  # auto: best match; none: no template; else an exemplar's name
+    theta: str = "fit"  # fit: learn Θ from the sketch; fixed: hold the template's
+    method: str = "elevation"
+    height: float | None = None  # metres, > 0; None: the template's
+    crown: str = "auto"  # auto | off
+    planar: bool = False
+    max_strokes: int = 20_000
+
+    def __post_init__(self):
+        if self.height is not None and not (np.isfinite(self.height) and 0 < self.height <= 1000):
+            raise OptionError(f"`--height {self.height:g}` is no height of a tree.", remedy="Give metres above 0, at most 1000.")
+
+
+@dataclass(frozen=True)
+class TreeOptions:
+    """How the drawn branches become a complete tree."""
+
+    generations: int | None = None  # ≥ 0; None: 5, or up to 12 inside a crown; 0: only what was drawn
+    fill: bool = False  # keep on until the crown is evenly filled
+    max_segments: int = 200_000
+    leaf: str | None = None  # leaf model, exemplar whose leaf to take, or "none"; None: the template's
+    season: str = "summer"
+    bark: str | None = None  # None: the template's
+
+    def __post_init__(self):
+        if self.generations is not None and not 0 <= self.generations <= 12:
+            raise OptionError(f"`--generations {self.generations}` is out of range.", remedy="Give 0 to 12.")
+
+
+def options_as_dict(*options) -> dict:
+    """Options as used, for the report."""
+    merged: dict = {}
+    for record in options:
+        merged |= dataclasses.asdict(record)
+    return merged
