@@ -36,17 +36,17 @@ sum_to_tips.defvjp(_tips_forward, _tips_backward)
 
 
 @jax.custom_vjp
-def from_parents(vector: Float[Array, "segment 3"], walk) -> Float[Array, "segment 3"]:
-    """The parent's row for every row; a base's own."""
-    return vector[walk.parent]
+def from_parents(column: Float[Array, " segment"], walk) -> Float[Array, " segment"]:
+    """The parent's value for every row; a base's own."""
+    return column[walk.parent]
 
 
-def _parents_forward(vector, walk):
-    return vector[walk.parent], walk
+def _parents_forward(column, walk):
+    return column[walk.parent], walk
 
 
 def _parents_backward(walk, slope):
-    running = jnp.concatenate([jnp.zeros((1, 3), slope.dtype), jnp.cumsum(slope[walk.by_parent], axis=0)])
+    running = jnp.concatenate([jnp.zeros(1, slope.dtype), jnp.cumsum(slope[walk.by_parent])])
     return running[walk.child_end] - running[walk.child_start], None
 
 

@@ -17,7 +17,7 @@ from jaxtyping import Array, Bool, Float, Int
 
 from sketchtree.mrf.adjoint import from_parents, sum_to_tips
 from sketchtree.mrf.factor_graph import FactorGraph
-from sketchtree.mrf.factors.angles import angle
+from sketchtree.mrf.factors.angles import Vectors, angle
 from sketchtree.traverse import generation
 
 STEEPEST = np.radians(80.0)  # largest |ψ|
@@ -27,11 +27,11 @@ class Assignment(NamedTuple):
     """ψ and all that the factors read off it. H = 1."""
 
     elevation: Float[Array, " segment"]  # ψ, radians
-    direction: Float[Array, "segment 3"]  # V; +y at a base
-    parent_direction: Float[Array, "segment 3"]  # V of the parent segment; +y where that is a base
+    direction: Vectors  # V; +y at a base
+    parent_direction: Vectors  # V of the parent segment; +y where that is a base
     turn: Float[Array, " segment"]  # a, radians
     length: Float[Array, " segment"]  # L; 0 at a base
-    tip: Float[Array, "segment 3"]  # p
+    tip: Vectors  # p
     limb_length: Float[Array, " limb"]  # Λ
 
 
@@ -64,10 +64,10 @@ class Page(eqx.Module):
         """All that follows from ψ."""
         psi = jnp.where(self.is_segment, elevation, 0.0)
         cos, sin = jnp.cos(psi), jnp.sin(psi)
-        direction = jnp.concatenate([self.direction * cos[:, None], sin[:, None]], axis=1)
-        above = from_parents(direction, self.walk)
+        direction = Vectors(self.direction[:, 0] * cos, self.direction[:, 1] * cos, sin)
+        above = Vectors(*(from_parents(column, self.walk) for column in direction))
         length = self.length / cos
-        tip = jnp.concatenate([self.xy, self.depth(psi)[:, None]], axis=1)
+        tip = Vectors(self.xy[:, 0], self.xy[:, 1], sum_to_tips(self.length * sin / cos, self.walk))
         limb_length = jnp.zeros(self.limb_count, psi.dtype).at[self.limb].add(length)
         return Assignment(psi, direction, above, angle(direction, above), length, tip, limb_length)
 

@@ -166,7 +166,7 @@ def _siblings(graph, pad, shape):
     for (a, b), gap in zip(graph.sibling, graph.rank_gap, strict=True):
         for limb, other, slot in ((a, b, gap - 1), (b, a, gap + 2)):
             sibling[limb, slot], strength[limb, slot] = other, shape * KAPPA * DECAY[gap]
-    return Siblings(pad.index(graph.limb_first, pad.limbs), pad.index(sibling, pad.limbs), pad.real(strength, pad.limbs))
+    return Siblings(pad.index(graph.limb_first, pad.limbs), pad.index(sibling, pad.limbs).T, pad.real(strength, pad.limbs).T)
 
 
 def _competition(graph, pad, shape):
@@ -185,12 +185,12 @@ def _competition(graph, pad, shape):
             break
         keep = ~np.isin(pair, pair[slot >= most])
         one, other, pair, apart = one[keep], other[keep], pair[keep], apart[keep]
-    rival, present = np.zeros((2 * pad.limbs, most), int), np.zeros((2 * pad.limbs, most))
+    rival, present, square = (np.zeros((2 * pad.limbs, most), kind) for kind in (int, float, float))
     if len(one):
-        rival[one, slot], present[one, slot] = other, shape
+        rival[one, slot], present[one, slot], square[one, slot] = other, shape, apart**2
     return Competition(
-        pad.index(rows, 2 * pad.limbs), pad.index(rival, 2 * pad.limbs), pad.real(present, 2 * pad.limbs),
-        np.asarray(graph.crown_radius, pad.dtype),
+        pad.index(rows, 2 * pad.limbs), pad.index(rival, 2 * pad.limbs).T, pad.real(present, 2 * pad.limbs).T,
+        pad.real(square, 2 * pad.limbs).T, np.asarray(graph.crown_radius, pad.dtype),
     )  # fmt: skip
 
 

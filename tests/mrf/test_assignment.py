@@ -20,9 +20,9 @@ def test_directions_lengths_tips_and_limb_lengths_are_the_twin_s(make, double):
     assignment = jax.jit(lambda c, x: c.assign(x))(columns, padded)
     direction, length, tip, limb_length = twin.vectors(graph, psi)
     n = len(graph)
-    np.testing.assert_allclose(assignment.direction[:n], direction, atol=1e-9)
+    np.testing.assert_allclose(np.stack(assignment.direction, -1)[:n], direction, atol=1e-9)
     np.testing.assert_allclose(assignment.length[:n], length, atol=1e-9)
-    np.testing.assert_allclose(assignment.tip[:n], tip, atol=1e-9)
+    np.testing.assert_allclose(np.stack(assignment.tip, -1)[:n], tip, atol=1e-9)
     np.testing.assert_allclose(assignment.limb_length[: graph.limb_count], limb_length, atol=1e-9)
 
 

@@ -28,6 +28,6 @@ class Crown(eqx.Module):
 
     def log_potential(self, assignment, theta) -> Float[Array, " limb"]:
         """The Cauchy in log ρ."""
-        z = assignment.tip[self.tip, 2]
+        z = assignment.tip.z[self.tip]
         log_rho = 0.5 * jnp.log(self.aside**2 + z**2 + 1e-8) - jnp.log(self.half_width)
         return -self.weight * jnp.log1p(((log_rho - self.mean) / self.sd) ** 2)

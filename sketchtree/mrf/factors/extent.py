@@ -26,7 +26,7 @@ class Extent(eqx.Module):
 
     def log_potential(self, assignment, theta) -> Float[Array, " two_trees"]:
         """Extent of every tree, then balance of every tree."""
-        z = assignment.tip[self.tip, 2] * self.lateral
+        z = assignment.tip.z[self.tip] * self.lateral
         sums = jnp.zeros((len(self.weight), 2), z.dtype).at[self.tree].add(jnp.stack([z, z**2], axis=1))
         ratio = jnp.where(self.weight > 0, (sums[:, 1] + 1e-6) / (self.width_square + 1e-6), 1.0)
         extent = 0.5 * jnp.log(ratio) / EXTENT_SD

@@ -11,6 +11,8 @@ import jax
 import jax.numpy as jnp
 from jaxtyping import Array, Float, Int
 
+from sketchtree.mrf.factors.angles import Vectors, dot, total
+
 KAPPA = 0.35
 DECAY = (0.0, 1.0, 0.5, 0.25)
 
@@ -19,14 +21,17 @@ class Siblings(eqx.Module):
     """One factor a limb, for its half of the pairs."""
 
     first: Int[Array, " limb"]  # row
-    sibling: Int[Array, "limb 6"]  # limbs up to three ranks before and after
-    strength: Float[Array, "limb 6"]  # κ c_d; 0 where there is none
+    sibling: Int[Array, "6 limb"]  # limbs up to three ranks before and after
+    strength: Float[Array, "6 limb"]  # κ c_d; 0 where there is none
 
     def log_potential(self, assignment, theta) -> Float[Array, " limb"]:
         """−½ κ Σ_k c_d w_j · w_k. The gradient by w_k comes from k's own factor, so here it is held."""
-        v, axis = assignment.direction[self.first], assignment.parent_direction[self.first]
-        across = v - axis * jnp.sum(v * axis, axis=-1, keepdims=True)
-        w = across / jnp.sqrt(jnp.sum(across**2, axis=-1, keepdims=True) + 1e-6)
-        others = jnp.sum(self.strength[:, :, None] * jax.lax.stop_gradient(w)[self.sibling], axis=1)
-        twice = -jnp.sum(w * others, axis=-1)
+        v, axis = assignment.direction.at(self.first), assignment.parent_direction.at(self.first)
+        along = dot(v, axis)
+        across = Vectors(*(a - along * b for a, b in zip(v, axis, strict=True)))
+        scale = 1 / jnp.sqrt(dot(across, across) + 1e-6)
+        w = Vectors(*(scale * a for a in across))
+        held = Vectors(*map(jax.lax.stop_gradient, w))
+        others = Vectors(*(total(self.strength * column) for column in held.at(self.sibling)))
+        twice = -dot(w, others)
         return twice - 0.5 * jax.lax.stop_gradient(twice)
