@@ -22,7 +22,7 @@ from sketchtree.propagate.attach_block import Nodes
 from sketchtree.propagate.envelope import Envelope, Lobe
 from sketchtree.propagate.laterals import Split
 from sketchtree.propagate.library import Library
-from sketchtree.propagate.open_branch import OpenBranches, frames, limb_arcs
+from sketchtree.propagate.open_branch import OpenBranches, arc_length, frames, limb_arcs
 from sketchtree.skeleton import TreeSkeleton
 from sketchtree.traverse import is_tip
 
@@ -70,15 +70,22 @@ def open_tips(
 
 
 def drawn_nodes(
-    split: Split, open_: OpenBranches, library: Library, habit: Habit, envelope: Envelope | None
+    split: Split,
+    open_: OpenBranches,
+    library: Library,
+    habit: Habit,
+    envelope: Envelope | None,
+    led: dict[int, float] | None = None,
 ) -> Nodes:
-    """The nodes along drawn limbs that may bear new laterals (`position` counts what the tip will yet grow)."""
+    """The nodes along drawn limbs that may bear new laterals (`position` counts what the tip will yet grow, and `led`
+    the length of limbs that go on into the crown as leaders, by limb id)."""
     tree = split.tree
     arc, whole = limb_arcs(tree)
     grows = dict(zip(open_.limb.tolist(), open_.length.tolist(), strict=True))
     whole = whole + np.array([grows.get(limb, 0.0) for limb in tree.limb.tolist()])
+    whole = np.maximum(whole, np.array([(led or {}).get(limb, 0.0) for limb in tree.limb.tolist()]))
     rows = np.flatnonzero((split.number != NULL) & (tree.order < len(library.bare)))
-    bare = bare_length(tree, library)
+    bare = bare_length(tree, library, envelope)
     rows = rows[arc[rows] >= bare[rows] - 1e-9]
     end = whole
     if habit.max_order == 1:  # a palm: what its trunk's stroke draws beyond the last frond is a frond
@@ -102,13 +109,16 @@ def drawn_nodes(
     )
 
 
-def bare_length(tree: TreeSkeleton, library: Library) -> Float[np.ndarray, " segment"]:
-    """Metres of each row's limb, from its insertion on, that bear no new lateral."""
+def bare_length(tree: TreeSkeleton, library: Library, envelope: Envelope | None = None) -> Float[np.ndarray, " segment"]:
+    """Metres of each row's limb, from its insertion on, that bear no new lateral. A trunk without drawn limbs is bare
+    up to the drawn crown, if there is one, as far as the exemplar's where there is none."""
     arc, whole = limb_arcs(tree)
     share = library.bare[np.minimum(tree.order, len(library.bare) - 1)]
     bare = share * whole
     first = _first_drawn_lateral(tree, arc)
     below = _BEGINS if len(library.bare) == 2 else 0.0  # max_order 1: a palm
+    if envelope is not None and envelope.binding:
+        bare = np.where(tree.order == 0, _enters(tree, arc, envelope), bare)
     begins = np.where(np.isfinite(first), np.maximum(first - below * whole, 0.0), bare)
     return np.where(tree.order == 0, begins, bare)
 
@@ -136,6 +146,17 @@ def implied_crown(tree: TreeSkeleton, habit: Habit) -> Envelope | None:
         cloud = np.concatenate([cloud, np.column_stack([cloud[:, 0], np.full(len(cloud), tree.tip[tree.is_base, 1].min())])])
     hull = cloud[ConvexHull(cloud).vertices]
     return Envelope((Lobe.from_outline(hull),), binding=False)
+
+
+def _enters(tree, arc, envelope):
+    """Arc where every row's limb first comes into the crown, metres: at the start of the first row that ends inside,
+    the limb's end if none does."""
+    limbs, of_row = np.unique(tree.limb, return_inverse=True)
+    within = ~tree.is_base & envelope.inside(tree.tip)
+    first, end = np.full(len(limbs), np.inf), np.zeros(len(limbs))
+    np.minimum.at(first, of_row[within], arc[within] - arc_length(tree)[within])
+    np.maximum.at(end, of_row, arc)
+    return np.where(np.isfinite(first), first, end)[of_row]
 
 
 def _drawn_laterals_end(tree, arc):

@@ -62,15 +62,28 @@ class Lobe:
         """The greatest distance of the surface from its axis, at most, metres."""
         return float((self.right - self.left).max())
 
-    def margin(self, point: Float[np.ndarray, "point 3"]) -> Float[np.ndarray, " point"]:
-        """How far inside the surface each point lies, along its own radius, metres; negative outside."""
-        y = point[:, 1]
+    def axis_at(self, y: Float[np.ndarray, " height"]) -> Float[np.ndarray, "height 3"]:
+        """The outline's own axis at these heights, metres: always inside it."""
+        return np.stack([self._span(y)[2], y, np.full(len(y), self.centre_z)], axis=1)
+
+    def half_width_at(self, y: Float[np.ndarray, " height"]) -> Float[np.ndarray, " height"]:
+        """From the axis to the nearer end of the outline at these heights, metres."""
+        left, right, axis = self._span(y)
+        return np.minimum(axis - left, right - axis)
+
+    def _span(self, y):
+        """(x_l, x_r, x_a) at each height; beyond the outline, by its last straight lines."""
         slab = np.searchsorted(self.height[1:-1], y, side="right")
         t = (y - self.height[slab]) / (self.height[slab + 1] - self.height[slab])
         left = self.left[slab, 0] + t * (self.left[slab, 1] - self.left[slab, 0])
         right = self.right[slab, 0] + t * (self.right[slab, 1] - self.right[slab, 0])
         quarter = 0.25 * (right - left)
-        axis = np.minimum(np.maximum(self.axis, left + quarter), right - quarter)
+        return left, right, np.minimum(np.maximum(self.axis, left + quarter), right - quarter)
+
+    def margin(self, point: Float[np.ndarray, "point 3"]) -> Float[np.ndarray, " point"]:
+        """How far inside the surface each point lies, along its own radius, metres; negative outside."""
+        y = point[:, 1]
+        left, right, axis = self._span(y)
         dx, dz = point[:, 0] - axis, point[:, 2] - self.centre_z
         radius = np.hypot(dx, dz)
         cosine = dx / np.maximum(radius, 1e-300)

@@ -15,12 +15,13 @@ from jaxtyping import Array, Int, Key
 
 from sketchtree.errors import OptionError
 from sketchtree.parameters import Habit, TreeParameters
-from sketchtree.propagate.fill import ROUNDS
+from sketchtree.propagate.fill import GAP, ROUNDS
 from sketchtree.propagate.growing import Growing, to_scale
 from sketchtree.skeleton import TreeSkeleton
 
 GENERATIONS = 5  # without a crown (Chen §6)
 CROWN_GENERATIONS = 12  # with one, at most
+LED_ROUNDS, LED_GAP = 4, 2.0  # rounds of filling, and gaps in spacings of laterals, in a crown drawn around nothing
 
 
 @dataclass(frozen=True, eq=False)
@@ -81,10 +82,11 @@ def propagate(
     limit = _limits(generations, max_segments, bool(crown))
     if len(tree) == 0 or limit == 0:
         return Propagation(tree, np.zeros(len(tree), int), np.arange(len(tree)), 0, "generations", ())
-    growing = Growing(tree, to_scale(habit, tree), theta, exemplar, crown, max_segments, key)
+    growing = Growing(tree, to_scale(habit, tree, crown), theta, exemplar, crown, max_segments, key)
     growing.run(limit)
-    for round_ in range(ROUNDS if fill else 0):
-        if not growing.fill(round_, limit):
+    rounds, gap = (ROUNDS, GAP) if fill else (LED_ROUNDS if growing.leaders else 0, LED_GAP)
+    for round_ in range(rounds):
+        if not growing.fill(round_, limit, gap):
             break
     ended = "habit" if growing.stopped_by == "generations" and len(growing.open) == 0 else growing.stopped_by
     return Propagation(

@@ -22,6 +22,7 @@ from sketchtree.propagate.envelope import Envelope
 from sketchtree.propagate.fill import GAP, empty_points, towards
 from sketchtree.propagate.gaps import into_gaps
 from sketchtree.propagate.laterals import split_long
+from sketchtree.propagate.leaders import leaders
 from sketchtree.propagate.library import library
 from sketchtree.propagate.limb_growth import NODES, grow, plan
 from sketchtree.propagate.open_branch import OpenBranches, frames, limb_arcs
@@ -36,6 +37,7 @@ _LARGEST_SCALE = 1.25  # of a habit's lengths: a larger tree has more twigs, not
 _LIKE_BLOCK = 1.5  # times the length its block says, a new limb on the trunk is no longer than that
 _PRESSES = 1.08  # times its straight way to the crown: a branch that bends still meets the surface
 _GROUND = (0.015, 0.1)  # of the tree's height: undrawn limbs stay this far above the ground, and up to that much more
+_NEARS = (0.6, 1.05)  # of its way to the crown's surface: a leader's lateral is at least as long as between these
 _LIKE_DRAWN = 1.1  # times the drawn laterals around it, a new one on a drawn limb is no longer
 
 
@@ -47,27 +49,39 @@ class Growing:
         self.key = keys.draw_key(key)
         self.envelope = Envelope.from_outlines(crown) if len(crown) else implied_crown(tree, habit)
         self.library = _library(tree, habit, theta, exemplar)
-        self.scale = tree.height
+        self.scale = _height(tree, crown)
         self.ground = float(tree.tip[tree.is_base, 1].min())
         self.drawn = self._split(tree)
         self.parts, self.rows, self.done, self.stopped_by = [], len(self.drawn.tree), 0, "generations"
         self.segments = self.drawn.tree.segment_count
+        self.leaders = self._lead()
         self.open = self._first_generation()
         self.outside = len(self.open) == 0 and len(crown) > 0 and not self.envelope.inside(tree.tip).any()
 
     def _split(self, tree):
         arc, whole = limb_arcs(tree)
         self.spacing = self._spacing(tree.order, whole)
-        bears = (tree.order < self.habit.max_order) & (arc > bare_length(tree, self.library))
+        bears = (tree.order < self.habit.max_order) & (arc > bare_length(tree, self.library, self.envelope))
         split = split_long(tree, self.spacing, bears)
         _, whole = limb_arcs(split.tree)
         self.spacing = self._spacing(split.tree.order, whole)
         return split
 
+    def _lead(self):
+        """The limbs that go on into a crown which the drawing left empty: the first generation, if there are any."""
+        most = self.max_segments - self.segments
+        found = leaders(self.drawn.tree, self.envelope, self.habit, self.spacing, self.key, most=most)
+        if found is not None:
+            self.parts.append((found.nodes, found.parent))
+            self.rows, self.segments, self.done = self.rows + len(found), self.segments + len(found), 1
+        return found
+
     def _first_generation(self) -> OpenBranches:
         tree = self.drawn.tree
+        led = self.leaders.grown if self.leaders else {}
         tips = open_tips(tree, self.spacing, self.habit, self.envelope, self.key)
-        self.drawn_nodes = drawn_nodes(self.drawn, tips, self.library, self.habit, self.envelope)
+        tips = tips.select(~np.isin(tips.limb, list(led)))
+        self.drawn_nodes = drawn_nodes(self.drawn, tips, self.library, self.habit, self.envelope, led)
         new = self._laterals(self.drawn_nodes)
         drawn = DrawnLaterals.of(tree)
         usual = drawn.usual_length(new)
@@ -78,7 +92,18 @@ class Growing:
         new = replace(new, length=length).select(~drawn.beside(new, self.spacing))
         if self.habit.max_order > 0:
             new = new.join(self._free(into_gaps(tree, frames(tree), drawn, new, self.key)))
+        if self.leaders:
+            new = self._to_surface(new, np.isin(tree.limb[new.row], list(led)))
+            beside = self._laterals(self.leaders.nodes)
+            new = new.join(self._to_surface(beside, np.ones(len(beside), bool)))
         return tips.join(new)
+
+    def _to_surface(self, opened: OpenBranches, led) -> OpenBranches:
+        """The same, those on `led` limbs as long as it takes to come near the crown's surface, half the crown at most."""
+        widest = 0.5 * max(lobe.reach for lobe in self.envelope.lobes)
+        way = self.envelope.exit_fraction(opened.origin, opened.origin + widest * opened.frame[:, :, 1], bisections=7) * widest
+        way = way * (_NEARS[0] + (_NEARS[1] - _NEARS[0]) * keys.uniform(self.key, opened.limb, 15))
+        return replace(opened, length=np.where(led, np.maximum(opened.length, way), opened.length))
 
     def _spacing(self, order, whole):
         """Metres between the nodes of limbs of these orders and whole lengths: the habit's, or wider where the exemplar
@@ -94,14 +119,15 @@ class Growing:
         while self.done < limit and self.generation():
             pass
 
-    def fill(self, round_: int, limit: int) -> bool:
-        """One round of growth into what is still empty; False where nothing is, or no more may be grown."""
+    def fill(self, round_: int, limit: int, gap: float = GAP) -> bool:
+        """One round of growth into what is still empty (farther than `gap` spacings of laterals from every node);
+        False where nothing is, or no more may be grown."""
         if self.envelope is None or self.done >= limit or self.stopped_by == "max_segments":
             return False
         nodes = self.drawn_nodes
         for part, _ in self.parts:
             nodes = nodes.join(part)
-        empty = empty_points(self.envelope, nodes.tip, GAP * self.habit.lateral_spacing)
+        empty = empty_points(self.envelope, nodes.tip, gap * self.habit.lateral_spacing)
         bears = (nodes.order < self.habit.max_order) & self.envelope.inside(nodes.tip)
         self.open = towards(empty, nodes.select(bears), self.habit, round_, self.key)
         before = self.rows
@@ -195,10 +221,16 @@ def _library(tree, habit, theta, exemplar):
     return library(blocks_of(tree), supplement, theta, habit.max_order, exemplar)
 
 
-def to_scale(habit: Habit, tree: TreeSkeleton) -> Habit:
-    """The habit's lengths for a tree of another height: a small tree has smaller twigs, a large one
-    more of them."""
-    scale = float(np.clip(tree.height / habit.height, 0.01, _LARGEST_SCALE))
+def _height(tree: TreeSkeleton, crown) -> float:
+    """Metres from the ground to the top of the drawing, its crown included."""
+    top = max((float(np.max(np.asarray(outline)[:, 1])) for outline in crown), default=-np.inf)
+    return max(tree.height, top - float(tree.tip[tree.is_base, 1].min()))
+
+
+def to_scale(habit: Habit, tree: TreeSkeleton, crown: tuple = ()) -> Habit:
+    """The habit's lengths for a tree of another height (its crown's, if that is higher): a small tree has smaller
+    twigs, a large one more of them."""
+    scale = float(np.clip(_height(tree, crown) / habit.height, 0.01, _LARGEST_SCALE))
     return dataclasses.replace(
         habit,
         lateral_spacing=habit.lateral_spacing * scale,
