@@ -48,7 +48,7 @@ def clean(lines: list[Line], *, under_crown: bool = False) -> Cleaned:
     owner = _owners(ordered, height)
     merged = [(line, ordered[o].row, AGAIN_OVER) for line, o in zip(ordered, owner, strict=True) if o >= 0]
     own, sides = trunk_of_edges([line for line, o in zip(ordered, owner, strict=True) if o < 0], under_crown)
-    if sides:
+    if sides and sides[1].row != sides[0].row:
         merged.append((sides[1], sides[0].row, OTHER_SIDE))
     return Cleaned(own, tuple(merged), dots)
 

@@ -11,6 +11,7 @@ from sketchtree.keys import stroke_limb_id
 from sketchtree.sketch.attach import attach
 from sketchtree.sketch.attachments import describe
 from sketchtree.sketch.cleaning import as_line, clean
+from sketchtree.sketch.contour import contour, only_outline
 from sketchtree.sketch.crown import crown_strokes, has_area, outline
 from sketchtree.sketch.graph import SketchGraph
 from sketchtree.sketch.joints import Limb, limbs_of
@@ -31,7 +32,13 @@ def sketch_graph(sketch: Sketch, *, crown: str = "auto") -> SketchGraph:
     if crown not in ("auto", "off"):
         raise OptionError(f"crown={crown!r}; 'auto' or 'off' was expected.", remedy="Leave it out for 'auto'.")
     parts = _sorted_strokes(sketch)
-    cleaned = clean(_lines(sketch, parts[StrokeKind.BRANCH]), under_crown=bool(parts[StrokeKind.CROWN]))
+    branch = [sketch.strokes[k] for k in parts[StrokeKind.BRANCH]]
+    around = None if parts[StrokeKind.CROWN] else contour(branch)
+    if around is None and not parts[StrokeKind.CROWN] and only_outline(branch):
+        raise SketchError(f"{sketch.name} has no branch strokes: only a crown.", remedy="Draw at least a trunk, as a line.")
+    legs = {} if around is None else {parts[StrokeKind.BRANCH][k]: left for k, left in around.legs.items()}
+    lines = _lines(sketch, parts[StrokeKind.BRANCH], legs)
+    cleaned = clean(lines, under_crown=bool(parts[StrokeKind.CROWN]) or around is not None)
     height = extent(cleaned.lines)
     hanging = attach(cleaned.lines)
     limbs = limbs_of(cleaned.lines, hanging)
@@ -39,11 +46,12 @@ def sketch_graph(sketch: Sketch, *, crown: str = "auto") -> SketchGraph:
     ids = tuple(stroke.id for stroke in sketch.strokes)
     attachments, doubts = describe(cleaned, hanging, limbs, rows, table["xy"], ids, height)
     outlines = {kind: tuple(outline(sketch.strokes[k].points) for k in parts[kind]) for kind in StrokeKind}
+    crowns = outlines[StrokeKind.CROWN] if around is None else (outline(around.outline),)
     return SketchGraph(
         **table,
         limb_id=_limb_ids(limbs, cleaned.lines),
         stroke_ids=ids,
-        crown=outlines[StrokeKind.CROWN] if crown == "auto" else (),
+        crown=crowns if crown == "auto" else (),
         obstacles=outlines[StrokeKind.OBSTACLE],
         attachments=attachments,
         warnings=(*sketch.warnings, *doubts),
@@ -62,12 +70,14 @@ def _sorted_strokes(sketch: Sketch) -> dict[StrokeKind, list[int]]:
     return parts
 
 
-def _lines(sketch: Sketch, rows: list[int]) -> list[Line]:
-    """The lines that the branch strokes draw, those down the middle of painted shapes included."""
-    drawn = [row for row in rows if not sketch.strokes[row].filled]
+def _lines(sketch: Sketch, rows: list[int], legs: dict[int, tuple[np.ndarray, ...]]) -> list[Line]:
+    """The lines that the branch strokes draw, those down the middle of painted shapes included; of a
+    stroke that drew a crown only its `legs`."""
+    drawn = [row for row in rows if not sketch.strokes[row].filled and row not in legs]
     strokes = [sketch.strokes[row] for row in drawn]
     widths = drawn_widths(strokes)
     lines = [as_line(row, stroke.id, stroke.points, width) for row, stroke, width in zip(drawn, strokes, widths, strict=True)]
+    lines += [as_line(row, sketch.strokes[row].id, points, np.nan) for row, parts in legs.items() for points in parts]
     lines = [line for line in lines if line is not None]
     painted = [row for row in rows if sketch.strokes[row].filled]
     for outer, holes in with_holes([sketch.strokes[row] for row in painted]):
