@@ -33,6 +33,7 @@ _PRESSES = 1.08  # times its straight way to the crown: a limb that bends still 
 _MARGIN = 0.13  # of the smaller side of the drawing's branches
 _MARGIN_TWIGS = 2.0  # twig lengths, at least
 _WEEPING = 30.0  # degrees a metre: with more, twigs hang to the ground
+BEARING = 2.2  # twig lengths: a shorter limb bears no laterals
 _BEGINS = 0.06  # of the trunk's length: a palm's new fronds may start this far below its first drawn one
 _APART = np.cos(np.radians(25.0))  # a new lateral this close to a drawn one's direction is not grown
 
@@ -121,6 +122,21 @@ def bare_length(tree: TreeSkeleton, library: Library, envelope: Envelope | None 
         bare = np.where(tree.order == 0, _enters(tree, arc, envelope), bare)
     begins = np.where(np.isfinite(first), np.maximum(first - below * whole, 0.0), bare)
     return np.where(tree.order == 0, begins, bare)
+
+
+def rank_of_drawn(tree: TreeSkeleton, habit: Habit) -> Int[np.ndarray, " segment"]:
+    """The order each drawn row grows by: its own, or a lower one where its limb is too long for that.
+
+    Forks drawn one upon the other give limbs of high orders that are no twigs. A limb as long as one that bears, ℓ_1,
+    still bears laterals; with each 1 / lateral_ratio longer, one order more stands between it and the deepest:
+
+        rank = min(order, max(max_order − 1 − ⌊log(ℓ / ℓ_1) / log(1 / lateral_ratio)⌋, 1))        ℓ ≥ ℓ_1
+    """
+    _, whole = limb_arcs(tree)
+    times = np.maximum(whole / (BEARING * habit.twig_length), 1e-9)
+    more = np.floor(np.log(times) / np.log(1.0 / np.clip(habit.lateral_ratio, 0.2, 0.7)))
+    by_length = np.maximum(habit.max_order - 1 - more, 1).astype(np.int64)
+    return np.where((times >= 1.0) & (habit.max_order > 1), np.minimum(tree.order, by_length), tree.order)
 
 
 def implied_crown(tree: TreeSkeleton, habit: Habit) -> Envelope | None:

@@ -17,7 +17,7 @@ from sketchtree import keys
 from sketchtree.parameters import Habit
 from sketchtree.propagate.attach_block import MINIMUM_LENGTH, Nodes, attach
 from sketchtree.propagate.block import blocks_of, blocks_of_parameters
-from sketchtree.propagate.drawn import DrawnLaterals, bare_length, drawn_nodes, implied_crown, open_tips
+from sketchtree.propagate.drawn import BEARING, DrawnLaterals, bare_length, drawn_nodes, implied_crown, open_tips, rank_of_drawn
 from sketchtree.propagate.envelope import Envelope
 from sketchtree.propagate.fill import GAP, empty_points, towards
 from sketchtree.propagate.gaps import into_gaps
@@ -27,8 +27,8 @@ from sketchtree.propagate.library import library
 from sketchtree.propagate.limb_growth import NODES, grow, plan
 from sketchtree.propagate.open_branch import OpenBranches, frames, limb_arcs
 from sketchtree.skeleton import Kind, TreeSkeleton
+from sketchtree.traverse import generations
 
-_BEARING = 2.2  # twig lengths: a shorter limb bears no laterals
 _BARE_NODES = 8  # about, of a limb that bears none: enough for its curve
 _TRUNK_SPACING = 1.6  # of the habit's spacing of laterals
 _CLOSER = 0.55  # times the habit's spacing, nodes lie closer than on the exemplar, which is a skeleton without its twigs
@@ -51,7 +51,8 @@ class Growing:
         self.library = _library(tree, habit, theta, exemplar)
         self.scale = _height(tree, crown)
         self.ground = float(tree.tip[tree.is_base, 1].min())
-        self.drawn = self._split(tree)
+        self.order_of = dict(zip(tree.limb.tolist(), tree.order.tolist(), strict=True))
+        self.drawn = self._split(tree.replace(order=rank_of_drawn(tree, habit)))
         self.parts, self.rows, self.done, self.stopped_by = [], len(self.drawn.tree), 0, "generations"
         self.segments = self.drawn.tree.segment_count
         self.leaders = self._lead()
@@ -173,7 +174,7 @@ class Growing:
 
     def _bears(self, order, whole):
         """Whether limbs of these orders and whole lengths (metres) bear laterals."""
-        return (order < self.habit.max_order) & (whole >= _BEARING * self.habit.twig_length)
+        return (order < self.habit.max_order) & (whole >= BEARING * self.habit.twig_length)
 
     def _free(self, opened: OpenBranches) -> OpenBranches:
         """The same, each no longer than its way to the crown; those left too short are not opened."""
@@ -197,17 +198,31 @@ class Growing:
 
     def skeleton(self) -> TreeSkeleton:
         """The drawn rows and all that grew."""
+        drawn = self.drawn.tree
+        drawn = drawn.replace(order=np.array([self.order_of[limb] for limb in drawn.limb.tolist()], np.int64))
         if not self.parts:
-            return self.drawn.tree
-        names = ("tip", "radius", "order", "limb", "tree")
+            return drawn
+        names = ("tip", "radius", "limb", "tree")
         columns = {name: np.concatenate([getattr(part, name) for part, _ in self.parts]) for name in names}
         parent = np.concatenate([parent for _, parent in self.parts])
-        return self.drawn.tree.append(columns | {"parent": parent, "kind": np.full(len(parent), int(Kind.PROPAGATED))})
+        rank = np.concatenate([drawn.order] + [part.order for part, _ in self.parts])
+        columns["order"] = _orders(np.r_[drawn.parent, parent], np.r_[drawn.limb, columns["limb"]], rank, len(drawn))[len(drawn) :]
+        return drawn.append(columns | {"parent": parent, "kind": np.full(len(parent), int(Kind.PROPAGATED))})
 
     def generation_of_rows(self) -> Int[np.ndarray, " segment"]:
         """The generation of every row of `skeleton()`."""
         count = [len(self.drawn.tree)] + [len(part) for part, _ in self.parts]
         return np.repeat(np.arange(len(count)), count)
+
+
+def _orders(parent, limb, order, drawn: int):
+    """The order of every row: a new row has its parent's, and one more where a limb begins."""
+    order = order.copy()
+    for rows in generations(parent)[1:]:
+        new = rows[rows >= drawn]
+        above = parent[new]
+        order[new] = order[above] + (limb[new] != limb[above])
+    return order
 
 
 _lent_blocks = lru_cache(maxsize=32)(blocks_of)  # an exemplar is one frozen object for all the trees it lends to
