@@ -1,13 +1,13 @@
 """Where do rings of vertices stand along each limb, and how are they turned?
 
-Rings stand as far apart as the bend allows: a chord over a bend of curvature κ misses it by κ Δ² / 8, so
+Rings stand at every pinned place (tips of drawn rows, both ends) and where else it takes one for the tube to stay within
+ε of the line and of its radius (see `simplify`), but not closer together than 0.6 r. Stretches longer than the longest
+allowed, or than the flare at the ground allows, or along which the radius halves, are cut into equal parts.
 
-    Δ(s) = √(8 ε / κ(s)),    0.6 r ≤ Δ ≤ 40 r and Δ ≤ the longest allowed
+    ε   `_BEND` times the tolerance of `Detail`, metres     r   radius
 
-    ε   twice the tolerance of `Detail`, metres     r   radius     κ   curvature
-
-and each stretch between two pinned places (tips of drawn rows, both ends) is cut into equal parts of ∫ ds / Δ.
-A ring is perpendicular to the chord over one radius of the line, so that the small tremor of a hand does not tilt
+So a limb has at most one ring for each point of its line and each longest stretch, besides those of its collar and
+of the flare, however thin and crooked it is. A ring is perpendicular to the chord over one radius of the line, so that the small tremor of a hand does not tilt
 thick wood to and fro.
 """
 
@@ -19,8 +19,12 @@ from jaxtyping import Float, Int
 from sketchtree.geometry.detail import Detail
 from sketchtree.geometry.frames import rotation_minimising
 from sketchtree.geometry.limbs import CentreLines
+from sketchtree.geometry.simplify import enough
 
-_BEND = 2.0  # sagitta of a bend / sagitta of a ring's side
+_FLARED = 3.0  # height of the flare at the ground, / radius there
+_CLOSEST = 0.6  # of two rings, / radius
+_THINS = 2.0  # largest quotient of the radii of two rings, but on twigs
+_BEND = 2.5  # sagitta of a bend / sagitta of a ring's side
 _BACK = np.array([0.0, 0.0, -1.0])  # where the seam is: away from the viewer
 
 
@@ -55,7 +59,7 @@ def rings(
     start = np.r_[0, np.cumsum(np.bincount(limb, minlength=len(lines)))].astype(np.int64)
     point, radius = lines.at(limb, s)
     tangent = _tangents(lines, limb, s, radius)
-    limb, s, point, tangent, radius, start = _domed(start, limb, s, point, tangent, radius)
+    limb, s, point, tangent, radius, start = _domed(start, limb, s, point, tangent, radius, 2.0 * detail.tolerance * height)
     first = np.broadcast_to(_BACK, (len(lines), 3))
     return Rings(start, s, point, tangent, rotation_minimising(point, tangent, start, first), radius)
 
@@ -63,30 +67,39 @@ def rings(
 def _places(lines: CentreLines, detail: Detail, height: float):
     """Limb and place of every ring, before collars and domes."""
     limb = lines.of_point
-    apart = np.sqrt(8.0 * _BEND * detail.tolerance * height / np.maximum(lines.curvature, 1e-9))
-    nearest = 0.6 * lines.radius
-    farthest = np.maximum(np.minimum(40.0 * lines.radius, detail.longest * height), nearest)
-    apart = np.clip(apart, nearest, farthest)
-    foot = lines.radius[lines.start[:-1]][limb]
-    near_ground = lines.is_stem[limb] & (lines.s < lines.ground[limb] + 3.0 * foot)
-    apart = np.where(near_ground, np.minimum(apart, 0.4 * foot), apart)
-    pace = 1.0 / np.maximum(apart, 1e-7 * height)
-    step = np.r_[0.0, 0.5 * (pace[1:] + pace[:-1]) * np.diff(lines.s)]
-    step[lines.start[:-1]] = 1.0  # keeps limbs apart on one rising scale
-    count = np.cumsum(step)
-    pinned = np.flatnonzero(lines.pinned)
-    span = np.flatnonzero(limb[pinned[1:]] == limb[pinned[:-1]])
-    left, right = pinned[span], pinned[span + 1]
-    parts = np.maximum(np.ceil(count[right] - count[left] - 1e-6), 1).astype(np.int64)
+    tube = np.column_stack([lines.point, lines.radius])
+    stand = np.flatnonzero(enough(tube, lines.s, lines.pinned, _CLOSEST * lines.radius, _BEND * detail.tolerance * height))
+    left, right = stand[:-1], stand[1:]
+    span = limb[left] == limb[right]
+    left, right = left[span], right[span]
+    thins = np.log(lines.radius[left] / lines.radius[right]) / np.log(_THINS)
+    thins = np.ceil(np.where(lines.radius[left] > 4.0 * detail.tolerance * height, thins, 1.0) - 1e-6)
+    begin, end = lines.s[left], lines.s[right]
+    parts = np.maximum(np.ceil((end - begin) / np.maximum(detail.longest * height, _CLOSEST * lines.radius[left]) - 1e-6), thins)
+    limb, begin, end, parts = _flaring(lines, limb[left], begin, end, np.maximum(parts, 1.0))
+    parts = parts.astype(np.int64)
     within = np.arange(parts.sum()) - np.repeat(np.cumsum(parts) - parts, parts)
-    ticks = np.repeat(count[left], parts) + within * np.repeat((count[right] - count[left]) / parts, parts)
-    place = np.interp(ticks, count, lines.s)
-    place[within == 0] = lines.s[left]
-    last = lines.start[1:] - 1
-    limb_of = np.r_[np.repeat(limb[left], parts), limb[last]]
-    place = np.r_[place, lines.s[last]]
-    order = np.lexsort((place, limb_of))
-    return limb_of[order], place[order]
+    place = np.r_[np.repeat(begin, parts) + within * np.repeat((end - begin) / parts, parts), lines.length]
+    limb = np.r_[np.repeat(limb, parts), np.arange(len(lines))]
+    order = np.lexsort((place, limb))
+    return limb[order], place[order]
+
+
+def _flaring(lines: CentreLines, limb, begin, end, parts):
+    """The stretches from `begin` to `end` and their parts, cut and made finer where a stem flares at the ground."""
+    foot = lines.radius[lines.start[:-1]][limb]
+    flared = np.minimum(end, lines.ground[limb] + _FLARED * foot)
+    low = lines.is_stem[limb] & (flared > begin)
+    apart = low & (end > flared + foot)
+    share = (end - flared) / (end - begin)
+    upper = np.flatnonzero(apart)
+    fine = np.ceil((np.where(apart, flared, end) - begin) / (0.4 * foot) - 1e-6)
+    return (
+        np.r_[limb, limb[upper]],
+        np.r_[begin, flared[upper]],
+        np.r_[np.where(apart, flared, end), end[upper]],
+        np.r_[np.where(low, np.maximum(fine, np.where(apart, 1.0, parts)), parts), np.maximum(np.ceil(parts * share - 1e-6), 1.0)[upper]],
+    )
 
 
 def _with_collars(limb, s, collar_top, collar_size, clearance):
@@ -109,9 +122,12 @@ def _tangents(lines: CentreLines, limb, s, radius):
     return chord / np.maximum(np.linalg.norm(chord, axis=1, keepdims=True), 1e-300)
 
 
-def _domed(start, limb, s, point, tangent, radius):
-    """One more ring past every tip: the shoulder of the rounded end, whose top is the apex."""
+def _domed(start, limb, s, point, tangent, radius, least: float):
+    """One more ring past the tips thicker than `least` metres: the shoulder of the rounded end, whose top is the apex."""
     last = start[1:] - 1
+    round_ = radius[last] > least
+    start = start + np.r_[0, np.cumsum(round_)]
+    last = last[round_]
     order = np.argsort(np.r_[limb, limb[last]], kind="stable")
     ahead = 0.55 * radius[last]
     columns = (
@@ -121,4 +137,4 @@ def _domed(start, limb, s, point, tangent, radius):
         np.concatenate([tangent, tangent[last]]),
         np.r_[radius, 0.8 * radius[last]],
     )
-    return *(column[order] for column in columns), start + np.arange(len(start))
+    return *(column[order] for column in columns), start

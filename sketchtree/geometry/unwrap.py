@@ -2,7 +2,7 @@
 
 On thick wood one tile of bark covers `tile` × `tile` metres. Young bark is finer: a limb that is four times thinner than
 `_THICK` at its foot has tiles half as large, and so on, in steps of two (a limb's grain g = 1, 2, 4, …). Around a limb of
-circumference c the tile repeats k times, a power of two (so that it closes without a seam where k ≥ 1), and along it
+circumference c (of its polygon) the tile repeats k times, a power of two (so that it closes without a seam where k ≥ 1), and along it
 
     u = k θ / 2π + u₀        dv/ds = −g ρ^½ / tile        ρ = k tile / (g c)
 
@@ -15,7 +15,7 @@ varies by 2.9 at most.
 """
 
 import numpy as np
-from jaxtyping import Float
+from jaxtyping import Float, Int
 
 from sketchtree.geometry.rings import Rings
 
@@ -29,9 +29,14 @@ def grain(ring: Rings) -> Float[np.ndarray, " ring"]:
     return 2.0 ** np.round(0.5 * np.log2(np.maximum(_THICK / foot, 1.0)))[ring.limb]
 
 
-def repeats(ring: Rings, tile: float) -> Float[np.ndarray, " ring"]:
-    """k of every ring: it never rises towards the tip."""
-    around = 2.0 * np.pi * ring.radius * grain(ring) / tile
+def circumference(ring: Rings, side: Int[np.ndarray, " ring"]) -> Float[np.ndarray, " ring"]:
+    """c of every ring, metres: a polygon of so many sides is shorter than its circle."""
+    return 2.0 * side * np.sin(np.pi / side) * ring.radius
+
+
+def repeats(ring: Rings, around: Float[np.ndarray, " ring"], tile: float) -> Float[np.ndarray, " ring"]:
+    """k of every ring of circumference `around`: it never rises towards the tip."""
+    around = around * grain(ring) / tile
     foot = around[ring.start[:-1]]
     level = np.round(np.log2(foot))[ring.limb]
     falls = np.maximum(np.floor((level - np.log2(around) + 0.5) / 2.0), 0.0)
@@ -40,18 +45,22 @@ def repeats(ring: Rings, tile: float) -> Float[np.ndarray, " ring"]:
     return 2.0 ** (level - 2.0 * falls)
 
 
-def pace(ring: Rings, repeat: Float[np.ndarray, " ring"], tile: float) -> Float[np.ndarray, " ring"]:
+def pace(
+    ring: Rings, around: Float[np.ndarray, " ring"], repeat: Float[np.ndarray, " ring"], tile: float
+) -> Float[np.ndarray, " ring"]:
     """−dv/ds at every ring, tiles a metre."""
     fineness = grain(ring)
-    density = repeat * tile / (2.0 * np.pi * ring.radius * fineness)
+    density = repeat * tile / (around * fineness)
     return fineness * np.sqrt(np.clip(density, 0.5, 4.0)) / tile
 
 
-def lengthwise(ring: Rings, repeat: Float[np.ndarray, " ring"], tile: float) -> Float[np.ndarray, " ring"]:
+def lengthwise(
+    ring: Rings, around: Float[np.ndarray, " ring"], repeat: Float[np.ndarray, " ring"], tile: float
+) -> Float[np.ndarray, " ring"]:
     """−v at every ring, 0 at each limb's foot: the pace summed over the length. Where k changes, the wood
     below the ring still has the k from below."""
-    leaving = pace(ring, repeat, tile)
-    arriving = pace(ring, np.r_[repeat[:1], repeat[:-1]], tile)
+    leaving = pace(ring, around, repeat, tile)
+    arriving = pace(ring, around, np.r_[repeat[:1], repeat[:-1]], tile)
     step = np.r_[0.0, 0.5 * (arriving[1:] + leaving[:-1]) * np.diff(ring.s)]
     step[ring.start[:-1]] = 0.0
     total = np.cumsum(step)

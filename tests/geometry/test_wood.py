@@ -152,7 +152,7 @@ def test_a_lateral_starts_inside_its_parents_wood(angle, thickness):
 @pytest.mark.parametrize("angle", [60, 75, 90])
 def test_a_collar_is_wider_than_its_limb_and_no_wider_than_needed(angle):
     tree = fork(angle, 0.4)
-    with_collar, without = (lateral_of(wood(tree, flare=0.0, collar_radius=least)) for least in (0.0, 10.0))
+    with_collar, without = (lateral_of(wood(tree, flare=0.0, collar_radius=least, tolerance=1e-4)) for least in (0.0, 10.0))
     step = np.array([0.0, 1.0, 0.0])
     spread = [np.ptp((place - step)[np.hypot(place[:, 0], place[:, 2]) < 0.13][:, 2]) for place in (with_collar, without)]
     assert 1.2 < spread[0] / spread[1] < 3.5
@@ -216,6 +216,26 @@ def test_same_key_same_mesh():
 
 def test_finer_detail_has_more_triangles():
     assert len(wood(TREES["bushy"], tolerance=5e-5).triangle) > 1.3 * len(wood(TREES["bushy"], tolerance=1e-3).triangle)
+
+
+@pytest.mark.parametrize("budget", [20_000, 12_000, 6_000])
+def test_the_budget_of_triangles_is_kept(budget):
+    tree = TREES["bushy"]
+    full, mesh = len(wood(tree).triangle), wood(tree, most_triangles=budget)
+    assert full > budget >= len(mesh.triangle) > 0.3 * budget
+    assert np.isfinite(mesh.position).all()
+
+
+def test_below_any_budget_a_limb_has_a_dozen_triangles():
+    tree = TREES["bushy"]
+    assert len(wood(tree, most_triangles=12).triangle) <= 20 * len(np.unique(tree.limb))
+
+
+def test_a_thin_and_crooked_limb_has_no_more_rings_than_points():
+    rng = np.random.default_rng(0)
+    points = np.cumsum(rng.normal(0, 0.1, (300, 3)) + [0, 0.02, 0], axis=0)
+    tree = stick(points, 1e-6)
+    assert len(wood(tree).triangle) <= 2 * 3 * (6 * len(points) + 30)
 
 
 def test_mesh_and_material_are_called_wood():
