@@ -36,7 +36,7 @@ _HOMES = {
     "sketchtree.stage": ("SkeletonSource", "SkeletonStage", "sources", "stages"),
     "sketchtree.propagate.generations": ("Propagate",),
     "sketchtree.geometry.radii": ("PipeRadii",),
-    "sketchtree.geometry.wood": ("wood_mesh",),
+    "sketchtree.geometry.wood": ("wood_mesh", "wood_meshes"),
     "sketchtree.geometry.mesh": ("Mesh", "Material"),
     "sketchtree.foliage.populate": ("populate",),
     "sketchtree.foliage.cards": ("leaf_mesh",),

@@ -16,7 +16,7 @@ from sketchtree.foliage.leaves import Leaves
 from sketchtree.foliage.populate import populate
 from sketchtree.geometry.mesh import Mesh
 from sketchtree.geometry.radii import PipeRadii
-from sketchtree.geometry.wood import wood_mesh
+from sketchtree.geometry.wood import wood_meshes
 from sketchtree.keys import stage_key
 from sketchtree.mrf.factor_graph import factor_graph
 from sketchtree.mrf.infer import Fit, infer
@@ -141,7 +141,7 @@ def complete(
     if leaves.kept < 1:
         warnings += (f"Only {leaves.kept:.0%} of the leaves were kept (at most {len(leaves)}), each larger, so that their area is right.",)
     with watch("mesh"):
-        meshes = [wood_mesh(skeleton, bark=bark, key=stage_key(key, "mesh"))]
+        meshes = [*wood_meshes(skeleton, bark=bark, habit=habit, key=stage_key(key, "mesh"))]
         if len(leaves):
             meshes.append(leaf_mesh(leaves, season=options.season))
     return TreeModel(drawn, skeleton, leaves, tuple(meshes), drawn.warnings + warnings)

@@ -8,7 +8,8 @@ from functools import lru_cache
 
 from sketchtree.errors import OptionError
 from sketchtree.geometry import bark_furrowed, bark_scaly, bark_smooth
-from sketchtree.geometry.bark_relief import albedo, normal_map, roughness_map
+from sketchtree.geometry.bark_relief import Relief, albedo, normal_map, roughness_map
+from sketchtree.geometry.bark_young import YOUNG, rachis, young
 from sketchtree.geometry.mesh import Material
 
 _BARKS = {
@@ -39,7 +40,24 @@ def bark_material(name: str, pixels: int = 512) -> Material:
         raise OptionError(f"There is no bark called `{name}`.", remedy=f"Choose one of: {', '.join(_BARKS)}.")
     if not 64 <= pixels <= 4096:
         raise OptionError(f"`pixels` is {pixels}, outside 64 to 4096.", remedy="Choose a size in that range, such as 512.")
-    relief = _BARKS[name](pixels)
+    return _material(f"wood_{name}", _BARKS[name](pixels))
+
+
+@lru_cache(maxsize=32)
+def twig_material(name: str, pixels: int = 256) -> Material:
+    """The smooth skin of young twigs under the bark called `name`, as a material called `wood_<name>_young`."""
+    if name not in YOUNG:
+        raise OptionError(f"There is no bark called `{name}`.", remedy=f"Choose one of: {', '.join(_BARKS)}.")
+    return _material(f"wood_{name}_young", young(pixels, YOUNG[name]))
+
+
+@lru_cache(maxsize=4)
+def rachis_material(pixels: int = 256) -> Material:
+    """The skin of a palm frond's midrib, as a material called `wood_rachis`."""
+    return _material("wood_rachis", rachis(pixels))
+
+
+def _material(name: str, relief: Relief) -> Material:
     textures = {
         "base_color_texture": albedo(relief),
         "normal_texture": normal_map(relief),
@@ -47,4 +65,4 @@ def bark_material(name: str, pixels: int = 512) -> Material:
     }
     for texture in textures.values():
         texture.flags.writeable = False
-    return Material(f"wood_{name}", roughness=1.0, **textures)
+    return Material(name, roughness=1.0, **textures)

@@ -28,10 +28,13 @@ class Chains:
     is_stem: Bool[np.ndarray, " limb"]  # it starts on the ground
 
 
-def chains(tree: TreeSkeleton) -> Chains:
-    """Cut the tree into limbs; every row that is not a base is in exactly one. Limbs stand in the order of their first rows."""
+def chains(tree: TreeSkeleton, apart: Bool[np.ndarray, " segment"] | None = None) -> Chains:
+    """Cut the tree into limbs; every row that is not a base is in exactly one. Limbs stand in the order of their first rows.
+
+    No limb holds rows that are `apart` and rows that are not.
+    """
     parent = tree.parent
-    following = _continuation(tree)
+    following = _continuation(tree, np.zeros(len(tree), bool) if apart is None else apart)
     heads = np.flatnonzero(~tree.is_base)
     heads = heads[(following[parent[heads]] != heads) | tree.is_base[parent[heads]]]
     of_row = np.full(len(tree), NULL)
@@ -48,7 +51,7 @@ def chains(tree: TreeSkeleton) -> Chains:
     return Chains(rows, start, of_row, parent[heads], tree.is_base[parent[heads]])
 
 
-def _continuation(tree: TreeSkeleton) -> Int[np.ndarray, " segment"]:
+def _continuation(tree: TreeSkeleton, apart) -> Int[np.ndarray, " segment"]:
     """The child that carries each row's limb on; NULL at a limb's tip."""
     child = np.flatnonzero(~tree.is_base)
     above = tree.parent[child]
@@ -56,6 +59,7 @@ def _continuation(tree: TreeSkeleton) -> Int[np.ndarray, " segment"]:
     alike = tree.radius[child] / tree.radius[above]
     turn = _cosine(tree.vector[child], tree.vector[above])
     able = same | tree.is_base[above] | ((turn > _STRAIGHT) & (alike >= _ALIKE))
+    able &= (apart[child] == apart[above]) | tree.is_base[above]
     rank = np.lexsort((-turn, -alike, ~same, ~able, above))
     child, above, able = child[rank], above[rank], able[rank]
     best = np.r_[True, np.diff(above) != 0][: len(above)] & able

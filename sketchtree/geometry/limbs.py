@@ -46,6 +46,7 @@ class CentreLines:
     parent_s: Float[np.ndarray, " limb"]  # where on its parent, metres from the parent's foot
     ground: Float[np.ndarray, " limb"]  # metres along a stem where it comes out of the ground; 0 elsewhere
     limb_id: Int[np.ndarray, " limb"]  # the skeleton's 63-bit id
+    first_row: Int[np.ndarray, " limb"]  # the skeleton's row that starts the limb
 
     def __len__(self) -> int:
         return len(self.start) - 1
@@ -85,12 +86,15 @@ class _Knots:
     row: Int[np.ndarray, " knot"]  # whose tip it is; NULL for a drawn point between tips and for underground
 
 
-def centre_lines(tree: TreeSkeleton, underground: float = 0.3) -> CentreLines:
+def centre_lines(
+    tree: TreeSkeleton, underground: float = 0.3, apart: Bool[np.ndarray, " segment"] | None = None
+) -> CentreLines:
     """The line of every limb of the tree. Stems begin `underground` times their radius below the ground.
 
-    Limbs of no length are left out. Lines pass through every row's tip and every drawn point.
+    Limbs of no length are left out. Lines pass through every row's tip and every drawn point. Rows that are `apart`
+    make limbs of their own.
     """
-    cut = chains(tree)
+    cut = chains(tree, apart)
     knots = _knots(tree, cut, underground)
     keep = _distinct(knots, 1e-7 * max(tree.height, 1e-6))
     used = np.flatnonzero(np.bincount(knots.limb[keep], minlength=len(cut.foot)) >= 2 + cut.is_stem)
@@ -132,6 +136,7 @@ def _lines(tree: TreeSkeleton, cut: Chains, used, renumber, knots: _Knots) -> Ce
         parent_s=parent_s,
         ground=ground,
         limb_id=tree.limb[cut.row[cut.start[used]]],
+        first_row=cut.row[cut.start[used]],
     )
 
 

@@ -23,7 +23,7 @@ nothing is thinner than a twig, nor than `_LEAST` of what the model says it take
 from dataclasses import dataclass
 
 import numpy as np
-from jaxtyping import Array, Float, Int, Key
+from jaxtyping import Array, Bool, Float, Int, Key
 
 from sketchtree.errors import OptionError
 from sketchtree.parameters import Habit
@@ -89,14 +89,22 @@ def _one_tree(tips, wood, stem_tips: float, stem_wood: float, ground: float, hab
 def _palm(tree: TreeSkeleton, rows, ground: float, wood, beyond, habit: Habit):
     """A nearly cylindrical trunk up to its last frond; fronds from a slim foot to a twig's tip."""
     y = tree.tip[rows, 1]
-    fronds = sum_to_root(tree.parent, (tree.order > 0).astype(float))[rows]
-    trunk = (tree.order[rows] == 0) & ((fronds > 0) | (fronds.max() == 0))
+    trunk = ~is_frond(tree)[rows]
     rise = (y - y.min()) / max(np.ptp(y[trunk]) if trunk.any() else 1.0, 1e-9)
     stem = ground * (1.0 - _PALM_TAPER * np.clip(rise, 0.0, 1.0))
     longest = max(beyond[~trunk].max(initial=0.0), 1e-9)
     frond = habit.twig_radius * (1.0 + (_FROND_BASE - 1.0) * np.minimum(wood / longest, 1.0))
     radius = np.where(trunk, stem, np.minimum(frond, 0.5 * ground * (1.0 - _PALM_TAPER)))
     return never_thicker(tree.parent, _scatter(len(tree), rows, radius))[rows]
+
+
+def is_frond(tree: TreeSkeleton) -> Bool[np.ndarray, " segment"]:
+    """Rows of a palm that are midribs of fronds: all laterals, and what carries the trunk's limb on above the last of them."""
+    fronds = sum_to_root(tree.parent, (tree.order > 0).astype(float))
+    most = np.zeros(len(tree))
+    for name in np.unique(tree.tree):
+        most[tree.tree == name] = fronds[tree.tree == name].max()
+    return (tree.order > 0) | ((fronds == 0) & (most > 0) & ~tree.is_base)
 
 
 def honour_drawn(

@@ -1,4 +1,4 @@
-"""The wood of a whole tree as one textured mesh."""
+"""The wood of a whole tree as textured meshes."""
 
 from dataclasses import dataclass
 
@@ -6,15 +6,20 @@ import numpy as np
 from jaxtyping import Array, Bool, Float, Int, Key
 
 from sketchtree import keys
-from sketchtree.geometry.bark import bark_material
+from sketchtree.axes import NULL
+from sketchtree.geometry.bark import bark_material, rachis_material, twig_material
 from sketchtree.geometry.collars import collar_tops
 from sketchtree.geometry.detail import Detail
 from sketchtree.geometry.limbs import CentreLines, centre_lines
 from sketchtree.geometry.mesh import Material, Mesh
+from sketchtree.geometry.radii import is_frond
 from sketchtree.geometry.resolution import collar_rings, halvings, sides
 from sketchtree.geometry.rings import Rings, rings
 from sketchtree.geometry.tubes import sweep
+from sketchtree.parameters import Habit
 from sketchtree.skeleton import TreeSkeleton
+
+_YOUNG = 0.012  # metres, radius at its foot of a limb that has no bark yet
 
 
 def wood_mesh(tree: TreeSkeleton, *, bark: str, key: Key[Array, ""], detail: Detail = Detail()) -> Mesh:  # noqa: B008 (frozen)
@@ -27,6 +32,27 @@ def wood_mesh(tree: TreeSkeleton, *, bark: str, key: Key[Array, ""], detail: Det
     material = bark_material(bark)
     plan = plan_wood(tree, centre_lines(tree), detail)
     return swept(plan, np.ones(len(plan.lines), bool), "wood", material, key)
+
+
+def wood_meshes(
+    tree: TreeSkeleton, *, bark: str, habit: Habit, key: Key[Array, ""], detail: Detail = Detail()  # noqa: B008 (frozen)
+) -> tuple[Mesh, ...]:
+    """The same limbs as `wood_mesh`, in up to three meshes: `wood`, which has bark; `wood_twigs`, limbs too young for it;
+    and `wood_rachis`, the midribs of a palm's fronds. `wood` comes first and is always there; the others where there are any.
+
+    `detail.most_triangles` holds for all together. Raises `OptionError` for an unknown bark.
+    """
+    material = bark_material(bark)
+    frond = is_frond(tree) if habit.leaf_arrangement == "frond" else np.zeros(len(tree), bool)
+    plan = plan_wood(tree, centre_lines(tree, apart=frond), detail)
+    lines = plan.lines
+    midrib = frond[lines.first_row]
+    twig = (lines.radius[lines.start[:-1]] < _YOUNG) & (lines.parent != NULL) & ~midrib
+    meshes = [swept(plan, ~(midrib | twig), "wood", material, key)]
+    for name, among, skin in (("wood_twigs", twig, twig_material(bark)), ("wood_rachis", midrib, rachis_material())):
+        if among.any():
+            meshes.append(swept(plan, among, name, skin, key))
+    return tuple(meshes)
 
 
 @dataclass(frozen=True, eq=False)
@@ -43,9 +69,8 @@ class WoodPlan:
 
     @property
     def triangle_count(self) -> int:
-        """Triangles of the mesh, at most: what it costs if no ring halved its sides on the way."""
-        n = (self.side[self.ring.limb] >> self.level)
-        return int(2 * n.sum())
+        """Triangles of the mesh, at most: two for each vertex of the rings."""
+        return int(2 * (self.side[self.ring.limb] >> self.level).sum())
 
 
 def plan_wood(tree: TreeSkeleton, lines: CentreLines, detail: Detail) -> WoodPlan:

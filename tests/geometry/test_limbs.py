@@ -135,3 +135,25 @@ def test_a_tree_without_length_has_no_limbs():
 def test_radius_falls_no_faster_than_the_steepest_taper():
     lines = centre_lines(stick([(0, 0, 0), (0, 1, 0), (0, 1.05, 0), (0, 3, 0)], [0.3, 0.3, 0.05, 0.02]))
     assert (np.diff(lines.radius) / np.diff(lines.s) > -0.26).all()
+
+
+def test_a_tree_with_only_a_base_has_no_line():
+    lines = centre_lines(stick([(0, 0, 0)], 0.1))
+    assert len(lines) == 0 and lines.point.shape == (0, 3) and len(lines.length) == 0 and len(lines.first_row) == 0
+
+
+def test_several_bases_and_nothing_else_have_no_line():
+    assert len(centre_lines(TreeSkeleton.from_columns(np.array([-1, -1]), np.zeros((2, 3)), np.ones(2)))) == 0
+
+
+def test_a_tree_of_one_segment_has_one_line():
+    lines = centre_lines(stick([(0, 0, 0), (0, 2, 0)], 0.1))
+    assert len(lines) == 1 and lines.is_stem[0] and lines.first_row[0] == 1
+    np.testing.assert_allclose(lines.length, 2.03)
+
+
+def test_rows_that_are_apart_make_limbs_of_their_own():
+    tree = stick([(0, y, 0) for y in range(5)], 0.1)
+    lines = centre_lines(tree, apart=np.array([False, False, False, True, True]))
+    np.testing.assert_allclose(lines.length, [2.03, 2.0])
+    np.testing.assert_array_equal(lines.first_row, [1, 3])

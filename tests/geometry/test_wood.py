@@ -8,7 +8,7 @@ from growing import bushy, drawn, fork, stick
 from sketchtree.errors import OptionError
 from sketchtree.geometry.detail import Detail
 from sketchtree.geometry.radii import PipeRadii
-from sketchtree.geometry.wood import wood_mesh
+from sketchtree.geometry.wood import wood_mesh, wood_meshes
 from sketchtree.parameters import Habit
 
 KEY = jax.random.key(0)
@@ -251,6 +251,52 @@ def test_a_tree_without_wood_gives_an_empty_mesh(points):
 
 def test_a_flat_stem_that_hardly_rises_is_meshed():
     assert len(wood(stick([(0, 0, 0), (3, 0, 0)], 0.1)).triangle)
+
+
+def test_young_limbs_have_a_skin_of_their_own_and_nothing_is_lost():
+    tree = TREES["bushy"]
+    whole, (bark, twigs) = wood(tree), wood_meshes(tree, bark="oak", habit=Habit(), key=KEY)
+    assert len(bark.triangle) + len(twigs.triangle) == len(whole.triangle)
+    assert (twigs.name, twigs.material.name) == ("wood_twigs", "wood_oak_young")
+    assert bark.name == "wood" and bark.material.name == "wood_oak"
+    assert np.ptp(twigs.position[:, 1]) < np.ptp(bark.position[:, 1])
+
+
+def palm():
+    trunk = stick([(0, y, 0) for y in range(9)], 1.0, order=np.zeros(9, int))
+    rows = {"parent": [7, 9, 7, 11, 8], "tip": [(1, 8, 0), (2, 8, 0), (-1, 8, 0), (-2, 8, 0), (0, 10, 0)]}
+    fronds = trunk.append(rows | {"radius": np.ones(5), "order": [1, 1, 1, 1, 0], "limb": [1, 1, 2, 2, 0]})
+    return PipeRadii(PALM)(fronds)
+
+
+PALM = Habit(trunk_ratio=0.02, twig_radius=0.009, leaf_arrangement="frond")
+
+
+def test_fronds_and_what_stands_above_the_last_of_them_are_green_midribs():
+    meshes = wood_meshes(palm(), bark="palm", habit=PALM, key=KEY)
+    assert [mesh.name for mesh in meshes] == ["wood", "wood_rachis"]
+    trunk, midribs = meshes
+    assert midribs.material.name == "wood_rachis"
+    assert trunk.position[:, 1].max() < 7.2 and midribs.position[:, 1].max() > 9.9
+    green = midribs.material.base_color_texture.reshape(-1, 3).mean(axis=0)
+    assert green[1] > green[0] > green[2]
+
+
+def test_every_mesh_of_a_palm_is_closed():
+    for mesh in wood_meshes(palm(), bark="palm", habit=PALM, key=KEY):
+        triangle = welded(mesh)
+        edge = np.concatenate([triangle[:, [0, 1]], triangle[:, [1, 2]], triangle[:, [2, 0]]])
+        assert {tuple(pair) for pair in edge.tolist()} == {tuple(pair) for pair in edge[:, ::-1].tolist()}
+
+
+def test_a_palm_without_fronds_is_all_trunk():
+    tree = stick([(0, y, 0) for y in range(5)], 0.2)
+    assert [mesh.name for mesh in wood_meshes(tree, bark="palm", habit=PALM, key=KEY)] == ["wood"]
+
+
+def test_a_tree_of_one_segment_is_one_tube():
+    tree = stick([(0, 0, 0), (0, 1, 0)], 0.05)
+    assert len(wood(tree).triangle) and len(wood_meshes(tree, bark="oak", habit=Habit(), key=KEY)) == 1
 
 
 def test_unknown_bark_is_named():
