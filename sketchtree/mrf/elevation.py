@@ -6,16 +6,14 @@ tree. The model is `log_posterior`, a step `chains`, what is shown `typical`; Θ
 One step of this solver is a block of 40 chain steps at one temperature, so that a bucket needs one small program.
 """
 
-from typing import NamedTuple
+from typing import Any, NamedTuple
 
 import jax
 import numpy as np
-import optimistix
 from jaxtyping import Array, Float, Key
 
 from sketchtree.keys import normal
 from sketchtree.mrf import chains
-from sketchtree.mrf.ascend import ascend
 from sketchtree.mrf.chains import Chains
 from sketchtree.mrf.compilation import compiled
 from sketchtree.mrf.factor_graph import FactorGraph
@@ -71,7 +69,7 @@ class Elevation(AbstractSolver):
     burn: tuple[float, ...] = (3.0, 1.7, 1.0)  # temperature of each block
     keep: int = 5  # blocks at temperature 1 whose states are samples
     cool: tuple[float, ...] = (0.4, 0.1, 0.02, 1e-4)
-    polish: optimistix.AbstractMinimiser | None = None  # after cooling; costs a second program
+    polish: Any = None  # an `optimistix.AbstractMinimiser` to run after cooling; costs a second program
 
     @property
     def name(self) -> str:
@@ -152,6 +150,8 @@ class Elevation(AbstractSolver):
         return compiled(chains.run, *arguments, name="chains"), arguments
 
     def _polished(self, graph: FactorGraph, state: State) -> State:
+        from sketchtree.mrf.ascend import ascend  # takes longer to import than most drawings to solve
+
         best, value = ascend(state.posterior, state.best, self.polish)
         return state._replace(best=best, best_value=value) if value > state.best_value else state
 

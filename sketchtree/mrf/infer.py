@@ -12,6 +12,7 @@ import numpy as np
 from jaxtyping import Array, Float, Key
 
 from sketchtree.errors import InferenceError
+from sketchtree.keys import stage_key
 from sketchtree.mrf.factor_graph import FactorGraph
 from sketchtree.mrf.measure import measured_theta
 from sketchtree.mrf.prior import Prior
@@ -52,8 +53,8 @@ def infer(
     limit = solver.default_steps if max_steps is None else max_steps
     solver.compile(graph, prior)
     clock = time.perf_counter()
-    init_key, step_key = jax.random.split(key)
-    state = solver.init(graph, prior, init_key)
+    state = solver.init(graph, prior, stage_key(key, "init"))
+    step_key = stage_key(key, "step")
     rows, steps = [], 0
     while steps < limit and not solver.terminate(graph, prior, state):
         state, info = solver.step(graph, prior, state, jax.random.fold_in(step_key, steps))

@@ -1,7 +1,10 @@
 """Programs are compiled once a shape, and kept on disk between runs."""
 
+from typing import NamedTuple
+
 import jax
 import numpy as np
+import pytest
 
 from sketchtree.mrf import compilation
 from sketchtree.mrf.compilation import compiled
@@ -37,5 +40,65 @@ def test_without_a_writable_folder_nothing_is_kept(monkeypatch, tmp_path):
         jax.config.update("jax_compilation_cache_dir", None)
         compilation._use_disk_cache()
         assert jax.config.jax_compilation_cache_dir is None
+    finally:
+        jax.config.update("jax_compilation_cache_dir", before)
+
+
+@pytest.fixture
+def kept(tmp_path, monkeypatch):
+    """A folder of its own, and a memory that forgets."""
+    before = jax.config.jax_compilation_cache_dir
+    jax.config.update("jax_compilation_cache_dir", str(tmp_path))
+    monkeypatch.setattr(compilation, "_PROGRAMS", {})
+    yield tmp_path / "programs"
+    jax.config.update("jax_compilation_cache_dir", before)
+
+
+class Pair(NamedTuple):
+    """A result with names."""
+
+    half: np.ndarray
+    twice: np.ndarray
+
+
+def test_another_process_finds_the_program_without_tracing(kept):
+    traced = []
+
+    def both(x):
+        traced.append(1)
+        return Pair(x / 2, 2 * x)
+
+    x = np.arange(5, dtype=np.float32)
+    made = compiled(both, x, name="both")(x)
+    compilation._PROGRAMS.clear()
+    found = compiled(both, x, name="both")(x)
+    assert len(traced) == len(list(kept.glob("*.pickle"))) == 1
+    assert isinstance(found, Pair)
+    for a, b in zip(made, found, strict=True):
+        np.testing.assert_array_equal(a, b)
+
+
+def test_a_torn_file_is_made_anew(kept):
+    x = np.arange(5, dtype=np.float32)
+    compiled(_double, x, name="double")
+    (file,) = kept.glob("*.pickle")
+    whole = file.read_bytes()
+    file.write_bytes(whole[: len(whole) // 2])
+    compilation._PROGRAMS.clear()
+    np.testing.assert_array_equal(compiled(_double, x, name="double")(x), 2 * x)
+    assert len(file.read_bytes()) > len(whole) // 2
+
+
+def test_another_version_looks_for_another_file(kept, monkeypatch):
+    here = compilation._path("double")
+    monkeypatch.setattr(compilation, "_surroundings", lambda: "jax of tomorrow")
+    assert compilation._path("double") != here
+
+
+def test_without_a_folder_no_program_is_kept(monkeypatch):
+    before = jax.config.jax_compilation_cache_dir
+    try:
+        jax.config.update("jax_compilation_cache_dir", None)
+        assert compilation._path("double") is None
     finally:
         jax.config.update("jax_compilation_cache_dir", before)
