@@ -15,6 +15,7 @@ First only one stroke may stand on the ground (all are forbidden alike): its foo
 from dataclasses import dataclass
 
 import numpy as np
+import shapely
 from jaxtyping import Bool, Float, Int
 
 from sketchtree.axes import NULL
@@ -124,9 +125,11 @@ def _alternatives(tail, head, cost, chosen, count: int) -> tuple:
 
 def _rising(lines: list[Line], height: float) -> tuple[Float[np.ndarray, "line 2"], Float[np.ndarray, "line 2"]]:
     """(cosine with the vertical of each line leaving each end, height of that end)."""
-    reach = [min(2 * REACH * height, 0.5 * line.length) for line in lines]
-    first = np.array([line.at(r) - line.points[0] for line, r in zip(lines, reach, strict=True)])
-    last = np.array([line.at(line.length - r) - line.points[-1] for line, r in zip(lines, reach, strict=True)])
+    shapes, length = np.array([line.shape for line in lines], object), np.array([line.length for line in lines])
+    reach = np.minimum(2 * REACH * height, 0.5 * length)
+    inner = [shapely.get_coordinates(shapely.line_interpolate_point(shapes, s)) for s in (reach, length - reach)]
+    first = inner[0] - [line.points[0] for line in lines]
+    last = inner[1] - [line.points[-1] for line in lines]
     y = np.array([[line.points[0, 1], line.points[-1, 1]] for line in lines])
     return np.stack([unit(first)[:, 1], unit(last)[:, 1]], 1), y
 

@@ -11,8 +11,8 @@ import numpy as np
 import shapely
 from jaxtyping import Float, Int
 
-from sketchtree.sketch.lines import Line, angle_between, extent
-from sketchtree.sketch.tremor import without_tremor
+from sketchtree.sketch.lines import Line, angle_between, extent, turning
+from sketchtree.sketch.tremor import STILL, without_tremor
 from sketchtree.sketch.trunk_edges import trunk_of_edges
 
 DOT = 0.005  # of H: a smaller stroke is a dot
@@ -43,7 +43,8 @@ def clean(lines: list[Line], *, under_crown: bool = False) -> Cleaned:
     kept = [line for line in lines if float(np.ptp(line.points, axis=0).max()) >= DOT * height]
     kept_ids = {line.id for line in kept}
     dots = tuple(line.id for line in lines if line.id not in kept_ids)
-    unfolded = [without_tremor(part, height) for line in kept for part in _unfold(line, height)]
+    unfolded = [part for line, turn in zip(kept, turning(kept), strict=True) for part in (_unfold(line, height) if turn > CUSP else [line])]
+    unfolded = [without_tremor(line, height) if turn > STILL else line for line, turn in zip(unfolded, turning(unfolded), strict=True)]
     ordered = sorted((_upward(line) for line in unfolded), key=lambda line: _rank(line, height))
     owner = _owners(ordered, height)
     merged = [(line, ordered[o].row, AGAIN_OVER) for line, o in zip(ordered, owner, strict=True) if o >= 0]

@@ -61,10 +61,8 @@ def limbs_of(lines: list[Line], hanging: Hanging) -> list[Limb]:
 def _meet(lines: list[Line], parent, s, height: float) -> tuple[list[Line], Float[np.ndarray, " line"]]:
     """Cut overshoots and find the meeting points. Lengths on a line whose foot was cut count from the cut."""
     met, place, cut = list(lines), s.copy(), np.zeros(len(lines))
-    for k, line in enumerate(lines):
-        if parent[k] == NULL:
-            continue
-        shape = lines[parent[k]].shape
+    for k in _crossed(lines, parent, height):
+        line, shape = lines[k], lines[parent[k]].shape
         crossing = _last_crossing(line, shape, height)
         if crossing is not None:
             cut[k] = crossing
@@ -73,6 +71,22 @@ def _meet(lines: list[Line], parent, s, height: float) -> tuple[list[Line], Floa
     inner = parent != NULL
     place[inner] = np.maximum(place[inner] - cut[parent[inner]], 0.0)
     return met, place
+
+
+def _crossed(lines: list[Line], parent, height: float) -> list[int]:
+    """The lines that meet their parent within an overshoot of their foot."""
+    child = np.flatnonzero(parent != NULL)
+    if len(child) == 0:
+        return []
+    feet = []
+    for line in (lines[k] for k in child):
+        reach = min(OVERSHOOT * height, 0.3 * line.length)
+        count = int(np.searchsorted(line.along, reach, side="right"))
+        feet.append(np.concatenate([line.points[:count], line.at(np.array([reach]))]))
+    index = np.repeat(np.arange(len(feet)), [len(points) for points in feet])
+    shapes = np.array([line.shape for line in lines], object)
+    near = shapely.dwithin(shapely.linestrings(np.concatenate(feet), indices=index), shapes[parent[child]], 1e-9 * height)
+    return child[near].tolist()
 
 
 def _last_crossing(line: Line, shape: shapely.LineString, height: float) -> float | None:

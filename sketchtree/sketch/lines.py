@@ -22,7 +22,9 @@ class Line:
     def along(self) -> Float[np.ndarray, " point"]:
         """Length of the line up to each point."""
         step = self.points[1:] - self.points[:-1]
-        return np.concatenate([[0.0], np.cumsum(np.hypot(step[:, 0], step[:, 1]))])
+        along = np.zeros(len(self.points))
+        np.cumsum(np.hypot(step[:, 0], step[:, 1]), out=along[1:])
+        return along
 
     @cached_property
     def length(self) -> float:
@@ -36,7 +38,10 @@ class Line:
 
     def at(self, s) -> Float[np.ndarray, "*s 2"]:
         """The point(s) at length `s`."""
-        return np.stack([np.interp(s, self.along, self.points[:, axis]) for axis in (0, 1)], -1)
+        point = np.empty((*np.shape(s), 2))
+        for axis in (0, 1):
+            point[..., axis] = np.interp(s, self.along, self.points[:, axis])
+        return point
 
     def direction(self, s: float, reach: float) -> Float[np.ndarray, " 2"]:
         """Unit direction at `s`, taken over `reach` to either side as far as the line goes."""
@@ -49,9 +54,20 @@ class Line:
     def cut(self, low: float, high: float) -> "Line":
         """The part between two lengths (low < high)."""
         inner = (self.along > low) & (self.along < high)
-        s = np.r_[low, self.along[inner], high]
-        points = np.concatenate([self.at(low)[None], self.points[inner], self.at(high)[None]])
+        s = np.concatenate([[low], self.along[inner], [high]])
+        points = np.concatenate([self.at(s[:1]), self.points[inner], self.at(s[-1:])])
         return dataclasses.replace(self, points=points, width=np.interp(s, self.along, self.width))
+
+
+def turning(lines: list[Line]) -> Float[np.ndarray, " line"]:
+    """How much every line turns in all, radians: the sum of its angles from one piece to the next."""
+    points = np.concatenate([line.points for line in lines])
+    first = np.cumsum([0] + [len(line.points) for line in lines])
+    step = np.diff(points, axis=0)
+    angle = np.zeros(len(points))
+    angle[1:-1] = angle_between(step[:-1], step[1:])
+    angle[first[:-1]] = angle[first[1:] - 1] = 0.0
+    return np.add.reduceat(angle, first[:-1])
 
 
 def unit(vector: Float[np.ndarray, "*row 2"]) -> Float[np.ndarray, "*row 2"]:

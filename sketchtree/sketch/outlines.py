@@ -17,6 +17,9 @@ from sketchtree.sketch.transforms import length
 
 CIRCLE = 0.5522847498307936  # control arm of a quarter circle, by its radius
 _NUMBER = re.compile(r"[-+]?(?:\d+\.?\d*|\.\d+)(?:[eE][-+]?\d+)?|[a-zA-Z]+")
+_CURVED = re.compile(r"[^MmLlZz0-9eE+\-., \t\r\n]")
+_RUN = re.compile(r"[MmLlZz]|[^MmLlZz]+")
+_MISSING = "its path data can't be understood (a number is missing)"
 _NOT_FINITE = re.compile(r"nan|inf", re.IGNORECASE)
 
 
@@ -80,6 +83,8 @@ def flatten(cubics: Float[np.ndarray, "piece 4 2"], tolerance: float) -> tuple[F
 def _path(data: str) -> list[Subpath]:
     if _NOT_FINITE.search(data):
         raise ValueError("a coordinate is not a finite number")
+    if data and not _CURVED.search(data):
+        return _straight_runs(data)
     found: list[Subpath] = []
     start, pieces = None, []
 
@@ -106,6 +111,46 @@ def _path(data: str) -> list[Subpath]:
     if pieces or not found:
         finish(False)
     return found
+
+
+def _straight_runs(data: str) -> list[Subpath]:
+    """A path of moves, straight lines and closings alone, run by run: what most drawn strokes are."""
+    found: list[Subpath] = []
+    here, run, command, waiting = np.zeros(2), None, "", False
+    for token in _RUN.findall(data):
+        if waiting and token.isalpha():
+            raise ValueError(_MISSING)
+        if token in "Zz":
+            if run is None:
+                raise ValueError("its path data do not begin with a move")
+            found.append(_lines(np.concatenate(run), True))
+            here, run, command = run[0][0], [run[0][:1]], token
+        elif token in "MmLl":
+            command, waiting = token, True
+        elif token.strip(" \t\r\n,"):
+            points = _pairs_of(token, command)
+            if command.islower():
+                points = here + np.cumsum(points, axis=0)
+            if command in "Mm":
+                if run is not None and (len(run) > 1 or len(run[0]) > 1 or not found):
+                    found.append(_lines(np.concatenate(run), False))
+                run = []
+            elif run is None:
+                raise ValueError("its path data do not begin with a move")
+            run.append(points)
+            here, waiting = points[-1], False
+    if waiting:
+        raise ValueError(_MISSING)
+    if run and (len(run) > 1 or len(run[0]) > 1 or not found):
+        found.append(_lines(np.concatenate(run), False))
+    return found
+
+
+def _pairs_of(text: str, command: str) -> Float[np.ndarray, "point 2"]:
+    numbers = np.array(_NUMBER.findall(text), float)
+    if command not in ("M", "m", "L", "l") or len(numbers) % 2:
+        raise ValueError(_MISSING)
+    return numbers.reshape(-1, 2)
 
 
 def _cubics(segment) -> list:

@@ -15,6 +15,7 @@ from sketchtree.sketch.lines import Line
 
 REACH = 0.015  # R, of H, along the trembling line
 SHORTENS = 0.1  # of its length
+STILL = 2 * float(np.arccos(1 - SHORTENS))  # radians: a line that turns less in all is too straight to be shortened so
 _TAPS = np.linspace(-1, 1, 13)[1:-1]
 _WEIGHTS = np.cos(np.pi * _TAPS / 2) ** 2 / np.sum(np.cos(np.pi * _TAPS / 2) ** 2)
 
