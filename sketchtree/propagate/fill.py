@@ -7,6 +7,10 @@ volume (the Halton sequence, so that they are the same in every run); those fart
 
 from every node are empty. A near node that may still bear a lateral grows one towards each, as long as the
 way there; its laterals and theirs follow by blocks as everywhere. Rounds of this go on until no point is empty.
+
+A crown of which more than `HOLLOW` is farther than `HOLLOW_GAP` spacings from all wood is *hollow*: a sketch of a trunk in an
+outline, or of limbs that lie far apart in depth. It is filled unasked, less densely, unless the user drew both the
+crown and the limbs in it.
 """
 
 import numpy as np
@@ -21,6 +25,8 @@ from sketchtree.propagate.open_branch import OpenBranches, polar, turn
 
 ROUNDS = 6  # at most
 GAP = 1.6  # spacings of laterals
+HOLLOW, HOLLOW_GAP = 0.15, 2.5
+HOLLOW_ROUNDS, COARSE_GAP = 4, 2.0  # rounds in a hollow crown, and its gap in spacings of laterals
 _POINTS = 30_000  # at most, over the crown's bounding box
 _NEAR = 6  # nodes of which one grows towards a point
 _WIDEST = np.radians(110.0)  # from a limb: towards points behind it nothing grows
@@ -30,15 +36,38 @@ def empty_points(
     envelope: Envelope, tips: Float[np.ndarray, "node 3"], gap: float
 ) -> Float[np.ndarray, "point 3"]:
     """Points inside the envelope that are farther than `gap` metres from every tip."""
+    point = _spread(envelope, gap)
+    return point[_empty(point, tips, gap)]
+
+
+def emptiness(envelope: Envelope, tips: Float[np.ndarray, "node 3"], gap: float) -> float:
+    """The share of the envelope's volume that is farther than `gap` metres from every tip."""
+    point = _spread(envelope, gap)
+    return float(np.mean(_empty(point, tips, gap))) if len(point) else 0.0
+
+
+def halton(count: int) -> Float[np.ndarray, "point 3"]:
+    """The first points of Halton's sequence in bases 2, 3 and 5: digits of k mirrored at the point, Σ_i d_i b^(−i−1)."""
+    cube = np.zeros((count, 3))
+    for axis, base in enumerate((2, 3, 5)):
+        left, scale = np.arange(count), 1.0
+        while left.any():
+            scale /= base
+            cube[:, axis] += scale * (left % base)
+            left = left // base
+    return cube
+
+
+def _spread(envelope, gap):
     low, high = envelope.bounds
     count = int(np.clip(4.0 * np.prod(high - low) / gap**3, 64, _POINTS))
-    from scipy.stats import qmc  # half a second to import, and only `fill` needs it
+    point = low + halton(count) * (high - low)
+    return point[envelope.inside(point)]
 
-    cube = qmc.Halton(3, scramble=False).random(count)
-    point = low + cube * (high - low)
-    point = point[envelope.inside(point)]
+
+def _empty(point, tips, gap):
     distance, _ = cKDTree(tips).query(point, distance_upper_bound=gap)
-    return point[np.isinf(distance)]
+    return np.isinf(distance)
 
 
 def towards(

@@ -4,7 +4,7 @@ Chen et al. 2008, §6. Generation 0 is the drawing. In every further one all ope
 length at once, node by node along replication blocks; the laterals of those blocks are the open branches of the
 next. Each generation is one set of array operations, linear in the segments it makes.
 
-Growth ends with the generations asked for, at the habit's deepest order, at branches as short as its twigs,
+A crown that is still hollow then is filled by a few rounds more (`fill`). Growth ends with the generations asked for, at the habit's deepest order, at branches as short as its twigs,
 at the crown's surface, or at `max_segments`.
 """
 
@@ -15,13 +15,12 @@ from jaxtyping import Array, Int, Key
 
 from sketchtree.errors import OptionError
 from sketchtree.parameters import Habit, TreeParameters
-from sketchtree.propagate.fill import GAP, ROUNDS
+from sketchtree.propagate.fill import COARSE_GAP, GAP, HOLLOW_ROUNDS, ROUNDS
 from sketchtree.propagate.growing import Growing, to_scale
 from sketchtree.skeleton import TreeSkeleton
 
 GENERATIONS = 5  # without a crown (Chen §6)
-CROWN_GENERATIONS = 12  # with one, at most
-LED_ROUNDS, LED_GAP = 4, 2.0  # rounds of filling, and gaps in spacings of laterals, in a crown drawn around nothing
+CROWN_GENERATIONS = 12  # with one, or where a hollow one is filled, at most
 
 
 @dataclass(frozen=True, eq=False)
@@ -84,10 +83,13 @@ def propagate(
         return Propagation(tree, np.zeros(len(tree), int), np.arange(len(tree)), 0, "generations", ())
     growing = Growing(tree, to_scale(habit, tree, crown), theta, exemplar, crown, max_segments, key)
     growing.run(limit)
-    rounds, gap = (ROUNDS, GAP) if fill else (LED_ROUNDS if growing.leaders else 0, LED_GAP)
-    for round_ in range(rounds):
-        if not growing.fill(round_, limit, gap):
-            break
+    limit = CROWN_GENERATIONS if generations is None else limit
+    gaps = HOLLOW_ROUNDS * [COARSE_GAP] if growing.is_hollow() else []
+    gaps = gaps[: 1 if fill else None] + (ROUNDS * [GAP] if fill else [])
+    for round_, gap in enumerate(gaps):
+        growing.fill(round_, limit, gap)
+    if gaps:
+        growing.run(limit)
     ended = "habit" if growing.stopped_by == "generations" and len(growing.open) == 0 else growing.stopped_by
     return Propagation(
         skeleton=growing.skeleton(),

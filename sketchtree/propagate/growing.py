@@ -19,7 +19,7 @@ from sketchtree.propagate.attach_block import MINIMUM_LENGTH, Nodes, attach
 from sketchtree.propagate.block import blocks_of, blocks_of_parameters
 from sketchtree.propagate.drawn import BEARING, DrawnLaterals, bare_length, drawn_nodes, implied_crown, open_tips, rank_of_drawn
 from sketchtree.propagate.envelope import Envelope
-from sketchtree.propagate.fill import GAP, empty_points, towards
+from sketchtree.propagate.fill import GAP, HOLLOW, HOLLOW_GAP, emptiness, empty_points, towards
 from sketchtree.propagate.gaps import into_gaps
 from sketchtree.propagate.laterals import split_long
 from sketchtree.propagate.leaders import leaders
@@ -33,6 +33,8 @@ _BARE_NODES = 8  # about, of a limb that bears none: enough for its curve
 _TRUNK_SPACING = 1.6  # of the habit's spacing of laterals
 _CLOSER = 0.55  # times the habit's spacing, nodes lie closer than on the exemplar, which is a skeleton without its twigs
 _SPARSEST = 4.0  # times the habit's spacing, at most
+_ROUND = 2  # generations of one round of filling; what is then still open grows on in the next
+_DRAWN_NODES = 5  # of a drawn limb, at least, if that is not closer than the habit's spacing
 _LARGEST_SCALE = 1.25  # of a habit's lengths: a larger tree has more twigs, not larger ones
 _LIKE_BLOCK = 1.5  # times the length its block says, a new limb on the trunk is no longer than that
 _PRESSES = 1.08  # times its straight way to the crown: a branch that bends still meets the surface
@@ -61,12 +63,16 @@ class Growing:
 
     def _split(self, tree):
         arc, whole = limb_arcs(tree)
-        self.spacing = self._spacing(tree.order, whole)
+        self.spacing = self._drawn_spacing(tree.order, whole)
         bears = (tree.order < self.habit.max_order) & (arc > bare_length(tree, self.library, self.envelope))
         split = split_long(tree, self.spacing, bears)
         _, whole = limb_arcs(split.tree)
-        self.spacing = self._spacing(split.tree.order, whole)
+        self.spacing = self._drawn_spacing(split.tree.order, whole)
         return split
+
+    def _drawn_spacing(self, order, whole):
+        """As `_spacing`, but a drawn limb that bears has `_DRAWN_NODES` nodes or more, as close as the habit's."""
+        return np.minimum(self._spacing(order, whole), np.maximum(whole / _DRAWN_NODES, self.habit.lateral_spacing))
 
     def _lead(self):
         """The limbs that go on into a crown which the drawing left empty: the first generation, if there are any."""
@@ -125,18 +131,33 @@ class Growing:
         False where nothing is, or no more may be grown."""
         if self.envelope is None or self.done >= limit or self.stopped_by == "max_segments":
             return False
+        nodes = self._nodes()
+        empty = empty_points(self.envelope, nodes.tip, gap * self.habit.lateral_spacing)
+        bears = (nodes.order < self.habit.max_order) & self.envelope.inside(nodes.tip)
+        self.open = self.open.join(towards(empty, nodes.select(bears), self.habit, round_, self.key))
+        before = self.rows
+        self.run(min(limit, self.done + _ROUND))
+        return self.rows > before
+
+    def is_hollow(self) -> bool:
+        """Whether much of the crown is still empty: of an implied one, or of one drawn around next to nothing. Limbs
+        drawn into a crown say themselves where it is full; what grows from each is then its own alone."""
+        if self.envelope is None or self.habit.max_order < 2 or (self.envelope.binding and not self.leaders):
+            return False
+        wood = np.concatenate([self.drawn.tree.tip] + [part.tip for part, _ in self.parts])
+        return emptiness(self.envelope, wood, HOLLOW_GAP * self.habit.lateral_spacing) > HOLLOW
+
+    def _nodes(self) -> Nodes:
+        """All nodes that may bear laterals."""
         nodes = self.drawn_nodes
         for part, _ in self.parts:
             nodes = nodes.join(part)
-        empty = empty_points(self.envelope, nodes.tip, gap * self.habit.lateral_spacing)
-        bears = (nodes.order < self.habit.max_order) & self.envelope.inside(nodes.tip)
-        self.open = towards(empty, nodes.select(bears), self.habit, round_, self.key)
-        before = self.rows
-        self.run(limit)
-        return self.rows > before
+        return nodes
 
     def generation(self) -> bool:
         """Grow all open branches; False where there was nothing to grow."""
+        if self.stopped_by == "max_segments":
+            return False
         if len(self.open) == 0:
             self.stopped_by = "habit"
             return False

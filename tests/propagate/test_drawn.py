@@ -5,7 +5,7 @@ from worlds import HABIT, THETA, circle, drawn_tree
 
 from sketchtree import keys
 from sketchtree.propagate.block import blocks_of, blocks_of_parameters
-from sketchtree.propagate.drawn import DrawnLaterals, bare_length, drawn_nodes, implied_crown, open_tips
+from sketchtree.propagate.drawn import BEARING, DrawnLaterals, bare_length, drawn_nodes, implied_crown, open_tips, rank_of_drawn
 from sketchtree.propagate.envelope import Envelope
 from sketchtree.propagate.laterals import split_long
 from sketchtree.propagate.library import library
@@ -114,3 +114,18 @@ def test_a_weeping_habit_reaches_the_ground():
 def test_trunks_and_palms_imply_no_crown():
     assert implied_crown(drawn_tree(0), HABIT) is None
     assert implied_crown(drawn_tree(8), dataclasses.replace(HABIT, max_order=1)) is None
+
+
+def test_a_long_limb_bears_however_many_forks_lie_below_it():
+    tree = drawn_tree(4)
+    deep = tree.replace(order=np.where(tree.order > 0, 9, 0))
+    _, whole = limb_arcs(deep)
+    rank = rank_of_drawn(deep, HABIT)
+    long_ = (deep.order > 0) & (whole >= BEARING * HABIT.twig_length)
+    assert long_.any() and (rank[long_] < HABIT.max_order).all() and (rank[long_] >= 1).all()
+    assert (rank[deep.order == 0] == 0).all()
+
+
+def test_a_limb_within_the_habits_orders_grows_by_its_own():
+    tree = drawn_tree(4)
+    np.testing.assert_array_equal(rank_of_drawn(tree, HABIT), tree.order)

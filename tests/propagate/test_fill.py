@@ -5,8 +5,9 @@ from scipy.spatial import cKDTree
 from worlds import HABIT, THETA, circle, drawn_tree
 
 from sketchtree import keys
+from sketchtree.propagate.drawn import implied_crown
 from sketchtree.propagate.envelope import Envelope
-from sketchtree.propagate.fill import GAP, empty_points
+from sketchtree.propagate.fill import GAP, HOLLOW, HOLLOW_GAP, emptiness, empty_points, halton
 from sketchtree.propagate.generations import propagate
 
 KEY = keys.root_key(0)
@@ -52,3 +53,16 @@ def test_filling_keeps_to_the_limit_of_segments():
 def test_filling_the_same_crown_twice_grows_the_same_tree():
     one, two = (propagate(drawn_tree(3), HABIT, THETA, crown=CROWN, fill=True, key=KEY).skeleton for _ in range(2))
     np.testing.assert_array_equal(one.tip, two.tip)
+
+
+def test_halton_mirrors_the_digits_of_the_counter():
+    np.testing.assert_allclose(halton(4), [[0, 0, 0], [1 / 2, 1 / 3, 1 / 5], [1 / 4, 2 / 3, 2 / 5], [3 / 4, 1 / 9, 3 / 5]])
+
+
+def test_a_drawing_of_few_limbs_without_a_crown_is_not_left_hollow():
+    tree = drawn_tree(3)
+    result = propagate(tree, HABIT, THETA, key=KEY)
+    scaled = HOLLOW_GAP * HABIT.lateral_spacing * tree.height / HABIT.height
+    crown = implied_crown(tree, HABIT)
+    assert emptiness(crown, tree.tip, scaled) > HOLLOW
+    assert emptiness(crown, result.skeleton.tip, scaled) < HOLLOW

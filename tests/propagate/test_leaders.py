@@ -42,7 +42,7 @@ def test_a_trunk_below_or_barely_in_a_crown_fills_it(tree):
     point = rng.uniform(-1, 1, (4000, 3))
     point = 2.6 * point[np.linalg.norm(point, axis=1) < 1] + [0, 7.0, 0]
     gap = np.linalg.norm(point[:, None] - result.skeleton.tip[None], axis=2).min(axis=1)
-    assert np.quantile(gap, 0.95) < 2.6 * HABIT.lateral_spacing
+    assert np.quantile(gap, 0.95) < 2.8 * HABIT.lateral_spacing
 
 
 def test_the_drawn_rows_stay_and_the_trunk_goes_on_as_the_same_limb():
@@ -81,7 +81,7 @@ def test_an_excurrent_leader_ends_higher_than_a_decurrent_one():
         envelope = Envelope.from_outlines((circle(y=7.0, radius=3.0),))
         found = leaders(tree, envelope, habit, np.full(len(tree), 0.4), KEY, most=1000)
         ends.append(found.nodes.tip[-1, 1])
-    assert ends[0] < 8.5 < 9.2 < ends[1] < 10.0
+    assert ends[0] < 8.5 and 9.2 < ends[1] < 10.0
 
 
 def test_a_crown_with_drawn_limbs_in_it_has_no_leader():
