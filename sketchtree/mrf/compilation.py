@@ -1,8 +1,8 @@
 """Compile each program once: in memory per bucket, and on disk between runs.
 
-Two caches lie in the user's cache folder (or in `JAX_COMPILATION_CACHE_DIR`): jax's own, which still has to trace a
-program before it can find it, and beside it the finished programs of this module, which are found by name, shapes,
-source text, versions and processor, and need no tracing. Where the folder can't be written or a file in it can't be
+Finished programs lie in the user's cache folder (or in `JAX_COMPILATION_CACHE_DIR`), found by name, shapes, source text,
+versions and processor, so that they need no tracing; jax's own cache beside them has to trace a program before it can
+find it, and serves the small ones. Where the folder can't be written or a file in it can't be
 used, programs are compiled anew and nothing else changes.
 """
 
@@ -12,9 +12,10 @@ import os
 import pickle
 import platform
 from collections.abc import Callable
-from functools import cache
+from contextlib import contextmanager
+from functools import cache, partial
 from pathlib import Path
-from typing import Any, NamedTuple
+from typing import Any
 
 import jax
 from jax.experimental import serialize_executable
@@ -22,15 +23,28 @@ from jax.experimental.compilation_cache import compilation_cache
 from platformdirs import user_cache_dir
 
 
-class Program(NamedTuple):
-    """A compiled function of columns."""
+class Program:
+    """A compiled function of columns. One that was found on disk proves itself on its first run."""
 
-    run: Callable  # leaves → leaves
-    result: Any  # the pytree of a result, with the leaves' numbers in their places
+    def __init__(self, run: Callable, result: Any, remake: Callable[[], "Program"] | None = None):
+        self.run = run  # leaves → leaves
+        self.result = result  # the pytree of a result, with the leaves' numbers in their places
+        self._remake = remake
 
     def __call__(self, *arguments):
-        leaves = self.run(*jax.tree.leaves(arguments))
+        columns = jax.tree.leaves(arguments)
+        leaves = self.run(*columns) if self._remake is None else self._first_run(columns)
         return jax.tree.map(lambda k: leaves[k], self.result)
+
+    def _first_run(self, columns):
+        try:
+            leaves = jax.block_until_ready(self.run(*columns))
+        except jax.errors.JaxRuntimeError:  # it was read, but does not work here
+            made = self._remake()
+            self.run, self.result = made.run, made.result
+            leaves = self.run(*columns)
+        self._remake = None
+        return leaves
 
 
 _PROGRAMS: dict[tuple, Program] = {}
@@ -44,32 +58,46 @@ def compiled(function: Callable, *arguments, name: str) -> Program:
     if key not in _PROGRAMS:
         _use_disk_cache()
         path = _path(f"{name} {structure} {shapes} {jax.config.jax_enable_x64}")
-        _PROGRAMS[key] = _read(path, len(leaves)) or _make(function, leaves, structure, path)
+        columns = [jax.ShapeDtypeStruct(leaf.shape, leaf.dtype) for leaf in leaves]
+        make = partial(_make, function, columns, structure, path)
+        _PROGRAMS[key] = _read(path, len(leaves), make) or make()
     return _PROGRAMS[key]
 
 
-def _make(function, leaves, structure, path: Path | None) -> Program:
+def _make(function, columns, structure, path: Path | None) -> Program:
     found = {}
 
-    def flat(*columns):
-        result, found["structure"] = jax.tree_util.tree_flatten(function(*structure.unflatten(columns)))
+    def flat(*leaves):
+        result, found["structure"] = jax.tree_util.tree_flatten(function(*structure.unflatten(leaves)))
         return tuple(result)
 
-    run = jax.jit(flat).lower(*leaves).compile()
+    with _own_cache_only(path is not None):
+        run = jax.jit(flat).lower(*columns).compile()
     program = Program(run, found["structure"].unflatten(range(found["structure"].num_leaves)))
     if path is not None:
         _write(path, program)
     return program
 
 
-def _read(path: Path | None, count: int) -> Program | None:
-    """The program in this file; None if there is none that runs here."""
+@contextmanager
+def _own_cache_only(needed: bool):
+    """Leave jax's cache out: a program that came from there can't be written a second time."""
+    before = jax.config.jax_enable_compilation_cache
+    jax.config.update("jax_enable_compilation_cache", before and not needed)
+    try:
+        yield
+    finally:
+        jax.config.update("jax_enable_compilation_cache", before)
+
+
+def _read(path: Path | None, count: int, remake: Callable[[], Program]) -> Program | None:
+    """The program in this file; None if there is none that can be read."""
     if path is None or not path.exists():
         return None
     try:
         code, result = pickle.loads(path.read_bytes())
         inside, outside = (jax.tree.structure(tree) for tree in (((0,) * count, {}), (0,) * len(jax.tree.leaves(result))))
-        return Program(serialize_executable.deserialize_and_load(code, inside, outside), result)
+        return Program(serialize_executable.deserialize_and_load(code, inside, outside), result, remake)
     except Exception:  # torn, foreign or outdated: made anew
         return None
 

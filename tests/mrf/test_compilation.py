@@ -102,3 +102,33 @@ def test_without_a_folder_no_program_is_kept(monkeypatch):
         assert compilation._path("double") is None
     finally:
         jax.config.update("jax_compilation_cache_dir", before)
+
+
+def test_a_program_that_does_not_run_is_made_anew(kept):
+    def broken(*leaves):
+        raise jax.errors.JaxRuntimeError("NOT_FOUND")
+
+    x = np.arange(5, dtype=np.float32)
+    made = compiled(_double, x, name="double")
+    found = compilation.Program(broken, made.result, lambda: made)
+    np.testing.assert_array_equal(found(x), 2 * x)
+    np.testing.assert_array_equal(found(x), 2 * x)
+
+
+def test_a_program_from_jax_s_own_cache_is_not_written_again(kept):
+    """Written twice it would lack its functions."""
+    jax.config.update("jax_persistent_cache_min_compile_time_secs", 0.0)
+    jax.config.update("jax_persistent_cache_min_entry_size_bytes", 0)
+    x = np.linspace(0, 1, 3000, dtype=np.float32)
+    for _ in range(2):
+        compilation._PROGRAMS.clear()
+        jax.clear_caches()
+        for file in kept.glob("*.pickle"):
+            file.unlink()
+        made = compiled(_waves, x, name="waves")(x)
+    compilation._PROGRAMS.clear()
+    np.testing.assert_array_equal(compiled(_waves, x, name="waves")(x), made)
+
+
+def _waves(x):
+    return jax.lax.fori_loop(0, 9, lambda _, y: jax.numpy.cumsum(jax.numpy.sin(y) + x), x)
