@@ -32,7 +32,7 @@ CROWN_EXTENSION = 0.5  # of a drawn limb's length, at most, towards the crown
 _PRESSES = 1.08  # times its straight way to the crown: a limb that bends still meets the surface
 _MARGIN = 0.13  # of the smaller side of the drawing's branches
 _MARGIN_TWIGS = 2.0  # twig lengths, at least
-_WEEPING = 30.0  # degrees a metre: with more, twigs hang to the ground
+WEEPING = 30.0  # degrees a metre: with more, twigs hang to the ground
 BEARING = 2.2  # twig lengths: a shorter limb bears no laterals
 _BEGINS = 0.06  # of the trunk's length: a palm's new fronds may start this far below its first drawn one
 _APART = np.cos(np.radians(25.0))  # a new lateral this close to a drawn one's direction is not grown
@@ -130,13 +130,13 @@ def rank_of_drawn(tree: TreeSkeleton, habit: Habit) -> Int[np.ndarray, " segment
     Forks drawn one upon the other give limbs of high orders that are no twigs. A limb as long as one that bears, ℓ_1,
     still bears laterals; with each 1 / lateral_ratio longer, one order more stands between it and the deepest:
 
-        rank = min(order, max(max_order − 1 − ⌊log(ℓ / ℓ_1) / log(1 / lateral_ratio)⌋, 1))        ℓ ≥ ℓ_1
+        rank = min(order, max(max_order − 1 − ⌊log(ℓ / ℓ_1) / log(1 / lateral_ratio)⌋, 2))        ℓ ≥ ℓ_1
     """
     _, whole = limb_arcs(tree)
     times = np.maximum(whole / (BEARING * habit.twig_length), 1e-9)
     more = np.floor(np.log(times) / np.log(1.0 / np.clip(habit.lateral_ratio, 0.2, 0.7)))
-    by_length = np.maximum(habit.max_order - 1 - more, 1).astype(np.int64)
-    return np.where((times >= 1.0) & (habit.max_order > 1), np.minimum(tree.order, by_length), tree.order)
+    by_length = np.maximum(habit.max_order - 1 - more, 2).astype(np.int64)
+    return np.where((times >= 1.0) & (habit.max_order > 2), np.minimum(tree.order, by_length), tree.order)
 
 
 def implied_crown(tree: TreeSkeleton, habit: Habit) -> Envelope | None:
@@ -158,7 +158,7 @@ def implied_crown(tree: TreeSkeleton, habit: Habit) -> Envelope | None:
     turn = np.linspace(0.0, 2 * np.pi, 16, endpoint=False)
     ring = width * np.column_stack([np.cos(turn), np.sin(turn)])
     cloud = (points[:, None, :] + ring[None]).reshape(-1, 2)
-    if habit.gravitropism > _WEEPING:
+    if habit.gravitropism > WEEPING:
         cloud = np.concatenate([cloud, np.column_stack([cloud[:, 0], np.full(len(cloud), tree.tip[tree.is_base, 1].min())])])
     hull = cloud[ConvexHull(cloud).vertices]
     return Envelope((Lobe.from_outline(hull),), binding=False)

@@ -17,7 +17,7 @@ from sketchtree import keys
 from sketchtree.parameters import Habit
 from sketchtree.propagate.attach_block import MINIMUM_LENGTH, Nodes, attach
 from sketchtree.propagate.block import blocks_of, blocks_of_parameters
-from sketchtree.propagate.drawn import BEARING, DrawnLaterals, bare_length, drawn_nodes, implied_crown, open_tips, rank_of_drawn
+from sketchtree.propagate.drawn import BEARING, WEEPING, DrawnLaterals, bare_length, drawn_nodes, implied_crown, open_tips, rank_of_drawn
 from sketchtree.propagate.envelope import Envelope
 from sketchtree.propagate.fill import GAP, HOLLOW, HOLLOW_GAP, emptiness, empty_points, towards
 from sketchtree.propagate.gaps import into_gaps
@@ -29,12 +29,13 @@ from sketchtree.propagate.open_branch import OpenBranches, frames, limb_arcs
 from sketchtree.skeleton import Kind, TreeSkeleton
 from sketchtree.traverse import generations
 
-_BARE_NODES = 8  # about, of a limb that bears none: enough for its curve
+_BARE_NODES = 4  # about, of a limb that bears none: enough for its curve
 _TRUNK_SPACING = 1.6  # of the habit's spacing of laterals
+_WEEPS = 1.2  # times as far apart where limbs hang: whips of neighbouring nodes hang side by side all the way down
 _CLOSER = 0.55  # times the habit's spacing, nodes lie closer than on the exemplar, which is a skeleton without its twigs
 _SPARSEST = 4.0  # times the habit's spacing, at most
 _ROUND = 2  # generations of one round of filling; what is then still open grows on in the next
-_DRAWN_NODES = 5  # of a drawn limb, at least, if that is not closer than the habit's spacing
+_DRAWN_NODES = 4  # of a drawn limb, at least, if that is not closer than the habit's spacing
 _LARGEST_SCALE = 1.25  # of a habit's lengths: a larger tree has more twigs, not larger ones
 _LIKE_BLOCK = 1.5  # times the length its block says, a new limb on the trunk is no longer than that
 _PRESSES = 1.08  # times its straight way to the crown: a branch that bends still meets the surface
@@ -119,7 +120,8 @@ class Growing:
         wide = np.where((order == 0) & (self.habit.arrangement != "whorled"), _TRUNK_SPACING, 1.0) * habit
         lent = self.library.spacing[np.minimum(order, self.habit.max_order)] * self.scale
         lent = np.clip(lent - _CLOSER * habit, habit, _SPARSEST * habit)
-        return np.maximum(np.where(np.isnan(lent), wide, lent), whole / (4 * NODES))
+        apart = _WEEPS if self.habit.gravitropism > WEEPING else 1.0
+        return np.maximum(np.where(np.isnan(lent), wide, lent) * apart, whole / (4 * NODES))
 
     def run(self, limit: int) -> None:
         """Generation after generation, until `limit` of them are done or nothing is open."""
