@@ -14,6 +14,7 @@ from jaxtyping import Bool, Float, Int
 
 from sketchtree.axes import NULL
 from sketchtree.mrf.factor_graph import FactorGraph
+from sketchtree.mrf.frames import least_rotation, local_angles, turn_then_tilt
 from sketchtree.parameters import GENERIC, TreeParameters
 from sketchtree.traverse import generations
 
@@ -52,30 +53,10 @@ def rotations(
     phi, turn = np.zeros(len(parent)), np.zeros(len(parent))
     for rows in generations(parent)[1:]:
         above = parent[rows]
-        local = np.einsum("rki,rk->ri", frame[above], unit[rows])
-        phi[rows] = np.arctan2(np.hypot(local[:, 0], local[:, 2]), local[:, 1])
-        turn[rows] = np.where(phi[rows] > 1e-9, np.arctan2(local[:, 0], local[:, 2]), 0.0)
+        phi[rows], turn[rows] = local_angles(frame[above], unit[rows])
         root = is_base[above]
-        frame[rows[root]] = _least_rotation(unit[rows[root]])
+        frame[rows[root]] = least_rotation(unit[rows[root]])
         child = rows[~root]
-        frame[child] = frame[parent[child]] @ _turn_then_tilt(turn[child], phi[child])
+        frame[child] = frame[parent[child]] @ turn_then_tilt(turn[child], phi[child])
     rows = np.flatnonzero((parent != NULL) & ~is_base[np.maximum(parent, 0)])
     return length[rows] / length[parent[rows]], phi[rows], turn[rows], rows
-
-
-def _turn_then_tilt(turn, tilt):
-    """R_y(turn) R_x(tilt)."""
-    a, b, c, d = np.cos(turn), np.sin(turn), np.cos(tilt), np.sin(tilt)
-    zero = np.zeros_like(a)
-    return np.stack(
-        [np.stack([a, b * d, b * c], -1), np.stack([zero, c, -d], -1), np.stack([-b, a * d, a * c], -1)], -2
-    )
-
-
-def _least_rotation(unit):
-    """The rotations that carry ŷ to these directions through the smallest angle."""
-    x, y, z = unit.T
-    turn = np.arctan2(x, z)
-    about_y = _turn_then_tilt(turn, np.zeros_like(turn))
-    tilt = _turn_then_tilt(np.zeros_like(turn), np.arctan2(np.hypot(x, z), y))
-    return about_y @ tilt @ np.swapaxes(about_y, 1, 2)
