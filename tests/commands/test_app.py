@@ -17,7 +17,7 @@ def test_ctrl_c_ends_with_130_and_leaves_nothing_half_written(tmp_path, capfd, m
     monkeypatch.setattr(pipeline, "complete", interrupted)
     assert run(["build", str(CURVY), "-o", str(tmp_path / "t.glb"), "--method", "flat", "--quiet"]) == 130
     assert list(tmp_path.iterdir()) == []
-    assert capfd.readouterr().err == "sketchtree: stopped; nothing was left half-written.\n"
+    assert capfd.readouterr().err.strip() == "sketchtree: stopped; nothing was left half-written."
 
 
 def test_an_unknown_option_ends_with_2(capfd):
