@@ -11,6 +11,7 @@ import numpy as np
 from jaxtyping import Array, Float, Int, Key
 
 from sketchtree import keys
+from sketchtree.axes import NULL
 from sketchtree.foliage.arrangement import azimuths
 from sketchtree.foliage.twigs import Twigs, level_side
 from sketchtree.foliage.wear import Wear
@@ -18,6 +19,8 @@ from sketchtree.foliage.wear import Wear
 SUNK = 0.85  # a petiole starts at this share of the wood's radius: never afloat
 _YEARLING = 1.5  # above so many twig radii wood is older than a year
 _SHOOT_LEAN = 52.0  # degrees between a twig and its short shoots
+_STRETCH = 1.7  # times as far apart as on a twig, leaves stand on a shoot: it stands for the finest twigs, which spread
+_LONGEST = 0.3  # metres, of a mean short shoot
 _JITTER, _LEAN, _TURN, _LENGTH = 20, 21, 22, 23  # the draws of a node
 
 
@@ -34,9 +37,14 @@ class Buds:
     along: Float[np.ndarray, " leaf"]  # 0-1 from the limb's foot to its tip
     segment: Int[np.ndarray, " leaf"]  # row of the skeleton
     id: Int[np.ndarray, " leaf"]  # 63 bits, from the limb's id and the node
+    shoot: Int[np.ndarray, " leaf"]  # the short shoot it stands on; NULL on a twig
 
     def __len__(self) -> int:
         return len(self.node)
+
+    def select(self, keep) -> "Buds":
+        """Only some of them, by mask or by rows."""
+        return _rows(self, keep)
 
     def followed_by(self, other: "Buds") -> "Buds":
         """These and the others, in this order."""
@@ -86,6 +94,7 @@ def _nodes(pieces: Twigs, limb, wear: Wear, key) -> Buds:
         along=way / pieces.limb_length[piece],
         segment=pieces.row[piece],
         id=ids[free],
+        shoot=np.full(free.sum(), NULL),
     )
 
 
@@ -104,7 +113,7 @@ def _short_shoots(nodes: Buds, wear: Wear, key) -> tuple[Buds, Float[np.ndarray,
     lean = np.radians(_SHOOT_LEAN + 9.0 * keys.normal(key, nodes.id, _LEAN))[:, None]
     tangent = np.cos(lean) * nodes.tangent + np.sin(lean) * outward - 0.35 * wear.model.droop * np.array([0.0, 1.0, 0.0])
     tangent /= np.linalg.norm(tangent, axis=1, keepdims=True)
-    length = wear.model.spur * wear.spacing * (0.7 + 0.6 * keys.uniform(key, nodes.id, _LENGTH))
+    length = min(_STRETCH * wear.model.spur * wear.spacing, _LONGEST) * (0.7 + 0.6 * keys.uniform(key, nodes.id, _LENGTH))
     start = nodes.foot + SUNK * nodes.radius[:, None] * outward
     end = start + length[:, None] * tangent
     of = np.repeat(np.arange(len(nodes)), wear.model.spur)
@@ -120,6 +129,7 @@ def _short_shoots(nodes: Buds, wear: Wear, key) -> tuple[Buds, Float[np.ndarray,
         along=nodes.along[of],
         segment=nodes.segment[of],
         id=keys.child_limb_id(nodes.id[of], rank + 1000),
+        shoot=of,
     )
     return stems, np.stack([start, end], axis=1)
 

@@ -104,7 +104,7 @@ _MODELS = {
             ),
         ),
         LeafModel(
-            "willow", blades.willow, spur=6, every=4, arrangement="spiral", size=0.10, spacing=0.022, inclination=38.0, droop=0.60, fold=9.0, curl=0.16, shoot=6.0,
+            "willow", blades.willow, arrangement="spiral", size=0.10, spacing=0.022, inclination=38.0, droop=0.60, fold=9.0, curl=0.16, shoot=6.0,
             palettes=_seasons(
                 ("#a5b960", "#bac979", "#d2dba2", "#b0aa62"),
                 ("#6a8548", "#9aac6c", "#bcc794", "#a09a58"),

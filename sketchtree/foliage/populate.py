@@ -9,7 +9,8 @@ leaf arrangement." In the frame of the twig or short shoot (t along, r outward a
     α   inclination    δ   droop    g   gravity    L   light
 
 Every random number is tied to (limb id, node), so a new limb leaves the others' leaves as they were.
-Above `max_leaves` an even share of the leaves is kept and grows by 1/√share, so their area stays.
+Above `max_leaves` an even share of the leaves is kept and grows by 1/√share, so their area stays; the leaves of a
+short shoot are kept or left out together, and a shoot without leaves goes too.
 """
 
 from dataclasses import replace
@@ -18,11 +19,12 @@ import numpy as np
 from jaxtyping import Array, Float, Int, Key
 
 from sketchtree import keys
+from sketchtree.axes import NULL
 from sketchtree.errors import OptionError
 from sketchtree.foliage.buds import SUNK, Buds, around, buds
 from sketchtree.foliage.leaves import Leaves
 from sketchtree.foliage.seasons import check_season
-from sketchtree.foliage.twigs import Twigs, leafy, wood_pieces
+from sketchtree.foliage.twigs import Twigs, fronds, leafy, wood_pieces
 from sketchtree.foliage.wear import Wear, wear_of
 from sketchtree.parameters import Habit
 from sketchtree.skeleton import TreeSkeleton
@@ -55,16 +57,27 @@ def populate(
     if season == "bare" or tree.segment_count == 0:
         return Leaves.none(wear.model.name)
     budding, shoots = buds(_leafy_wood(tree, habit, wear), tree.limb, wear, habit.twig_radius, key)
-    leaves, ids = _unfold(tree, budding, shoots, wear, season, key), budding.id
+    leaves, unit = _unfold(tree, budding, shoots, wear, season, key), _units(budding)
     if season in _SHARE and not wear.model.evergreen:
-        leaves, ids = _keep(leaves, ids, keys.uniform(key, ids, _FALLEN) < _SHARE[season])
-    return _capped(leaves, ids, max_leaves, key)
+        held = keys.uniform(key, budding.id, _FALLEN) < _SHARE[season]
+        leaves, unit = _keep(leaves, held), unit[held]
+        budding = budding.select(held)
+    return _capped(leaves, budding.shoot, unit, max_leaves, key)
+
+
+def _units(stand: Buds) -> Int[np.ndarray, " leaf"]:
+    """What is kept or left out together: the id of a leaf, or of the first leaf of its short shoot."""
+    unit = stand.id.copy()
+    on = np.flatnonzero(stand.shoot != NULL)
+    _, first, index = np.unique(stand.shoot[on], return_index=True, return_inverse=True)
+    unit[on] = stand.id[on[first]][index.ravel()]
+    return unit
 
 
 def _leafy_wood(tree: TreeSkeleton, habit: Habit, wear: Wear) -> Twigs:
     pieces = wood_pieces(tree)
     if wear.arrangement == "frond":
-        return pieces.select((tree.order[pieces.row] > 0) & (pieces.length > 1e-9))
+        return fronds(pieces, tree)
     reach = wear.model.shoot * habit.twig_length
     return leafy(pieces, tree.order, thickest=_THICKEST * habit.twig_radius, reach=reach, share=_OUTER)
 
@@ -114,22 +127,22 @@ def _facing(tree, centre, direction, over, ids, key) -> Float[np.ndarray, "leaf 
     return _unit(np.where(weak[:, None], spare, normal))
 
 
-def _capped(leaves: Leaves, ids: Int[np.ndarray, " leaf"], max_leaves: int, key) -> Leaves:
-    """At most `max_leaves` leaves, of the same area in all; `kept` says which share is left."""
-    if len(leaves) <= max_leaves:
-        return leaves
-    draw = keys.uniform(key, ids, _CAP)
-    keep = np.zeros(len(leaves), bool)
-    keep[np.argsort(draw, kind="stable")[:max_leaves]] = True
+def _capped(leaves: Leaves, shoot, unit: Int[np.ndarray, " leaf"], max_leaves: int, key) -> Leaves:
+    """At most `max_leaves` leaves, of the same area in all; `kept` says which share is left. Short shoots go with
+    their leaves."""
+    keep = np.ones(len(leaves), bool)
+    if len(leaves) > max_leaves:
+        keep[np.argsort(keys.uniform(key, unit, _CAP), kind="stable")[max_leaves:]] = False
+    few = replace(_keep(leaves, keep), shoot=leaves.shoot[np.unique(shoot[keep & (shoot != NULL)])])
+    if keep.all():
+        return few
     area = float(np.sum(leaves.size**2))
-    few, _ = _keep(leaves, ids, keep)
-    grown = few.size * np.sqrt(area / np.sum(few.size**2))
-    return replace(few, size=grown, kept=max_leaves / len(leaves))
+    return replace(few, size=few.size * np.sqrt(area / np.sum(few.size**2)), kept=max_leaves / len(leaves))
 
 
-def _keep(leaves: Leaves, ids, keep) -> tuple[Leaves, Int[np.ndarray, " leaf"]]:
+def _keep(leaves: Leaves, keep) -> Leaves:
     columns = ("position", "direction", "normal", "size", "tint", "segment")
-    return replace(leaves, **{name: getattr(leaves, name)[keep] for name in columns}), ids[keep]
+    return replace(leaves, **{name: getattr(leaves, name)[keep] for name in columns})
 
 
 def _unit(vector):

@@ -10,7 +10,7 @@ transport, so leaves do not spin about a bending twig):
     R u = u − (u·t')/(1 + t·t') (t + t')        u ⟂ t, the tangent before; t' the one after
 """
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 import numpy as np
 from jaxtyping import Bool, Float, Int
@@ -19,9 +19,10 @@ from scipy.spatial import cKDTree
 from sketchtree.axes import NULL
 from sketchtree.geometry.limbs import CentreLines, centre_lines
 from sketchtree.skeleton import TreeSkeleton
-from sketchtree.traverse import generations
+from sketchtree.traverse import generations, sum_to_root
 
 _UP = np.array([0.0, 1.0, 0.0])
+_SLIM = 1.5  # of the thickest frond's radius: a thicker end of a palm's trunk is no frond
 
 
 @dataclass(frozen=True, eq=False)
@@ -95,6 +96,30 @@ def leafy(pieces: Twigs, order: Int[np.ndarray, " segment"], *, thickest: float,
     outer = np.maximum(reach, share * pieces.limb_length)
     outer = np.where(order[pieces.row] == 0, np.minimum(outer, reach), outer)
     return pieces.select((pieces.end_radius <= thickest) & (pieces.to_tip < outer) & (pieces.length > 1e-9))
+
+
+def fronds(pieces: Twigs, tree: TreeSkeleton) -> Twigs:
+    """The pieces of a palm that bear leaflets: its limbs, and of a trunk what goes on beyond its last frond, which is
+    a frond drawn in one stroke with the trunk. That one's foot is where it leaves the last frond."""
+    limbs = sum_to_root(tree.parent, (tree.order > 0).astype(float))
+    beyond = (tree.order == 0) & (limbs == 0) & (_of_tree(tree, limbs) > 0)
+    slim = _SLIM * tree.radius[tree.order > 0].max(initial=0.0)
+    bears = (tree.order > 0)[pieces.row] | (beyond[pieces.row] & (pieces.start_radius <= slim))
+    found = pieces.select(bears & (pieces.length > 1e-9))
+    on_trunk = tree.order[found.row] == 0
+    _, limb = np.unique(tree.limb[found.row], return_inverse=True)
+    foot = np.full(limb.max(initial=-1) + 1, np.inf)
+    np.minimum.at(foot, limb.ravel(), found.from_foot)
+    foot = np.where(on_trunk, foot[limb.ravel()], 0.0)
+    return replace(found, from_foot=found.from_foot - foot, limb_length=found.limb_length - foot)
+
+
+def _of_tree(tree: TreeSkeleton, value) -> Float[np.ndarray, " segment"]:
+    """The greatest value among the rows of each row's tree."""
+    _, name = np.unique(tree.tree, return_inverse=True)
+    most = np.full(name.max(initial=-1) + 1, -np.inf)
+    np.maximum.at(most, name.ravel(), value)
+    return most[name.ravel()]
 
 
 def transport(

@@ -226,3 +226,39 @@ def test_an_exemplar_wears_its_leaves_on_its_wood(name):
     chosen = Leaves(leaves.model, **columns(leaves, some), shoot=leaves.shoot)
     on_shoot = gap_to_shoots(chosen) < 1e-9
     assert gap_to_wood(chosen.position[~on_shoot], exemplar.skeleton).max() < 1e-6
+
+
+def test_capped_leaves_take_their_short_shoots_with_them():
+    tree = small_tree()
+    every, few = populate(tree, HABIT, key=KEY), populate(tree, HABIT, key=KEY, max_leaves=40)
+    assert 0 < len(few.shoot) < 0.6 * len(every.shoot)
+    a, b = few.shoot[:, 0], few.shoot[:, 1]
+    t = np.einsum("lsi,si->ls", few.position[:, None] - a, b - a) / np.sum((b - a) ** 2, axis=1)
+    near = np.linalg.norm(few.position[:, None] - a - np.clip(t, 0, 1)[..., None] * (b - a), axis=2)
+    assert (near.min(axis=0) < 1e-9).all()  # no bare shoot
+
+
+def test_without_a_cap_every_short_shoot_bears_leaves():
+    leaves = populate(small_tree(), HABIT, key=KEY)
+    assert leaves.kept == 1 and len(leaves.shoot) > 10
+
+
+def palm(radius):
+    """A trunk with two fronds at 2 m, its stroke going on for a metre; the end as thick as `radius`."""
+    parent = np.array([-1, 0, 1, 1, 1, 4, 5])
+    tips = np.array([[0, 0, 0], [0, 2, 0], [1, 2.3, 0], [-1, 2.3, 0], [0, 2.4, 0], [0.1, 2.7, 0], [0.2, 3.0, 0]], float)
+    thick = np.array([0.1, 0.1, 0.01, 0.01, radius, radius, radius])
+    return TreeSkeleton.from_columns(parent, tips, thick, limb=np.array([1, 1, 2, 3, 1, 1, 1]), order=np.array([0, 0, 1, 1, 0, 0, 0]))
+
+
+def test_a_frond_drawn_in_one_stroke_with_the_trunk_bears_leaflets():
+    frond = replace(HABIT, leaf="palm", leaf_arrangement="frond", leaf_size=0.3, leaf_spacing=0.03, max_order=1)
+    leaves = populate(palm(0.01), frond, key=KEY)
+    on_end = np.isin(leaves.segment, [4, 5, 6])
+    assert on_end.sum() > 30 and leaves.position[on_end, 1].min() > 2.0
+    assert not np.isin(leaves.segment, [0, 1]).any()
+
+
+def test_a_thick_end_of_a_palms_trunk_is_no_frond():
+    frond = replace(HABIT, leaf="palm", leaf_arrangement="frond", leaf_size=0.3, leaf_spacing=0.03, max_order=1)
+    assert not np.isin(populate(palm(0.1), frond, key=KEY).segment, [4, 5, 6]).any()
