@@ -4,11 +4,11 @@ Every end of a stroke is tried on the strokes nearest to it. The cost of growing
 end p of stroke i, is a sum of how unlike a branch that would be (ours; weights found on drawings of our own):
 
     gap         2 log(1 + ½ g²)               g = |p − q| / ε; within the half width of j a third of it counts
-    angle       3 (φ − 80°)₊ / 100°          φ between i leaving p and j going on from q; half of it at j's ends
+    angle       2 (φ − 95°)₊ / 100°          φ between i leaving p and j going on from q; half of it at j's ends
     end         ¼ (1 + Δy / |i|)              Δy from the other end up to p: branches rise more often than they fall
     width       1.5 (log(w_i / w_j) + 0.2)₊   a branch is thinner than its parent
     length      0.2 (log(|i| / |j|))₊         nor often longer
-    foot        ½ exp(−|q| / 0.015 H)         |q| from the foot of j to q: near it, i is more likely its sibling
+    foot        exp(−|q| / 0.015 H)           |q| from the foot of j to q: near it, i is more likely its sibling
 
     H   height of the drawing     w   drawn width, where it says something
     ε   5 × the middle gap between an end and the nearest stroke, not below 0.1 % nor above 1 % of H
@@ -28,6 +28,8 @@ NEAREST = 16  # strokes tried for every end, half as many in a drawing of more t
 MANY = 1000
 REACH = 0.03  # over how much of H a direction is taken
 PRECISE, COARSE = 0.001, 0.01  # of H: bounds of ε
+GAP, TURN, STRAIGHT, RISE, LENGTH = 2.0, 2.0, 95.0, 0.25, 0.2  # weights of the costs above; degrees
+AT_FOOT, FOOT_REACH = 1.0, 0.015  # how dear, and within how much of H, it is to grow from near a foot
 FOOT = 0.006  # of H: nearer to an end than this is at the end
 
 
@@ -116,13 +118,13 @@ def _costs(lines, shapes, ends, child, end, parent, s, gap, height: float) -> Fl
     with np.errstate(invalid="ignore"):
         thicker = np.nan_to_num(np.maximum(np.log(width[child] / width[parent]) + 0.2, 0.0))
     longer = np.maximum(np.log(length[child] / length[parent]), 0.0)
-    shared = 2 * np.log1p(0.5 * excess**2) + 0.2 * longer + 0.25 * (1 + np.clip(rise, -1, 1)) + 1.5 * thicker
+    shared = GAP * np.log1p(0.5 * excess**2) + LENGTH * longer + RISE * (1 + np.clip(rise, -1, 1)) + 1.5 * thicker
     columns = []
     for sign, from_foot in ((1.0, s), (-1.0, length[parent] - s)):
         diverging = np.degrees(angle_between(leaving, sign * forward))
         at_end = np.minimum(from_foot, length[parent] - from_foot) < foot
-        angle = np.where(at_end, 0.5, 1.0) * 3 * np.maximum(diverging - 80, 0) / 100
-        columns.append(shared + angle + 0.5 * np.exp(-from_foot / (0.015 * height)))
+        angle = np.where(at_end, 0.5, 1.0) * TURN * np.maximum(diverging - STRAIGHT, 0) / 100
+        columns.append(shared + angle + AT_FOOT * np.exp(-from_foot / (FOOT_REACH * height)))
     return np.stack(columns, 1)
 
 
