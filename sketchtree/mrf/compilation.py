@@ -33,14 +33,15 @@ class Program:
 
     def __call__(self, *arguments):
         columns = jax.tree.leaves(arguments)
-        leaves = self.run(*columns) if self._remake is None else self._first_run(columns)
+        remake = self._remake
+        leaves = self.run(*columns) if remake is None else self._first_run(columns, remake)
         return jax.tree.map(lambda k: leaves[k], self.result)
 
-    def _first_run(self, columns):
+    def _first_run(self, columns, remake):
         try:
             leaves = jax.block_until_ready(self.run(*columns))
         except jax.errors.JaxRuntimeError:  # it was read, but does not work here
-            made = self._remake()
+            made = remake()
             self.run, self.result = made.run, made.result
             leaves = self.run(*columns)
         self._remake = None

@@ -6,6 +6,7 @@ tree. The model is `log_posterior`, a step `chains`, what is shown `typical`; Θ
 One step of this solver is a block of 40 chain steps at one temperature, so that a bucket needs one small program.
 """
 
+from concurrent.futures import ThreadPoolExecutor
 from typing import Any, NamedTuple
 
 import jax
@@ -20,12 +21,13 @@ from sketchtree.mrf.factor_graph import FactorGraph
 from sketchtree.mrf.interpenetration import moved_apart
 from sketchtree.mrf.log_posterior import LogPosterior, bucket, log_posterior
 from sketchtree.mrf.prior import Prior
-from sketchtree.mrf.proposals import Moves, draw, moves
+from sketchtree.mrf.proposals import Draws, Moves, draw, moves
 from sketchtree.mrf.solver import AbstractSolver
 from sketchtree.mrf.typical import depth_of, typical_elevation
 
 BLOCK = 40  # chain steps a block
 LARGE = ((4096, 2), (16384, 4))  # above so many rows only every second, every fourth block is run
+TEAMS = 2  # the chains run in so many threads
 THIN = 10  # chain steps between kept samples
 START_SD = 0.5  # radians, of a lateral's first ψ
 
@@ -88,7 +90,7 @@ class Elevation(AbstractSolver):
     def compile(self, graph: FactorGraph, prior: Prior) -> None:
         if graph.limb_spreads.any():
             state = self.init(graph, prior, jax.random.key(0))
-            self._program(graph, state, jax.random.key(0), 1.0)
+            compiled(chains.run, *self._parts(graph, state, jax.random.key(0), 1.0)[0], name="chains")
 
     def init(self, graph: FactorGraph, prior: Prior, key: Key[Array, ""]) -> State:
         nothing = np.zeros(len(graph))
@@ -102,22 +104,20 @@ class Elevation(AbstractSolver):
     def step(self, graph: FactorGraph, prior: Prior, state: State, key: Key[Array, ""]) -> tuple[State, Info]:
         schedule = self.schedule(graph)
         block = schedule[state.block]
-        program, arguments = self._program(graph, state, key, block.temperature)
-        after, path = program(*arguments)
-        value = np.asarray(after.value)
+        after, path = self._run(graph, state, key, block.temperature)
+        value = after.value
         leader = int(np.argmax(value))
         samples = state.samples
         if block.kept:
-            kept = np.asarray(path)[THIN - 1 :: THIN, :, : len(graph)]
-            samples = (*samples, kept.reshape(-1, len(graph)))
+            samples = (*samples, path[THIN - 1 :: THIN, :, : len(graph)].reshape(-1, len(graph)))
         best, best_value = state.best, state.best_value
         if value[leader] >= best_value:
-            best, best_value = np.asarray(after.elevation[leader], np.float64)[: len(graph)], float(value[leader])
-        moved = float(np.abs(np.asarray(after.elevation) - np.asarray(state.chains.elevation)).sum(axis=1).mean())
+            best, best_value = after.elevation[leader, : len(graph)].astype(np.float64), float(value[leader])
+        moved = float(np.abs(after.elevation - state.chains.elevation).sum(axis=1).mean())
         state = State(state.posterior, state.moves, after, samples, state.block + 1, best, best_value)
         if state.block == len(schedule) and self.polish is not None:
             state = self._polished(graph, state)
-        pace = float(np.exp(np.median(np.asarray(after.log_step))))
+        pace = float(np.exp(np.median(after.log_step)))
         return state, Info(state.best_value, float(np.median(value)), block.temperature, pace, moved)
 
     def terminate(self, graph: FactorGraph, prior: Prior, state: State) -> bool:
@@ -126,7 +126,8 @@ class Elevation(AbstractSolver):
     def depth(self, graph: FactorGraph, state: State) -> Float[np.ndarray, " segment"]:
         psi = state.best
         if self.typical and state.samples:
-            psi = typical_elevation(graph, np.concatenate(state.samples), state.best)
+            cooled = np.asarray(state.chains.elevation, np.float64)[:, : len(graph)]
+            psi = typical_elevation(graph, np.concatenate(state.samples), np.vstack([state.best, cooled]))
         return moved_apart(graph, depth_of(graph, psi))
 
     def depth_sd(self, graph: FactorGraph, state: State) -> Float[np.ndarray, " segment"]:
@@ -139,15 +140,27 @@ class Elevation(AbstractSolver):
         return None if state.posterior is None else state.best_value
 
     def _chain_count(self, segments: int) -> int:
-        return max(2, min(self.chain_count, self.chain_count * 256 // segments))
+        return TEAMS * max(1, min(self.chain_count, self.chain_count * 256 // segments) // TEAMS)
 
-    def _program(self, graph: FactorGraph, state: State, key, temperature: float):
+    def _run(self, graph: FactorGraph, state: State, key, temperature: float):
+        """The chains after one block, and ψ after every step. Teams of chains run side by side, and the numbers
+        are the same on any count of cores."""
+        parts = self._parts(graph, state, key, temperature)
+        program = compiled(chains.run, *parts[0], name="chains")
+        with ThreadPoolExecutor(TEAMS) as pool:
+            done = list(pool.map(lambda part: jax.tree.map(np.asarray, program(*part)), parts))
+        after = Chains(*map(np.concatenate, zip(*(chains for chains, _ in done), strict=True)))
+        return after, np.concatenate([path for _, path in done], axis=1)
+
+    def _parts(self, graph: FactorGraph, state: State, key, temperature: float) -> list[tuple]:
+        """What the program takes, for every team."""
         hot = np.full(BLOCK, temperature, np.float32)
         langevin = (np.arange(BLOCK) % 2).astype(np.float32)
         chain_count, segments = state.chains.elevation.shape
         draws = draw(key, BLOCK, chain_count, len(graph), segments)
-        arguments = (state.posterior, state.moves, state.chains, draws, hot, langevin)
-        return compiled(chains.run, *arguments, name="chains"), arguments
+        teams = np.array_split(np.arange(chain_count), TEAMS)
+        each = [(Chains(*(x[team] for x in state.chains)), Draws(*(x[:, team] for x in draws))) for team in teams]
+        return [(state.posterior, state.moves, chains, draws, hot, langevin) for chains, draws in each]
 
     def _polished(self, graph: FactorGraph, state: State) -> State:
         from sketchtree.mrf.ascend import ascend  # takes longer to import than most drawings to solve

@@ -1,14 +1,20 @@
-"""From samples and the best tree to the depths that are shown: typical steepness, signs of the best.
+"""From samples and cooled trees to the depths that are shown: typical steepness, the signs of the most typical tree.
 
     |ψ_i|     its median over the samples: the best tree alone is too steep here, too flat there
-    sign      that of the best tree; which of two mirror images a limb is, no drawing can tell
     stems     three tenths of the median: samples disagree about the side a trunk leans to
     limbs     tan ψ times f_j = (median |Z_js| / |Z_j|)^.6, Z_j the depth from a limb's start to its tip:
               medians along a limb add up to less than the limb
     crown     tan ψ of laterals times f = (median ext z_s / ext z)^.55, ext the extent from front to back
+    signs     the best tree and every cooled chain propose theirs; taken are those whose tree, seen from the side, is
+              nearest to the samples on average. Which of two mirror images a limb is no drawing can tell, but how
+              the limbs share out before and behind the trunk, the samples do. Two trees are as far apart as
+
+                  d = mean_θ |h(θ) − h'(θ)|,     h(θ) = max over laterals of z cos θ + y sin θ,
+
+              or as one and the other's mirror image, whichever is nearer (h: the support function of the hull)
 
 s runs over the samples; f_j lies within 1/1.5 … 1.5, f within 1/1.6 … 1.6. The three powers were chosen on the
-synthetic and the measured trees of `benchmarks`.
+synthetic and the measured trees of `benchmarks`, and so was where signs come from.
 """
 
 import numpy as np
@@ -20,38 +26,62 @@ from sketchtree.traverse import generations
 STEM_SHARE = 0.3
 LIMB_POWER, LIMB_LIMIT = 0.6, 1.5
 CROWN_POWER, CROWN_LIMIT = 0.55, 1.6
-ENOUGH = 160  # samples that the two stretches look at
+ENOUGH = 160  # samples that the stretches and the choice of signs look at
+_DIRECTIONS = np.linspace(-np.pi / 2, np.pi / 2, 17)  # θ, from straight down to straight up
 
 
 def typical_elevation(
-    graph: FactorGraph, samples: Float[np.ndarray, "sample segment"], best: Float[np.ndarray, " segment"]
+    graph: FactorGraph, samples: Float[np.ndarray, "sample segment"], trees: Float[np.ndarray, "tree segment"]
 ) -> Float[np.ndarray, " segment"]:
-    """ψ of every row from samples of ψ and the best ψ; radians."""
+    """ψ of every row, radians, from samples of ψ and the trees whose signs may be taken."""
     size = np.median(np.abs(samples), axis=0)
-    psi = np.where(best < 0, -size, size)
-    psi = np.where(graph.limb_spreads[graph.limb], psi, STEM_SHARE * psi)
+    size = np.where(graph.limb_spreads[graph.limb], size, STEM_SHARE * size)
     some = samples[:: -(-len(samples) // ENOUGH)].T
-    return stretched_crown(graph, stretched_limbs(graph, psi, some), some)
+    readings = np.where(trees < 0, -size, size).T
+    readings = stretched_crown(graph, stretched_limbs(graph, readings, some), some)
+    return readings[:, most_typical(graph, readings, some)]
 
 
 def stretched_limbs(
-    graph: FactorGraph, psi: Float[np.ndarray, " segment"], samples: Float[np.ndarray, "segment sample"]
-) -> Float[np.ndarray, " segment"]:
+    graph: FactorGraph, psi: Float[np.ndarray, "segment tree"], samples: Float[np.ndarray, "segment sample"]
+) -> Float[np.ndarray, "segment tree"]:
     """ψ with the depth of every lateral limb brought towards its median over the samples."""
-    typical = np.median(np.abs(_limb_rise(graph, samples)), axis=1)
-    own = np.abs(_limb_rise(graph, psi[:, None])[:, 0])
+    typical = np.median(np.abs(_limb_rise(graph, samples)), axis=1)[:, None]
+    own = np.abs(_limb_rise(graph, psi))
     factor = np.clip((typical / np.maximum(own, 1e-6)) ** LIMB_POWER, 1 / LIMB_LIMIT, LIMB_LIMIT)
-    factor = np.where(graph.limb_spreads, factor, 1.0)
+    factor = np.where(graph.limb_spreads[:, None], factor, 1.0)
     return np.arctan(np.tan(psi) * factor[graph.limb])
 
 
 def stretched_crown(
-    graph: FactorGraph, psi: Float[np.ndarray, " segment"], samples: Float[np.ndarray, "segment sample"]
-) -> Float[np.ndarray, " segment"]:
+    graph: FactorGraph, psi: Float[np.ndarray, "segment tree"], samples: Float[np.ndarray, "segment sample"]
+) -> Float[np.ndarray, "segment tree"]:
     """ψ with the extent of the whole brought towards its median over the samples."""
-    extent, own = np.median(np.ptp(depth_of(graph, samples), axis=0)), np.ptp(depth_of(graph, psi))
-    factor = np.clip((extent / max(own, 1e-6)) ** CROWN_POWER, 1 / CROWN_LIMIT, CROWN_LIMIT)
-    return np.where(graph.limb_spreads[graph.limb], np.arctan(np.tan(psi) * factor), psi)
+    extent, own = np.median(np.ptp(depth_of(graph, samples), axis=0)), np.ptp(depth_of(graph, psi), axis=0)
+    factor = np.clip((extent / np.maximum(own, 1e-6)) ** CROWN_POWER, 1 / CROWN_LIMIT, CROWN_LIMIT)
+    return np.where(graph.limb_spreads[graph.limb][:, None], np.arctan(np.tan(psi) * factor), psi)
+
+
+def most_typical(
+    graph: FactorGraph, psi: Float[np.ndarray, "segment tree"], samples: Float[np.ndarray, "segment sample"]
+) -> int:
+    """The tree whose side view is nearest to the samples' on average; the first of equals."""
+    own, others = side_view(graph, psi), side_view(graph, samples)
+    mean = []
+    for tree in own:
+        away = [np.abs(others - view).mean(axis=(1, 2)) for view in (tree, tree[::-1])]
+        mean.append(np.minimum(*away).mean())
+    return int(np.argmin(mean))
+
+
+def side_view(
+    graph: FactorGraph, psi: Float[np.ndarray, "segment tree"]
+) -> Float[np.ndarray, "tree side direction"]:
+    """h(θ) of every tree, towards the viewer and away from him; H = 1."""
+    lateral = graph.limb_spreads[graph.limb]
+    z, y = depth_of(graph, psi)[lateral], graph.xy[lateral, 1:]
+    reach = [[np.max(side * np.cos(t) * z + np.sin(t) * y, axis=0) for t in _DIRECTIONS] for side in (1, -1)]
+    return np.moveaxis(np.array(reach), -1, 0)
 
 
 def depth_of(graph: FactorGraph, elevation: Float[np.ndarray, "segment *sample"]) -> Float[np.ndarray, "segment *sample"]:

@@ -10,6 +10,8 @@ from sketchtree.mrf.typical import (
     LIMB_LIMIT,
     STEM_SHARE,
     depth_of,
+    most_typical,
+    side_view,
     stretched_crown,
     stretched_limbs,
     typical_elevation,
@@ -30,12 +32,12 @@ def test_many_samples_at_once_are_the_same_as_one_by_one(small):
         np.testing.assert_allclose(together[:, k], depth_of(small, psi[:, k]))
 
 
-def test_signs_are_the_best_tree_s_and_steepness_is_the_median(small):
+def test_signs_are_a_tree_s_and_steepness_is_the_median(small):
     rng = np.random.default_rng(1)
     size = np.where(small.is_base, 0.0, 0.5)
     samples = size * rng.choice([-1, 1], (9, len(small)))
     best = np.where(small.is_base, 0.0, np.where(np.arange(len(small)) % 2, -0.1, 0.1))
-    psi = typical_elevation(small, samples, best)
+    psi = typical_elevation(small, samples, best[None])
     lateral = small.order > 0
     assert (np.sign(psi[lateral]) == np.sign(best[lateral])).all()
     np.testing.assert_allclose(np.abs(psi[1:5]), STEM_SHARE * 0.5)
@@ -45,7 +47,7 @@ def test_the_crown_is_stretched_towards_the_samples_extent_within_limits(small):
     psi = np.where(small.order > 0, 0.3, 0.0)
     for factor in (1.2, 10.0):
         sample = np.arctan(factor * np.tan(psi))
-        ratio = np.ptp(depth_of(small, stretched_crown(small, psi, sample[:, None]))) / np.ptp(depth_of(small, psi))
+        ratio = np.ptp(depth_of(small, stretched_crown(small, psi[:, None], sample[:, None])[:, 0])) / np.ptp(depth_of(small, psi))
         assert 1.0 < ratio <= CROWN_LIMIT + 1e-9
         assert ratio <= factor
 
@@ -53,7 +55,7 @@ def test_the_crown_is_stretched_towards_the_samples_extent_within_limits(small):
 def test_limbs_are_stretched_one_by_one_and_stems_are_not(small):
     psi = np.where(small.is_base, 0.0, 0.3)
     sample = np.where(small.limb == 1, np.arctan(1.4 * np.tan(psi)), psi)
-    factor = np.tan(stretched_limbs(small, psi, sample[:, None])) / np.maximum(np.tan(psi), 1e-12)
+    factor = np.tan(stretched_limbs(small, psi[:, None], sample[:, None])[:, 0]) / np.maximum(np.tan(psi), 1e-12)
     assert 1.0 < factor[5] < LIMB_LIMIT
     assert factor[5] == pytest.approx(factor[9])
     np.testing.assert_allclose(np.delete(factor, [0, 5, 9]), 1.0)
@@ -61,9 +63,30 @@ def test_limbs_are_stretched_one_by_one_and_stems_are_not(small):
 
 def test_a_lone_stroke_is_not_stretched():
     graph = factor_graph(lone_stroke())
-    psi = np.zeros(len(graph))
-    np.testing.assert_array_equal(stretched_crown(graph, psi, psi[:, None]), psi)
-    np.testing.assert_array_equal(stretched_limbs(graph, psi, psi[:, None]), psi)
+    psi = np.zeros((len(graph), 1))
+    np.testing.assert_array_equal(stretched_crown(graph, psi, psi), psi)
+    np.testing.assert_array_equal(stretched_limbs(graph, psi, psi), psi)
+
+
+def test_signs_are_those_of_the_tree_that_looks_most_like_the_samples(small):
+    """Samples have limbs before and behind the trunk; one tree has all of them before it."""
+    lateral = small.order > 0
+    shared = np.where(lateral, np.where(small.limb % 2, 0.5, -0.5), 0.0)
+    samples = np.array([shared, -shared, 0.9 * shared, 1.1 * shared])
+    for trees, expected in (([np.abs(shared), shared], 1), ([-shared, np.abs(shared)], 0)):
+        psi = typical_elevation(small, samples, np.array(trees))
+        np.testing.assert_array_equal(np.sign(psi[lateral]), np.sign(trees[expected])[lateral])
+        assert most_typical(small, np.array(trees).T, samples.T) == expected
+
+
+def test_a_side_view_is_the_reach_of_the_hull(small):
+    psi = np.where(small.order > 0, 0.4, 0.0)
+    z, lateral = depth_of(small, psi), small.order > 0
+    view = side_view(small, np.c_[psi, -psi])
+    assert view[0, 0, 8] == pytest.approx(z[lateral].max())
+    assert view[0, 1, 8] == pytest.approx((-z[lateral]).max())
+    np.testing.assert_allclose(view[0], view[1, ::-1])
+    np.testing.assert_allclose(view[0, :, -1], small.xy[lateral, 1].max())
 
 
 def _crossing(depth=0.0):
