@@ -31,6 +31,7 @@ REFUSED = "No picture could be drawn: this machine's OpenGL is too old for our s
 _FIELD = 26.0  # degrees, vertical
 _MARGIN = 0.06  # of the picture, free on every side
 _CHILD = Path(__file__).with_name("view_child.py")
+_FRAGMENTS = 4e8  # surface pixels drawn on top of each other, at most, before a picture is drawn less smoothly
 _SKY = {"horizon": (0.925, 0.930, 0.915), "zenith": (0.690, 0.775, 0.850), "earth": (0.700, 0.690, 0.630)}  # sRGB
 
 
@@ -51,7 +52,8 @@ def preview(
 
     `view` is one of `VIEWS`, or several for a sheet of pictures of that `size` (pixels) each; `azimuth` and
     `elevation` (degrees) override it. `focus` is a place and a radius (metres) to fill the picture instead of the
-    whole tree. Raises OptionError for an unknown view, ExportError for a file that is no GLB or a place that can't be written.
+    whole tree. `supersample` (1 or more) smooths edges; where many leaves stand before the camera it falls to what can be
+    drawn in time. Raises OptionError for an unknown view, ExportError for a file that is no GLB or a place that can't be written.
     """
     angles = [_angles(name, azimuth, elevation) for name in ([view] if isinstance(view, str) else view)]
     if isinstance(meshes, (str, Path)):
@@ -77,11 +79,13 @@ def _request(meshes, angles, size, focus, ground, supersample) -> dict[str, np.n
     base = float(points[:, 1].min())
     shift = np.array([0.5 * (points[:, 0].min() + points[:, 0].max()), base, 0.5 * (points[:, 2].min() + points[:, 2].max())])
     sun = _direction(angles[0][0] - 48.0, 47.0)
-    request = {"size": np.array(size), "supersample": np.array(supersample), "meshes": np.array(len(meshes)), "sun": sun}
+    request = {"size": np.array(size), "meshes": np.array(len(meshes)), "sun": sun}
     request |= {name: np.array(colour) for name, colour in _SKY.items()}
     request["columns"] = np.array(int(np.ceil(np.sqrt(len(angles)))))
     around = points - shift if focus is None else np.asarray(focus[0]) - shift + focus[1] * _ball()
     request["camera"] = np.array([frame_camera(around, *angle, size[0] / size[1]) for angle in angles])
+    drawn = max(fragments(centroid - shift, area, camera, size) for camera in request["camera"])
+    request["supersample"] = np.array(affordable(supersample, drawn))
     lights = baked_light([_lifted(mesh) for mesh in meshes], centroid, area, sun)
     for k, (mesh, light) in enumerate(zip(meshes, lights, strict=True)):
         request |= {f"{k}.{name}": value for name, value in _part(mesh, light, shift).items()}
@@ -110,6 +114,30 @@ def frame_camera(points: Float[np.ndarray, "point 3"], azimuth: float, elevation
     distance = max(np.max(depth + np.abs(across - x) / wide), np.max(depth + np.abs(along - y) / high)) + 1e-9
     at = x * right + y * up
     return np.concatenate([at + distance * back, at + depth.mean() * back, up, [_FIELD]])
+
+
+def fragments(
+    centroid: Float[np.ndarray, "triangle 3"], area: Float[np.ndarray, " triangle"], camera: Float[np.ndarray, " 10"], size: tuple[int, int]
+) -> float:
+    """About how many pixels all triangles in sight of a camera cover, one upon the other: the cost of a picture.
+
+    Areas in m²; a triangle nearer than it is wide counts as a whole picture at most.
+    """
+    ahead = camera[3:6] - camera[:3]
+    ahead = ahead / np.linalg.norm(ahead)
+    away = centroid - camera[:3]
+    depth = away @ ahead
+    beside = np.linalg.norm(away - depth[:, None] * ahead, axis=1)
+    reach = np.tan(np.radians(camera[9]) / 2)
+    wide = depth * reach * np.hypot(1.0, size[0] / size[1]) + np.sqrt(area)
+    seen = (depth > 0) & (beside < wide)
+    pixel = 2 * reach * np.maximum(depth[seen], 1e-6) / size[1]
+    return float(np.minimum(0.5 * area[seen] / pixel**2, size[0] * size[1]).sum())
+
+
+def affordable(supersample: int, drawn: float) -> int:
+    """The supersampling (1 or more) up to the one wanted that keeps within `_FRAGMENTS`."""
+    return max(1, min(supersample, int(np.sqrt(_FRAGMENTS / max(drawn, 1.0)))))
 
 
 def _middle(value) -> float:

@@ -191,3 +191,15 @@ def test_the_ground_is_darkest_in_the_suns_shadow():
 def test_aligned_axes_are_right_handed_and_orthonormal(direction):
     axes = aligned(np.array(direction, float))
     assert np.allclose(axes @ axes.T, np.eye(3)) and np.isclose(np.linalg.det(axes), 1)
+
+
+def test_a_picture_costs_the_pixels_its_surfaces_cover():
+    camera = np.array([0, 0, 10, 0, 0, 0, 0, 1, 0, 90.0])  # sees 20 m × 20 m at the origin
+    one = view.fragments(np.zeros((1, 3)), np.array([4.0]), camera, (200, 200))
+    assert one == pytest.approx(0.5 * 4.0 / 400.0 * 200**2)
+    assert view.fragments(np.array([[0, 0, 20.0]]), np.array([4.0]), camera, (200, 200)) == 0  # behind the camera
+    assert view.fragments(np.array([[0, 0, 9.999]]), np.array([4.0]), camera, (200, 200)) == 200**2
+
+
+def test_a_costly_picture_is_supersampled_less():
+    assert [view.affordable(2, cost) for cost in (0.0, 9e7, 2e8, 1e12)] == [2, 2, 1, 1]
