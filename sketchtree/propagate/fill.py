@@ -27,6 +27,7 @@ ROUNDS = 6  # at most
 GAP = 1.6  # spacings of laterals
 HOLLOW, HOLLOW_GAP = 0.15, 2.5
 HOLLOW_ROUNDS, COARSE_GAP = 4, 2.0  # rounds in a hollow crown, and its gap in spacings of laterals
+LED_GAP = 1.3  # the same where leaders alone make the crown
 _POINTS = 30_000  # at most, over the crown's bounding box
 _NEAR = 6  # nodes of which one grows towards a point
 _WIDEST = np.radians(110.0)  # from a limb: towards points behind it nothing grows

@@ -15,7 +15,7 @@ from jaxtyping import Array, Int, Key
 
 from sketchtree.errors import OptionError
 from sketchtree.parameters import Habit, TreeParameters
-from sketchtree.propagate.fill import COARSE_GAP, GAP, HOLLOW_ROUNDS, ROUNDS
+from sketchtree.propagate.fill import COARSE_GAP, GAP, HOLLOW_ROUNDS, LED_GAP, ROUNDS
 from sketchtree.propagate.growing import Growing, to_scale
 from sketchtree.skeleton import TreeSkeleton
 
@@ -84,7 +84,7 @@ def propagate(
     growing = Growing(tree, to_scale(habit, tree, crown), theta, exemplar, crown, max_segments, key)
     growing.run(limit)
     limit = CROWN_GENERATIONS if generations is None else limit
-    gaps = HOLLOW_ROUNDS * [COARSE_GAP] if growing.is_hollow() else []
+    gaps = HOLLOW_ROUNDS * [LED_GAP if growing.leaders else COARSE_GAP] if growing.is_hollow() else []
     gaps = gaps[: 1 if fill else None] + (ROUNDS * [GAP] if fill else [])
     for round_, gap in enumerate(gaps):
         growing.fill(round_, limit, gap)

@@ -146,6 +146,8 @@ class Growing:
         drawn into a crown say themselves where it is full; what grows from each is then its own alone."""
         if self.envelope is None or self.habit.max_order < 2 or (self.envelope.binding and not self.leaders):
             return False
+        if self.leaders:
+            return True
         wood = np.concatenate([self.drawn.tree.tip] + [part.tip for part, _ in self.parts])
         return emptiness(self.envelope, wood, HOLLOW_GAP * self.habit.lateral_spacing) > HOLLOW
 
