@@ -8,7 +8,7 @@ end p of stroke i, is a sum of how unlike a branch that would be (ours; weights 
     end         ¼ (1 + Δy / |i|)              Δy from the other end up to p: branches rise more often than they fall
     width       1.5 (log(w_i / w_j) + 0.2)₊   a branch is thinner than its parent
     length      0.2 (log(|i| / |j|))₊         nor often longer
-    foot        exp(−|q| / 0.015 H)           |q| from the foot of j to q: near it, i is more likely its sibling
+    foot        ½ exp(−|q| / 0.015 H)         |q| from the foot of j to q: near it, i is more likely its sibling
 
     H   height of the drawing     w   drawn width, where it says something
     ε   5 × the middle gap between an end and the nearest stroke, not below 0.1 % nor above 1 % of H
@@ -29,7 +29,7 @@ MANY = 1000
 REACH = 0.03  # over how much of H a direction is taken
 PRECISE, COARSE = 0.001, 0.01  # of H: bounds of ε
 GAP, TURN, STRAIGHT, RISE, LENGTH = 2.0, 2.0, 95.0, 0.25, 0.2  # weights of the costs above; degrees
-AT_FOOT, FOOT_REACH = 1.0, 0.015  # how dear, and within how much of H, it is to grow from near a foot
+AT_FOOT, FOOT_REACH = 0.5, 0.015  # how dear, and within how much of H, it is to grow from near a foot
 FOOT = 0.006  # of H: nearer to an end than this is at the end
 
 

@@ -125,6 +125,14 @@ def shake(kind, height):
     return {"doubled": doubled, "repeated": repeated, "gaps": gaps, "overshoots": overshoots, "tremor": tremor}[kind]
 
 
+@pytest.mark.parametrize("name", ["willow.svg", "poplar.svg", "palm.svg", "apple.json"])
+@pytest.mark.parametrize("kind", ["doubled", "repeated"])
+def test_drawing_points_or_strokes_twice_moves_no_limb(name, kind):
+    sketch = read_sketch(EXAMPLES / name)
+    graph = sketch_graph(sketch)
+    assert parents(sketch_graph(redraw(sketch, shake(kind, graph.height)))) == parents(graph)
+
+
 @pytest.mark.parametrize("name", ["oak", "oak_50", "spruce", "curvy"])
 @pytest.mark.parametrize("kind", ["doubled", "repeated", "gaps", "overshoots", "tremor"])
 def test_a_shaky_hand_draws_the_same_tree(name, kind):
