@@ -1,8 +1,15 @@
 """Barks that tear into ridges as the stem swells: oak, willow, poplar."""
 
-import numpy as np
 
-from sketchtree.geometry.bark_noise import blurred, clouds, dashes, furrows, mixed, ramp, warped
+from sketchtree.geometry.bark_noise import (
+    blurred,
+    clouds,
+    dashes,
+    furrows,
+    mixed,
+    ramp,
+    warped,
+)
 from sketchtree.geometry.bark_relief import Relief
 
 

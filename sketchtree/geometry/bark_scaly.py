@@ -36,7 +36,7 @@ def spruce(pixels: int) -> Relief:
 
 def pine(pixels: int) -> Relief:
     """Tall plates between dark fissures, orange-brown, built of thin layers like a torn book."""
-    border, value, place = scales(pixels, 91, 44, 2.4, 0.15)
+    border, value, _ = scales(pixels, 91, 44, 2.4, 0.15)
     plate = ramp(border + 0.04 * clouds(pixels, 96, 0.01, 0.02, 1.3), 0.02, 0.30)
     layers = clouds(pixels, 94, 0.022, 0.03, 1.5) + 0.6 * (value - 0.5)
     steps = np.floor(2.2 * layers) / 2.2 + 0.25 * ramp((2.2 * layers) % 1.0, 0.7, 1.0)

@@ -23,7 +23,7 @@ nothing is thinner than a twig, nor than `_LEAST` of what the model says it take
 from dataclasses import dataclass
 
 import numpy as np
-from jaxtyping import Array, Bool, Float, Int, Key
+from jaxtyping import Array, Bool, Float, Key
 
 from sketchtree.errors import OptionError
 from sketchtree.parameters import Habit

@@ -19,7 +19,6 @@ from jaxtyping import Float, Int
 
 from sketchtree.geometry.rings import Rings
 
-
 _THICK = 0.12  # metres, radius from which on bark is full grown
 
 
