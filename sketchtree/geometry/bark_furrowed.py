@@ -1,15 +1,6 @@
 """Barks that tear into ridges as the stem swells: oak, willow, poplar."""
 
-
-from sketchtree.geometry.bark_noise import (
-    blurred,
-    clouds,
-    dashes,
-    furrows,
-    mixed,
-    ramp,
-    warped,
-)
+from sketchtree.geometry.bark_noise import blurred, clouds, dashes, furrows, mixed, ramp, warped
 from sketchtree.geometry.bark_relief import Relief
 
 
