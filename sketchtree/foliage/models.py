@@ -72,7 +72,7 @@ _MODELS = {
     model.name: model
     for model in (
         LeafModel(
-            "oak", blades.oak, spur=7, every=4, arrangement="alternate", size=0.095, spacing=0.035, inclination=52.0, droop=0.22, fold=12.0, curl=0.10,
+            "oak", blades.oak, spur=7, every=5, arrangement="alternate", size=0.095, spacing=0.035, inclination=52.0, droop=0.22, fold=12.0, curl=0.10,
             palettes=_seasons(
                 ("#93994f", "#b0a65e", "#c9c68a", "#9a8a55"),
                 ("#4e642c", "#71833f", "#a3ab6c", "#7d8350"),

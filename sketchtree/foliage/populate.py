@@ -31,7 +31,7 @@ from sketchtree.skeleton import TreeSkeleton
 
 _UP = np.array([0.0, 1.0, 0.0])
 _THICKEST = 8.0  # leafy wood has at most this many twig radii
-_OUTER = 0.5  # outer share of a limb that carries leaves where it is thin enough
+_OUTER = 0.7  # outer share of a limb that carries leaves where it is thin enough
 _SIZE, _SHARE = {"spring": 0.82}, {"autumn": 0.82}  # young leaves are small, some have fallen
 _AZIMUTH, _TILT, _GROWTH, _TINT, _FALLEN, _CAP, _LIGHT = range(7)  # the draws of one leaf
 

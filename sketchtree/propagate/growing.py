@@ -31,8 +31,8 @@ from sketchtree.traverse import generations
 
 _BARE_NODES = 4  # about, of a limb that bears none: enough for its curve
 _TRUNK_SPACING = 1.6  # of the habit's spacing of laterals
-_WEEPS = 1.1  # times as far apart where limbs hang: whips of neighbouring nodes hang side by side all the way down
-_CLOSER = 0.55  # times the habit's spacing, nodes lie closer than on the exemplar, which is a skeleton without its twigs
+_WEEPS = 1.2  # times as far apart where limbs hang: whips of neighbouring nodes hang side by side all the way down
+_CLOSER = 0.72  # times the habit's spacing, nodes lie closer than on the exemplar, which is a skeleton without its twigs
 _SPARSEST = 4.0  # times the habit's spacing, at most
 _ROUND = 2  # generations of one round of filling; what is then still open grows on in the next
 _DRAWN_NODES = 4  # of a drawn limb, at least, if that is not closer than the habit's spacing

@@ -9,6 +9,7 @@ from sketchtree.axes import NULL
 from sketchtree.errors import OptionError
 from sketchtree.propagate.envelope import Envelope
 from sketchtree.propagate.generations import Propagate, propagate
+from sketchtree.propagate.growing import Growing
 from sketchtree.skeleton import Kind, TreeSkeleton
 from sketchtree.stage import SkeletonStage
 from sketchtree.traverse import limb_chains
@@ -306,3 +307,22 @@ def test_a_small_tree_has_small_twigs():
     small, large = grown(drawn_tree(height=2.0, seed=1)), grown(drawn_tree(height=10.0, seed=1))
     lengths = [np.median(r.skeleton.length[r.skeleton.order == 4]) for r in (small, large)]
     assert lengths[0] < lengths[1]
+
+
+def test_limbs_that_hang_stand_farther_apart():
+    upright, hanging = (
+        Growing(drawn_tree(3), dataclasses.replace(HABIT, gravitropism=pull), THETA, None, (), 10_000, KEY) for pull in (0.0, 60.0)
+    )
+    order, whole = np.array([1, 2]), np.array([3.0, 2.0])
+    assert (hanging._spacing(order, whole) > 1.1 * upright._spacing(order, whole)).all()
+
+
+def test_orders_of_what_grows_follow_its_parent_limbs():
+    tree = drawn_tree(5)
+    deep = tree.replace(order=np.where(tree.order > 0, 7, 0))
+    found = grown(deep).skeleton
+    new = np.flatnonzero((found.parent != NULL) & (found.kind == int(Kind.PROPAGATED)))
+    above = found.parent[new]
+    step = (found.limb[new] != found.limb[above]).astype(int)
+    np.testing.assert_array_equal(found.order[new], found.order[above] + step)
+    assert (found.order[new] > 7).any()

@@ -2,6 +2,7 @@ import dataclasses
 
 import numpy as np
 import pytest
+from worlds import HABIT, THETA, circle, drawn_tree
 
 from sketchtree import keys
 from sketchtree.axes import NULL
@@ -9,7 +10,6 @@ from sketchtree.propagate.envelope import Envelope, Lobe
 from sketchtree.propagate.generations import propagate
 from sketchtree.propagate.leaders import leaders, unled
 from sketchtree.skeleton import Kind, TreeSkeleton
-from tests.propagate.worlds import HABIT, THETA, circle, drawn_tree
 
 KEY = keys.root_key(0)
 
