@@ -6,7 +6,6 @@ from jaxtyping import Float
 from sketchtree.parameters import Habit
 from sketchtree.similarity import Similarity
 from sketchtree.sketch.graph import SketchGraph
-from sketchtree.sketch.strokes import Sketch
 
 _STOUT = 1.6  # a trunk drawn thicker than its species has is at most this many times as thick
 _THIN = 0.12  # radius of the thinnest line's branch / radius of the trunk, at most
@@ -24,16 +23,15 @@ def page_to_world(graph: SketchGraph, height: float) -> Similarity:
     return Similarity(scale, (-scale * root[0], -scale * root[1], 0.0))
 
 
-def drawn_radius(sketch: Sketch, graph: SketchGraph, similarity: Similarity, habit: Habit) -> Float[np.ndarray, " segment"]:
+def drawn_radius(graph: SketchGraph, similarity: Similarity, habit: Habit) -> Float[np.ndarray, " segment"]:
     """Half the drawn width of each branch, metres; NaN where the widths say nothing.
 
-    An outline filled with ink shows how thick the wood is. A pen's line does not: it shows which branch is thicker
-    than which. The thickest line then stands for the trunk of such a tree (or up to `_STOUT` times that, if it was
-    drawn so), the thinnest for a branch no thicker than `_THIN` of it, and those between for what lies between on a
-    logarithmic scale."""
+    An area of ink, or a trunk drawn by its two edges, shows how thick the wood is. A pen's line does not: it shows
+    which branch is thicker than which. The thickest line then stands for the trunk of such a tree (or up to `_STOUT`
+    times that, if it was drawn so), the thinnest for a branch no thicker than `_THIN` of it, and those between for
+    what lies between on a logarithmic scale."""
     radius = graph.width * similarity.scale / 2
-    inked = np.array([stroke.filled for stroke in sketch.strokes], bool)
-    if np.isnan(radius).all() or inked[graph.stroke].any():
+    if graph.width_is_wood or np.isnan(radius).all():
         return radius
     thinnest, thickest = np.nanmin(radius), np.nanmax(radius)
     trunk = habit.trunk_ratio * similarity.scale * float(np.ptp(graph.xy[:, 1]))

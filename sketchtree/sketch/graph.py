@@ -47,6 +47,7 @@ class SketchGraph:
     curve_start: Int[np.ndarray, " segment+1"]
     limb_id: Int[np.ndarray, " limb"]  # stable 63-bit id, from the first stroke's id
     stroke_ids: tuple[str, ...]  # id of every stroke of the sketch
+    width_is_wood: bool = False  # the widths are those of painted limbs or of a trunk's two edges, not a pen's
     crown: tuple[np.ndarray, ...] = ()  # closed outlines (point 2), first point not repeated
     obstacles: tuple[np.ndarray, ...] = ()
     attachments: tuple[Attachment, ...] = ()

@@ -4,7 +4,7 @@
 """
 
 import numpy as np
-from jaxtyping import Int
+from jaxtyping import Float, Int
 
 from sketchtree.errors import OptionError, SketchError
 from sketchtree.keys import stroke_limb_id
@@ -49,6 +49,7 @@ def sketch_graph(sketch: Sketch, *, crown: str = "auto") -> SketchGraph:
     crowns = outlines[StrokeKind.CROWN] if around is None else (outline(around.outline),)
     return SketchGraph(
         **table,
+        width_is_wood=_measured(sketch, lines, table["width"]),
         limb_id=_limb_ids(limbs, cleaned.lines),
         stroke_ids=ids,
         crown=crowns if crown == "auto" else (),
@@ -90,6 +91,12 @@ def _lines(sketch: Sketch, rows: list[int], legs: dict[int, tuple[np.ndarray, ..
             remedy="Draw at least a trunk, as a line.",
         )
     return lines
+
+
+def _measured(sketch: Sketch, lines: list[Line], width: Float[np.ndarray, " segment"]) -> bool:
+    """Whether the widths were measured between the edges of what was drawn, and no pen set them."""
+    penned = any(np.isfinite(line.width).any() for line in lines if not sketch.strokes[line.row].filled)
+    return bool(np.isfinite(width).any()) and not penned
 
 
 def _limb_ids(limbs: list[Limb], lines: list[Line]) -> Int[np.ndarray, " limb"]:
