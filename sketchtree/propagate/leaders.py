@@ -22,12 +22,12 @@ import numpy as np
 from jaxtyping import Array, Bool, Float, Int, Key
 
 from sketchtree import keys
+from sketchtree.axes import NULL
 from sketchtree.parameters import Habit
 from sketchtree.propagate.attach_block import Nodes
 from sketchtree.propagate.envelope import Envelope, Lobe
 from sketchtree.propagate.open_branch import frames, limb_arcs, polar, turn
 from sketchtree.skeleton import TreeSkeleton
-from sketchtree.traverse import is_tip
 
 _LED = 0.6  # of its height: with more drawn wood inside, a crown outline needs no leader
 _NEAR = 0.35  # of an outline's size: tips this much farther than the nearest one lead too
@@ -108,7 +108,7 @@ def unled(tree: TreeSkeleton, lobe: Lobe) -> bool:
 
 def _courses(tree, envelope, habit) -> list[_Course]:
     """Which drawn rows lead where; the outlines nearest to a tip choose first."""
-    tips = np.flatnonzero(is_tip(tree.parent) & ~tree.is_base & (tree.order < max(habit.max_order, 1)))
+    tips = np.flatnonzero(_limb_ends(tree) & ~tree.is_base & (tree.order < max(habit.max_order, 1)))
     lobes = [lobe for lobe in envelope.lobes if unled(tree, lobe)]
     if len(tips) == 0 or not lobes:
         return []
@@ -134,6 +134,15 @@ def _courses(tree, envelope, habit) -> list[_Course]:
             end = _ends(lobe, tree.tip[row : row + 1], habit)[0]
             found.append(_Course(int(row), int(limb), int(tree.order[row]) + 1, end, lobe, True))
     return found
+
+
+def _limb_ends(tree) -> Bool[np.ndarray, " segment"]:
+    """Rows where their limb ends, whether or not another limb starts there."""
+    above = np.where(tree.parent == NULL, 0, tree.parent)
+    goes_on = (tree.parent != NULL) & (tree.limb == tree.limb[above])
+    ends = np.ones(len(tree), bool)
+    ends[tree.parent[goes_on]] = False
+    return ends
 
 
 def _distance(lobe: Lobe, point) -> Float[np.ndarray, " point"]:

@@ -113,6 +113,19 @@ def test_same_key_same_leaders_another_key_others():
     assert not np.allclose(one, other)
 
 
+def test_a_trunk_leads_though_a_limb_starts_at_its_very_end():
+    tree = trunk((0, 2.5, 0), (2.5, 1.5, -2.0))
+    tree = tree.replace(limb=np.array([1, 1, 5, 6]), order=np.array([0, 0, 1, 1]))
+    result = grown(tree, circle(y=6.0, radius=2.0))
+    assert ((result.skeleton.limb == 5) & (result.generation == 1)).any()
+    bent = TreeSkeleton.from_columns(
+        np.array([NULL, 0, 1]), np.array([[0, 0, 0], [0, 2.8, 0], [2.0, 2.3, -2.3]], float), np.array([0.2, 0.15, 0.1]),
+        limb=np.array([1, 1, 2]), order=np.array([0, 0, 1]), stroke=np.array([0, 0, 1]), kind=np.full(3, int(Kind.DRAWN)),
+    )  # fmt: skip
+    found = grown(bent, circle(y=5.0, radius=1.5))
+    assert ((found.skeleton.limb == 1) & (found.generation == 1)).any()
+
+
 def test_a_palm_takes_its_head_into_the_crown():
     habit = dataclasses.replace(HABIT, max_order=1, leaf_arrangement="frond")
     result = propagate(trunk(), habit, THETA, crown=(circle(y=4.5, radius=2.0),), key=KEY)
