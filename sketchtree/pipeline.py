@@ -139,7 +139,7 @@ def complete(
         season = "bare" if leaf is None else options.season
         leaves = populate(skeleton, habit, key=stage_key(key, "foliage"), model=leaf or habit.leaf, season=season)
     if leaves.kept < 1:
-        warnings += (f"Only {leaves.kept:.0%} of the leaves were kept (at most {len(leaves)}), each larger, so that their area is right.",)
+        warnings += (f"Only {leaves.kept:.1%} of the leaves were kept (at most {len(leaves)}), each larger, so that their area is right.",)
     with watch("mesh"):
         meshes = [*wood_meshes(skeleton, bark=bark, habit=habit, key=stage_key(key, "mesh"))]
         if len(leaves):
