@@ -28,6 +28,7 @@ from sketchtree.mrf.typical import depth_of, typical_elevation
 BLOCK = 40  # chain steps a block
 LARGE = ((4096, 2), (16384, 4))  # above so many rows only every second, every fourth block is run
 TEAMS = 2  # the chains run in so many threads
+LEADING = 4  # one in so many of the cooled chains, the likeliest, proposes its signs
 THIN = 10  # chain steps between kept samples
 START_SD = 0.5  # radians, of a lateral's first ψ
 
@@ -126,8 +127,9 @@ class Elevation(AbstractSolver):
     def depth(self, graph: FactorGraph, state: State) -> Float[np.ndarray, " segment"]:
         psi = state.best
         if self.typical and state.samples:
-            cooled = np.asarray(state.chains.elevation, np.float64)[:, : len(graph)]
-            psi = typical_elevation(graph, np.concatenate(state.samples), np.vstack([state.best, cooled]))
+            leading = np.argsort(-state.chains.value, kind="stable")[: -(-len(state.chains.value) // LEADING)]
+            trees = np.vstack([state.best, state.chains.elevation[leading, : len(graph)].astype(np.float64)])
+            psi = typical_elevation(graph, np.concatenate(state.samples), trees)
         return moved_apart(graph, depth_of(graph, psi))
 
     def depth_sd(self, graph: FactorGraph, state: State) -> Float[np.ndarray, " segment"]:

@@ -5,7 +5,7 @@
     limbs     tan ψ times f_j = (median |Z_js| / |Z_j|)^.6, Z_j the depth from a limb's start to its tip:
               medians along a limb add up to less than the limb
     crown     tan ψ of laterals times f = (median ext z_s / ext z)^.55, ext the extent from front to back
-    signs     the best tree and every cooled chain propose theirs; taken are those whose tree, seen from the side, is
+    signs     the best tree and the likeliest cooled chains propose theirs; taken are those whose tree, seen from the side, is
               nearest to the samples on average. Which of two mirror images a limb is no drawing can tell, but how
               the limbs share out before and behind the trunk, the samples do. Two trees are as far apart as
 
