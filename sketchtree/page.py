@@ -6,9 +6,11 @@ from jaxtyping import Float
 from sketchtree.parameters import Habit
 from sketchtree.similarity import Similarity
 from sketchtree.sketch.graph import SketchGraph
+from sketchtree.sketch.strokes import Sketch
 
 _STOUT = 1.6  # a trunk drawn thicker than its species has is at most this many times as thick
 _THIN = 0.12  # radius of the thinnest line's branch / radius of the trunk, at most
+_CARTOON = 0.05  # radius of a trunk drawn by its two edges / height of the drawing, at most
 
 
 def page_to_world(graph: SketchGraph, height: float) -> Similarity:
@@ -23,16 +25,19 @@ def page_to_world(graph: SketchGraph, height: float) -> Similarity:
     return Similarity(scale, (-scale * root[0], -scale * root[1], 0.0))
 
 
-def drawn_radius(graph: SketchGraph, similarity: Similarity, habit: Habit) -> Float[np.ndarray, " segment"]:
+def drawn_radius(sketch: Sketch, graph: SketchGraph, similarity: Similarity, habit: Habit) -> Float[np.ndarray, " segment"]:
     """Half the drawn width of each branch, metres; NaN where the widths say nothing.
 
-    An area of ink, or a trunk drawn by its two edges, shows how thick the wood is. A pen's line does not: it shows
-    which branch is thicker than which. The thickest line then stands for the trunk of such a tree (or up to `_STOUT`
+    An area of ink shows how thick the wood is, and so do the two edges of a trunk, up to `_CARTOON`: people who draw
+    a trunk by its edges draw it wide. A pen's line does not show it: it shows which branch is thicker than which. The thickest line then stands for the trunk of such a tree (or up to `_STOUT`
     times that, if it was drawn so), the thinnest for a branch no thicker than `_THIN` of it, and those between for
     what lies between on a logarithmic scale."""
     radius = graph.width * similarity.scale / 2
-    if graph.width_is_wood or np.isnan(radius).all():
+    if np.isnan(radius).all():
         return radius
+    if graph.width_is_wood:
+        inked = np.array([stroke.filled for stroke in sketch.strokes], bool)[graph.stroke]
+        return np.where(inked, radius, np.minimum(radius, _CARTOON * graph.height * similarity.scale))
     thinnest, thickest = np.nanmin(radius), np.nanmax(radius)
     trunk = habit.trunk_ratio * similarity.scale * float(np.ptp(graph.xy[:, 1]))
     stem = float(np.clip(thickest, trunk, _STOUT * trunk))

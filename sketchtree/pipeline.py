@@ -114,7 +114,7 @@ def draw_out(
         if fit.result == RESULTS.not_finite:
             raise InferenceError(f"The depths could not be inferred by `{options.method}`.", remedy=str(RESULTS[fit.result]))
         similarity = page_to_world(graph, options.height or habit.height)
-        radius = drawn_radius(graph, similarity, habit)
+        radius = drawn_radius(sketch, graph, similarity, habit)
         skeleton = lift(graph, fit.depth, similarity, depth_sd=fit.depth_sd)
         skeleton = PipeRadii(habit, radius)(skeleton, key=stage_key(key, "radii"))
     return DrawnTree(graph, matches, exemplar, fit, similarity, skeleton, radius, habit)

@@ -127,21 +127,22 @@ def test_pen_widths_say_which_branch_is_thicker_not_how_thick_the_trunk_is():
     sketch = st.read_sketch(ROOT / "examples" / "oak_50.svg")
     graph = st.sketch_graph(sketch)
     habit = st.Habit(height=10.0, trunk_ratio=0.03)
-    radius = drawn_radius(graph, page_to_world(graph, 10.0), habit)
+    radius = drawn_radius(sketch, graph, page_to_world(graph, 10.0), habit)
     known = ~np.isnan(radius)
     assert 0.2 < np.nanmax(radius) < 0.5 and np.nanmin(radius) < 0.06
     order = np.argsort(graph.width[known])
     assert (np.diff(radius[known][order]) >= -1e-12).all()
 
 
-def test_a_trunk_drawn_by_its_two_edges_is_as_thick_as_drawn():
-    edges = [np.array([[40.0, 0.0], [42.0, 60.0]]), np.array([[60.0, 0.0], [58.0, 60.0]])]
+@pytest.mark.parametrize(("half", "expected"), [(2.5, 2.5), (10.0, 0.05 * 60)])
+def test_a_trunk_drawn_by_its_two_edges_is_as_thick_as_drawn_but_no_barrel(half, expected):
+    edges = [np.array([[50.0 - half, 0.0], [50.0 - half, 60.0]]), np.array([[50.0 + half, 0.0], [50.0 + half, 60.0]])]
     angle = np.linspace(0, 2 * np.pi, 60)
     crown = np.column_stack([50 + 45 * np.cos(angle), 100 + 45 * np.sin(angle)])
     strokes = [Stroke(f"s{k}", points) for k, points in enumerate([*edges, crown])]
     drawn = st.draw_out(st.Sketch(tuple(strokes)), key=KEY, options=st.ReadingOptions(method="flat"))
     assert drawn.graph.width_is_wood and len(drawn.graph.crown) == 1
-    np.testing.assert_allclose(np.nanmax(drawn.radius) / drawn.similarity.scale, 9.5, atol=1.5)
+    np.testing.assert_allclose(np.nanmax(drawn.radius) / drawn.similarity.scale, expected, rtol=0.1)
 
 
 def test_a_lone_stroke_is_a_tree_too(templates):
