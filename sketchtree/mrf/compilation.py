@@ -82,13 +82,16 @@ def _make(function, columns, structure, path: Path | None) -> Program:
 
 @contextmanager
 def _own_cache_only(needed: bool):
-    """Leave jax's cache out: a program that came from there can't be written a second time."""
+    """Leave jax's cache out: a program that came from there can't be written a second time.
+    jax asks once a process whether its cache is on, so it is made to ask again before and after."""
     before = jax.config.jax_enable_compilation_cache
     jax.config.update("jax_enable_compilation_cache", before and not needed)
+    compilation_cache.reset_cache()
     try:
         yield
     finally:
         jax.config.update("jax_enable_compilation_cache", before)
+        compilation_cache.reset_cache()
 
 
 def _read(path: Path | None, count: int, remake: Callable[[], Program]) -> Program | None:
