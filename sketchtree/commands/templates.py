@@ -95,7 +95,7 @@ def match_command(sketch: Path, as_json: bool, score: str, crown: str, db: Path 
 
 
 @templates.command("build")
-@click.option("--out", type=click.Path(path_type=Path), help="The file to write (default: the database in use).")
+@click.option("--out", type=click.Path(path_type=Path), help="The file to write (default: exemplars.h5 beside the recipes).")
 @click.option("--recipes", type=click.Path(path_type=Path), help="Folder of recipes (default: template_db of the checkout).")
 @click.option("--only", multiple=True, metavar="SPECIES", help="Only this recipe; may be repeated.")
 @click.option("--count", type=click.IntRange(1, 100_000), help="So many exemplars: recipes in turn, each round from new seeds.")
@@ -109,11 +109,16 @@ def build_command(
     """Make the database from its recipes. `--seed` is added to every recipe's own."""
     if scheduler is not None:
         raise not_yet("templates build --scheduler", _SECTION, "Use --jobs for the processors of this machine.")
-    from sketchtree.templates.database import default_path
     from sketchtree.templates.regenerate import orders, recipe_folder, regenerate
 
-    target = out or db or default_path()
-    wanted = orders(recipes or recipe_folder(), only=only, count=count, seed=seed)
+    folder = recipes or recipe_folder()
+    wanted = orders(folder, only=only, count=count, seed=seed)
+    target = out or db or folder / "exemplars.h5"
+    if out is None and db is None and (only or count) and target.exists():
+        raise OptionError(
+            f"`--only` and `--count` would replace the whole database {target} by other exemplars.",
+            remedy="Name the file to write with --out.",
+        )
     progress = Progress(tuple(order.name for order in wanted), quiet=quiet, json_log=json_log)
     with progress.running():
         database = regenerate(target, wanted, jobs=jobs, progress=progress)

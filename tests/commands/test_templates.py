@@ -116,3 +116,13 @@ def test_the_users_mistakes_end_in_one_paragraph_and_status_2(typed, tmp_path, m
 
 def test_the_roadmap_has_the_section_that_errors_point_to():
     assert "## The template database" in (ROOT / "docs" / "roadmap.md").read_text(encoding="utf-8")
+
+
+def test_a_part_never_replaces_the_whole_database_unasked(capfd):
+    from sketchtree.commands.app import run
+    from sketchtree.templates.regenerate import recipe_folder
+
+    before = (recipe_folder() / "exemplars.h5").read_bytes()
+    assert run(["templates", "build", "--only", "hazel", "--quiet"]) == 2
+    assert "would replace the whole database" in capfd.readouterr().err
+    assert (recipe_folder() / "exemplars.h5").read_bytes() == before
