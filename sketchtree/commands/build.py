@@ -60,9 +60,7 @@ def build(sketch: Path, output: Path, seed: int, quiet: bool, json_log: bool, re
             unseen = writing.write_tree(model, output, run, skeleton=wanted["skeleton"], preview=wanted["preview"])
         record = writing.record(run, model.drawn, model, extra_warnings=unseen)
         writing.write_report(report, record)
-    for warning in record["warnings"]:
-        progress.say(f"Note: {warning}", event="warning")
-    progress.say(writing.summary(record, output), event="done")
+    writing.conclude(record, output, progress)
 
 
 def _refuse_planned(wanted: dict) -> None:

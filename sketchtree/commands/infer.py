@@ -46,6 +46,4 @@ def infer(sketch: Path, output: Path, frame: str, seed: int, quiet: bool, json_l
             writing.write_drawn(drawn, output, run, frame=frame)
         record = writing.record(run, drawn)
         writing.write_report(report, record)
-    for warning in record["warnings"]:
-        progress.say(f"Note: {warning}", event="warning")
-    progress.say(writing.summary(record, output), event="done")
+    writing.conclude(record, output, progress)

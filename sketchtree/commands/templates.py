@@ -141,6 +141,3 @@ def _write_report(path: Path | None, content: dict) -> None:
         raise OptionError(
             f"--report {path}: it can't be written ({error.strerror}).", remedy="Choose a folder that exists and is writable."
         ) from error
-
-
-app = templates

@@ -110,6 +110,13 @@ def write_report(path: Path | None, record: dict) -> None:
     write_whole(path, (json.dumps(record, indent=1, ensure_ascii=False) + "\n").encode())
 
 
+def conclude(record: dict, output: Path, progress) -> None:
+    """Tell the user every warning, and in one line what was written."""
+    for warning in record["warnings"]:
+        progress.say(f"Note: {warning}", event="warning")
+    progress.say(summary(record, output), event="done")
+
+
 def summary(record: dict, output: Path) -> str:
     """One line for the user: what was written, from what, in how long."""
     drawn, total = record["segments"]["drawn"], record["segments"]["total"]
