@@ -11,7 +11,7 @@ import time
 import numpy as np
 
 from sketchtree.sketch.reading import sketch_graph
-from sketchtree.sketch.svg import read_svg
+from sketchtree.sketch.files.svg import read_svg
 
 HEIGHT = 1000.0
 _CHILDREN = 6  # limbs that one limb carries

@@ -1,1 +1,1 @@
-
+"""What was drawn? A file → `Sketch` (files, raster) → what each stroke is (roles) → what grows from what (joining) → `SketchGraph`."""

@@ -4,10 +4,10 @@ import os
 from pathlib import Path
 
 from sketchtree.errors import SketchError
-from sketchtree.sketch.document import LARGEST_FILE, inflate
-from sketchtree.sketch.sketch_json import read_sketch_json, sketch_json
+from sketchtree.sketch.files.document import LARGEST_FILE, inflate
+from sketchtree.sketch.files.sketch_json import read_sketch_json, sketch_json
 from sketchtree.sketch.strokes import Sketch, StrokeKind
-from sketchtree.sketch.svg import read_svg
+from sketchtree.sketch.files.svg import read_svg
 
 _SAVE_AS_SVG = "Save the drawing as SVG (or as sketch JSON); docs/formats.md says how for each program."
 _RASTERS = {

@@ -28,6 +28,25 @@ class Attachment:
     reason: str  # what decided, in words
 
 
+@dataclass(frozen=True)
+class Role:
+    """What a stroke was taken for that is no branch; one line of the report."""
+
+    stroke: str  # id of the stroke
+    role: str  # crown | obstacle | ground | shadow | leaves | hatching | speckle | paper | dot
+    reason: str  # what decided, in words
+    alternatives: tuple[tuple[str, float], ...] = ()  # (role or "branch", cost) of what else it may be
+
+
+@dataclass(frozen=True)
+class Cut:
+    """Where the page's edge cuts the tree."""
+
+    stroke: str  # id of the stroke
+    point: tuple[float, float]  # where it leaves the page, sketch units, y up
+    edge: str  # left | right | top | bottom
+
+
 @dataclass(frozen=True, eq=False)
 class SketchGraph:
     """One or several rooted trees of drawn segments. Sketch units, y up.
@@ -51,9 +70,15 @@ class SketchGraph:
     crown: tuple[np.ndarray, ...] = ()  # closed outlines (point 2), first point not repeated
     obstacles: tuple[np.ndarray, ...] = ()
     attachments: tuple[Attachment, ...] = ()
+    roles: tuple[Role, ...] = ()  # strokes that are no branch, or only in part
+    root: Bool[np.ndarray, " segment"] | None = None  # rows of drawn roots, below the ground; made all False if None
+    ground: tuple[np.ndarray, ...] = ()  # drawn ground lines (point 2)
+    cuts: tuple[Cut, ...] = ()  # where the page's edge cuts the tree
     warnings: tuple[str, ...] = ()
 
     def __post_init__(self):
+        if self.root is None:
+            object.__setattr__(self, "root", np.zeros(len(self.parent), bool))
         for name, dtype in _DTYPE.items():
             column = np.array(getattr(self, name), dtype)
             column.flags.writeable = False
@@ -141,6 +166,7 @@ _DTYPE = {
     "tree": np.int64,
     "width": np.float64,
     "joined": np.bool_,
+    "root": np.bool_,
     "curve_points": np.float64,
     "curve_start": np.int64,
     "limb_id": np.int64,

@@ -8,18 +8,18 @@ from jaxtyping import Float, Int
 
 from sketchtree.errors import OptionError, SketchError
 from sketchtree.keys import stroke_limb_id
-from sketchtree.sketch.attach import attach
-from sketchtree.sketch.attachments import describe
-from sketchtree.sketch.cleaning import as_line, clean
-from sketchtree.sketch.contour import contour, only_outline
-from sketchtree.sketch.crown import crown_strokes, has_area, outline
+from sketchtree.sketch.joining.attach import attach
+from sketchtree.sketch.joining.attachments import describe
+from sketchtree.sketch.joining.cleaning import as_line, clean
+from sketchtree.sketch.roles.contour import contour, only_outline
+from sketchtree.sketch.roles.crown import crown_strokes, has_area, outline
 from sketchtree.sketch.graph import SketchGraph
-from sketchtree.sketch.joints import Limb, limbs_of
-from sketchtree.sketch.lines import Line, extent
-from sketchtree.sketch.segments import columns
-from sketchtree.sketch.silhouette import is_blob, middle_lines, with_holes
+from sketchtree.sketch.joining.joints import Limb, limbs_of
+from sketchtree.sketch.joining.lines import Line, extent
+from sketchtree.sketch.joining.segments import columns
+from sketchtree.sketch.roles.silhouette import is_blob, middle_lines, with_holes
 from sketchtree.sketch.strokes import Sketch, StrokeKind
-from sketchtree.sketch.widths import drawn_widths
+from sketchtree.sketch.joining.widths import drawn_widths
 
 
 def sketch_graph(sketch: Sketch, *, crown: str = "auto") -> SketchGraph:

@@ -30,6 +30,8 @@ class Stroke:
     pressure: Float[np.ndarray, " point"] | None = None  # 0-1
     time: Float[np.ndarray, " point"] | None = None  # milliseconds
     filled: bool = False  # painted as an area rather than as a line
+    wood: bool = False  # its width is the limb's own thickness, measured on the drawing; no pen set it
+    layer: str | None = None  # name of the innermost layer or group it lies in, where the file has one
 
     def __post_init__(self):
         points = np.array(self.points, np.float64).reshape(-1, 2)
@@ -53,6 +55,7 @@ class Sketch:
     name: str = "sketch"
     units: str = "px"
     view_deg: float = 0.0  # azimuth of the page when it was drawn
+    page: tuple[float, float, float, float] | None = None  # left, bottom, right, top edge of the page, user units, y up
     warnings: tuple[str, ...] = field(default=())
 
     def __len__(self) -> int:

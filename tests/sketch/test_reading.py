@@ -9,9 +9,9 @@ from hands import EXAMPLES, SHARED, farthest, moved, parents, polyline_distance,
 from sketchtree.axes import NULL
 from sketchtree.errors import OptionError, SketchError
 from sketchtree.sketch.formats import read_sketch
-from sketchtree.sketch.lines import unit
+from sketchtree.sketch.joining.lines import unit
 from sketchtree.sketch.reading import sketch_graph
-from sketchtree.sketch.sketch_json import read_sketch_json
+from sketchtree.sketch.files.sketch_json import read_sketch_json
 from sketchtree.sketch.strokes import Sketch, Stroke, StrokeKind
 
 AWKWARD = json.loads((Path(__file__).resolve().parents[1] / "data" / "awkward_sketches.json").read_text())

@@ -11,7 +11,7 @@ import numpy as np
 from jaxtyping import Float
 
 from sketchtree.axes import NULL
-from sketchtree.sketch.joints import Limb, beyond
+from sketchtree.sketch.joining.joints import Limb, beyond
 
 BEND = 0.012  # of H: how far a drawn line may lie from its straight segments
 MERGE = 0.004  # of H: junctions nearer than this along a limb are one

@@ -8,9 +8,9 @@ import numpy as np
 from cssselect2 import ElementWrapper
 
 from sketchtree.errors import SketchError
-from sketchtree.sketch.document import parse_xml
-from sketchtree.sketch.outlines import flatten
-from sketchtree.sketch.painted import Shape, Walk, extent_of
+from sketchtree.sketch.files.document import parse_xml
+from sketchtree.sketch.files.outlines import flatten
+from sketchtree.sketch.files.painted import Shape, Walk, extent_of
 from sketchtree.sketch.strokes import Sketch, Stroke, StrokeKind
 
 FLATNESS = 5e-4  # how far a flattened curve may lie from the true one, of the drawing's size

@@ -13,7 +13,7 @@ import numpy as np
 from jaxtyping import Float, Int
 from svgelements import Arc, Close, CubicBezier, Line, Move, Path, QuadraticBezier
 
-from sketchtree.sketch.transforms import length
+from sketchtree.sketch.files.transforms import length
 
 CIRCLE = 0.5522847498307936  # control arm of a quarter circle, by its radius
 _NUMBER = re.compile(r"[-+]?(?:\d+\.?\d*|\.\d+)(?:[eE][-+]?\d+)?|[a-zA-Z]+")

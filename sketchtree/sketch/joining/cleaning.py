@@ -11,9 +11,9 @@ import numpy as np
 import shapely
 from jaxtyping import Float, Int
 
-from sketchtree.sketch.lines import Line, angle_between, extent, turning
-from sketchtree.sketch.tremor import STILL, without_tremor
-from sketchtree.sketch.trunk_edges import trunk_of_edges
+from sketchtree.sketch.joining.lines import Line, angle_between, extent, turning
+from sketchtree.sketch.joining.tremor import STILL, without_tremor
+from sketchtree.sketch.roles.trunk_edges import trunk_of_edges
 
 DOT = 0.005  # of H: a smaller stroke is a dot
 INK = 0.0012  # of H: a stroke nowhere farther than this from another is part of it

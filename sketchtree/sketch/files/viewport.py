@@ -4,7 +4,7 @@ import numpy as np
 from cssselect2 import ElementWrapper
 
 from sketchtree.errors import SketchError
-from sketchtree.sketch.transforms import Matrix, length
+from sketchtree.sketch.files.transforms import Matrix, length
 
 REDRAW = "Draw that shape again, or export the drawing as plain SVG."
 

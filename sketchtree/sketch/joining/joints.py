@@ -13,9 +13,9 @@ import shapely
 from jaxtyping import Float, Int
 
 from sketchtree.axes import NULL
-from sketchtree.sketch.attach import Hanging
-from sketchtree.sketch.candidates import REACH, foot_reach
-from sketchtree.sketch.lines import Line, angle_between, extent
+from sketchtree.sketch.joining.attach import Hanging
+from sketchtree.sketch.joining.candidates import REACH, foot_reach
+from sketchtree.sketch.joining.lines import Line, angle_between, extent
 
 SLACK = 0.012  # of H: a wider gap between a foot and its junction is bridged, a narrower one closed
 OVERSHOOT = 0.025  # of H: how far past its parent a foot may have been drawn

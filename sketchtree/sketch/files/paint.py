@@ -1,6 +1,6 @@
 """Does a fill or a stroke show at all? Colours are not read beyond that."""
 
-from sketchtree.sketch.css import Style
+from sketchtree.sketch.files.css import Style
 
 
 def is_paint(paint: str, opacity: str, style: Style) -> bool:

@@ -15,7 +15,7 @@ import re
 import numpy as np
 from jaxtyping import Float
 
-from sketchtree.sketch.css import Style
+from sketchtree.sketch.files.css import Style
 
 Matrix = Float[np.ndarray, "3 3"]
 IDENTITY: Matrix = np.eye(3)

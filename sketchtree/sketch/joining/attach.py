@@ -19,9 +19,9 @@ import shapely
 from jaxtyping import Bool, Float, Int
 
 from sketchtree.axes import NULL
-from sketchtree.sketch.arborescence import arborescence
-from sketchtree.sketch.candidates import MANY, REACH, Arcs, bridging_arcs, candidate_arcs
-from sketchtree.sketch.lines import Line, extent, unit
+from sketchtree.sketch.joining.arborescence import arborescence
+from sketchtree.sketch.joining.candidates import MANY, REACH, Arcs, bridging_arcs, candidate_arcs
+from sketchtree.sketch.joining.lines import Line, extent, unit
 
 FORBIDDEN = 1e4  # dearer than any tree of sensible attachments
 GROUND = 0.04  # of H: a foot this near to the ground's height may stand on it

@@ -3,7 +3,7 @@ from itertools import product
 import numpy as np
 import pytest
 
-from sketchtree.sketch.arborescence import arborescence
+from sketchtree.sketch.joining.arborescence import arborescence
 
 
 def cheapest_by_trying_all(tail, head, cost, node_count):

@@ -1,7 +1,7 @@
 import numpy as np
 import pytest
 
-from sketchtree.sketch.transforms import length, matrix_of, transform_list
+from sketchtree.sketch.files.transforms import length, matrix_of, transform_list
 
 BOX = (0.0, 0.0, 200.0, 100.0)
 

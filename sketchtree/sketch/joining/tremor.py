@@ -11,7 +11,7 @@ import dataclasses
 
 import numpy as np
 
-from sketchtree.sketch.lines import Line
+from sketchtree.sketch.joining.lines import Line
 
 REACH = 0.015  # R, of H, along the trembling line
 SHORTENS = 0.1  # of its length

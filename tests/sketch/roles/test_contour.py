@@ -4,7 +4,7 @@ from hands import EXAMPLES, SHARED
 from test_shapes import ring
 
 from sketchtree.errors import SketchError
-from sketchtree.sketch.contour import contour, only_outline
+from sketchtree.sketch.roles.contour import contour, only_outline
 from sketchtree.sketch.formats import read_sketch
 from sketchtree.sketch.reading import sketch_graph
 from sketchtree.sketch.strokes import Sketch, Stroke

@@ -11,13 +11,13 @@ import numpy as np
 from cssselect2 import ElementWrapper
 
 from sketchtree.errors import SketchError
-from sketchtree.sketch.css import Cascade, Style
-from sketchtree.sketch.labels import kind_named
-from sketchtree.sketch.outlines import Subpath, flatten, subpaths
-from sketchtree.sketch.paint import fraction, is_paint
+from sketchtree.sketch.files.css import Cascade, Style
+from sketchtree.sketch.files.labels import kind_named
+from sketchtree.sketch.files.outlines import Subpath, flatten, subpaths
+from sketchtree.sketch.files.paint import fraction, is_paint
 from sketchtree.sketch.strokes import StrokeKind
-from sketchtree.sketch.transforms import IDENTITY, Matrix, matrix_of
-from sketchtree.sketch.viewport import REDRAW, nested, page, user_length
+from sketchtree.sketch.files.transforms import IDENTITY, Matrix, matrix_of
+from sketchtree.sketch.files.viewport import REDRAW, nested, page, user_length
 
 DEEPEST = 256  # nested elements
 _SHAPES = frozenset({"path", "line", "polyline", "polygon", "rect", "circle", "ellipse"})

@@ -22,7 +22,7 @@ import numpy as np
 import shapely
 from jaxtyping import Bool, Float, Int
 
-from sketchtree.sketch.lines import Line, angle_between, unit
+from sketchtree.sketch.joining.lines import Line, angle_between, unit
 
 NEAREST = 16  # strokes tried for every end, half as many in a drawing of more than MANY
 MANY = 1000

@@ -2,7 +2,7 @@ import numpy as np
 import pytest
 import shapely
 
-from sketchtree.sketch.outlines import flatten, subpaths
+from sketchtree.sketch.files.outlines import flatten, subpaths
 
 VIEW = (100.0, 100.0)
 

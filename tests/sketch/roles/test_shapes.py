@@ -1,12 +1,12 @@
 import numpy as np
 import pytest
 
-from sketchtree.sketch.cleaning import as_line, clean
-from sketchtree.sketch.crown import crown_strokes
+from sketchtree.sketch.joining.cleaning import as_line, clean
+from sketchtree.sketch.roles.crown import crown_strokes
 from sketchtree.sketch.reading import sketch_graph
-from sketchtree.sketch.silhouette import is_blob, middle_lines, with_holes
+from sketchtree.sketch.roles.silhouette import is_blob, middle_lines, with_holes
 from sketchtree.sketch.strokes import Sketch, Stroke
-from sketchtree.sketch.tremor import without_tremor
+from sketchtree.sketch.joining.tremor import without_tremor
 
 
 def painted(stroke_id, points):

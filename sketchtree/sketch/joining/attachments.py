@@ -4,12 +4,12 @@ import numpy as np
 from jaxtyping import Int
 
 from sketchtree.axes import NULL
-from sketchtree.sketch.attach import FORBIDDEN, Hanging
-from sketchtree.sketch.cleaning import AGAIN_OVER, OTHER_SIDE, Cleaned
+from sketchtree.sketch.joining.attach import FORBIDDEN, Hanging
+from sketchtree.sketch.joining.cleaning import AGAIN_OVER, OTHER_SIDE, Cleaned
 from sketchtree.sketch.graph import Attachment
-from sketchtree.sketch.joints import Limb
-from sketchtree.sketch.lines import Line
-from sketchtree.sketch.segments import Rows
+from sketchtree.sketch.joining.joints import Limb
+from sketchtree.sketch.joining.lines import Line
+from sketchtree.sketch.joining.segments import Rows
 
 DOUBTFUL = 0.05  # of H: a foot farther from its parent is worth a warning
 

@@ -9,7 +9,7 @@ across and down again.
 import numpy as np
 from jaxtyping import Float
 
-from sketchtree.sketch.lines import Line, extent
+from sketchtree.sketch.joining.lines import Line, extent
 
 ON_GROUND = 0.15  # of H: both feet within this of the lowest point
 LIKE = 0.55  # least ratio of the lengths

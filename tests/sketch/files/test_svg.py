@@ -3,7 +3,7 @@ import pytest
 
 from sketchtree.errors import SketchError
 from sketchtree.sketch.strokes import StrokeKind
-from sketchtree.sketch.svg import read_svg
+from sketchtree.sketch.files.svg import read_svg
 
 LINE = '<path {} d="M1 2L3 4" stroke="black" fill="none"/>'
 

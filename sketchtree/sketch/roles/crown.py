@@ -9,7 +9,7 @@ import numpy as np
 import shapely
 from jaxtyping import Float
 
-from sketchtree.sketch.silhouette import is_blob
+from sketchtree.sketch.roles.silhouette import is_blob
 from sketchtree.sketch.strokes import Stroke
 
 OPEN = 0.35  # widest opening of a nearly closed outline, of its larger side

@@ -16,7 +16,7 @@ from scipy.sparse import coo_array, csr_array
 from scipy.sparse.csgraph import connected_components, dijkstra
 from scipy.spatial import Voronoi
 
-from sketchtree.sketch.lines import Line, unit
+from sketchtree.sketch.joining.lines import Line, unit
 from sketchtree.sketch.strokes import Stroke
 
 SAMPLES = 800  # points along an outline

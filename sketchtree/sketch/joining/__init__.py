@@ -1,0 +1,1 @@
+"""Which branch grows from which? Clean lines, attachment costs, the arborescence, limbs, nodes."""

@@ -1,0 +1,1 @@
+"""Which strokes does a picture of a line drawing hold? Ink, skeleton, traces, widths."""
