@@ -14,6 +14,8 @@ from jaxtyping import Bool, Float, Int
 
 from sketchtree.axes import NULL
 
+DOUBT = 1.0  # an attachment whose next best parent costs less than this more might be another
+
 
 @dataclass(frozen=True)
 class Attachment:
@@ -26,6 +28,11 @@ class Attachment:
     cost: float  # attachment cost, lower is surer
     alternatives: tuple[tuple[str, float], ...]  # (stroke id, cost) of the next best parents
     reason: str  # what decided, in words
+
+    @property
+    def doubtful(self) -> bool:
+        """Whether the next best parent costs less than DOUBT more."""
+        return any(cost - self.cost < DOUBT for _, cost in self.alternatives)
 
 
 @dataclass(frozen=True)
