@@ -67,7 +67,7 @@ def random_hand(rng: np.random.Generator) -> Hand:
 
 
 def draw(tree: TreeSkeleton, hand: Hand, *, name: str, family: str, rng: np.random.Generator) -> Case:
-    """Draws `tree` (y up, one base) as `hand` would. Strokes are numbered s0 (the trunk), s1, …"""
+    """Draws `tree` (y up) as `hand` would, all its stems. Strokes are numbered s0 (the trunk), s1, …"""
     tip = _turned(tree.tip - tree.tip[0], hand.azimuth) * (HEIGHT / np.ptp(tree.tip[:, 1]))
     radius = tree.radius * (HEIGHT / np.ptp(tree.tip[:, 1]))
     chains = [_with_junction(tree.parent, rows) for rows in limb_chains(tree.parent, tree.limb)]
@@ -92,12 +92,13 @@ def _conspicuous(tree, tip, chains, hand, rng):
     length = np.array([np.linalg.norm(np.diff(tip[rows], axis=0), axis=1).sum() for rows in chains])
     seen = np.array([np.linalg.norm(np.diff(tip[rows, :2], axis=0), axis=1).sum() for rows in chains])
     order = np.array([tree.order[rows[-1]] for rows in chains])
-    owner = _owner(chains)
+    owner = _owner(chains, tree.parent)
+    stems = [k for k, rows in enumerate(chains) if tree.parent[rows[0]] == NULL]
     carrier = np.array([owner[int(rows[0])] for rows in chains])
     wanted = 1.5 * np.log(length + 1e-9) + rng.gumbel(size=len(chains))
     wanted[(order >= hand.orders) | (seen < SHORTEST * HEIGHT)] = -np.inf
-    wanted[0] = -np.inf
-    kept, mains = [0], hand.strokes if hand.orders == 2 else int(np.ceil(hand.main * hand.strokes))
+    wanted[stems] = -np.inf
+    kept, mains = list(stems), hand.strokes if hand.orders == 2 else int(np.ceil(hand.main * hand.strokes))
     while len(kept) < hand.strokes:
         ready = np.isin(carrier, kept) & ((order > 1) | (np.sum(order[kept] == 1) < mains))
         best = int(np.argmax(np.where(ready, wanted, -np.inf)))
@@ -108,9 +109,9 @@ def _conspicuous(tree, tip, chains, hand, rng):
     return sorted(kept, key=lambda k: (order[k], k))
 
 
-def _owner(chains):
+def _owner(chains, parent):
     """{row: the limb that it belongs to}; a junction belongs to the limb that carries it."""
-    return {int(row): k for k, rows in enumerate(chains) for row in (rows if k == 0 else rows[1:])}
+    return {int(row): k for k, rows in enumerate(chains) for row in (rows if parent[rows[0]] == NULL else rows[1:])}
 
 
 @dataclass
@@ -126,10 +127,10 @@ class _Line:
 
 def _stroke_rows(tree, tip, chains):
     """[(rows, carrier stroke, row of the carrier)], junctions that nearly touch on one limb merged."""
-    owner = _owner(chains)
+    owner = _owner(chains, tree.parent)
     strokes, used = [], {}
     for k, rows in enumerate(chains):
-        if k == 0:
+        if tree.parent[rows[0]] == NULL:
             strokes.append((rows, NULL, NULL))
             continue
         host, carrier = int(rows[0]), owner[int(rows[0])]

@@ -1,0 +1,236 @@
+"""Does every stroke hang where it truly grows? Careless drawings of known trees, read and compared.
+
+    python -m benchmarks.topology                       the curve over the jitter, both ways of wobbling
+    python -m benchmarks.topology --drawings 20 --jitter 1 3
+    python -m benchmarks.topology --record              write data/topology_record.json; the tests hold later versions to it
+
+Trees: the exemplars of the database and the measured trees, seen from any side, 2-3 orders, 10-60 strokes, drawn as
+`shaky.wobbly` says. A stroke of the truth is read rightly if both of these agree with the truth:
+
+    report     every attachment of its strokes that leads to another line of the truth leads to its parent
+    walk       from the middle of every segment, found on the read curves, the way to the root runs along the stroke to
+               its foot and, MARGIN beyond the junction, along its parent, near where it truly starts
+
+    segments   share of true segments that are right (a wrong stroke costs all its segments)       the bar's figure
+    strokes    share of true strokes whose report is right, trunks left out
+    reversed   share of strokes whose tip was taken for the foot
+    joined     share of strokes wrongly taken to carry another on from its tip
+    nearest    `strokes` of a baseline: the longest first, each to the nearest of those before it
+"""
+
+import argparse
+import json
+import zlib
+from collections.abc import Iterator
+from pathlib import Path
+
+import numpy as np
+import shapely
+
+from benchmarks.cases import DATA
+from benchmarks.drawing import Hand, draw
+from benchmarks.families import measured
+from benchmarks.shaky import Wobbly, wobbly
+from sketchtree.axes import NULL
+from sketchtree.sketch.graph import SketchGraph
+from sketchtree.sketch.reading import sketch_graph
+from sketchtree.sketch.strokes import Sketch
+
+RECORD = DATA / "topology_record.json"
+JITTER = (0.0, 1.0, 2.0, 3.0, 5.0)  # j, % of H
+WAYS = {"moored": True, "adrift": False}
+MARGIN = 0.03  # of H: how far beyond a junction the way to the root is looked at
+NEAR = 0.01  # of H: nearer than this to a line is on it
+FIGURES = ("segments", "strokes", "walk", "reversed", "joined", "nearest")
+
+
+def trees(folder: Path | None = None) -> Iterator[tuple[str, object]]:
+    """(name, skeleton) of every exemplar and every measured tree (of `folder`, by default those shipped)."""
+    from sketchtree.templates.database import Database
+
+    database = Database.open()
+    for name in database.names:
+        yield name, database.exemplar(name).skeleton
+    for path in sorted((folder or DATA / "measured").glob("*.npz")):
+        yield path.stem, measured(path)
+
+
+def drawings(count: int, jitter: float, *, moored: bool = True, first_seed: int = 0, source=None) -> list[Wobbly]:
+    """`count` drawings, the trees taken in turn; the same exact drawings for every jitter."""
+    source = list(trees() if source is None else source)
+    made = []
+    for k in range(count):
+        name, tree = source[k % len(source)]
+        turn = first_seed + k // len(source)
+        rng = np.random.default_rng([turn, zlib.crc32(name.encode())])
+        hand = Hand(
+            azimuth=rng.uniform(0, 2 * np.pi),
+            strokes=int(np.round(np.exp(rng.uniform(np.log(10), np.log(60))))),
+            orders=int(rng.choice([2, 3])),
+            main=rng.uniform(0.35, 0.75),
+            jitter=0.0,
+        )
+        case = draw(tree, hand, name=f"{name}_{turn}", family=name, rng=rng)
+        made.append(wobbly(case, jitter, moored=moored, rng=rng))
+    return made
+
+
+def score(drawn: Wobbly, graph: SketchGraph) -> dict[str, float]:
+    """The figures of one read drawing."""
+    reported = _reported(drawn, [(a.stroke, a.parent) for a in graph.attachments])
+    walked = _walked(drawn, graph)
+    inner = drawn.parent != NULL
+    right = np.concatenate([walk & ok for walk, ok in zip(walked, reported, strict=True)])
+    return {
+        "segments": float(right.mean()),
+        "strokes": float(reported[inner].mean()),
+        "walk": float(np.concatenate(walked).mean()),
+        "reversed": float(_reversed(drawn, graph)[inner].mean()),
+        "joined": float(_joined(drawn, graph)[inner].mean()),
+        "nearest": float(_reported(drawn, nearest_first(drawn.sketch))[inner].mean()),
+    }
+
+
+def _owner(drawn: Wobbly) -> dict[str, int]:
+    return {name: k for k, names in enumerate(drawn.ids) for name in names}
+
+
+def _reported(drawn: Wobbly, pairs) -> np.ndarray:
+    """Of every true stroke: do all (stroke, parent) of its strokes that lead elsewhere lead to its parent?"""
+    owner = _owner(drawn)
+    found: list[set[int]] = [set() for _ in drawn.ids]
+    for name, parent in pairs:
+        child, above = owner[name], NULL if parent is None else owner[parent]
+        if child != above:
+            found[child].add(above)
+    return np.array([above == {int(true)} for above, true in zip(found, drawn.parent, strict=True)])
+
+
+def _walked(drawn: Wobbly, graph: SketchGraph) -> list[np.ndarray]:
+    """Of every true stroke, of each of its segments: does the way to the root run along it and then its parent?"""
+    point, above, away = _rootward(graph, 0.002 * drawn.height)
+    tree = shapely.STRtree(shapely.points(point))
+    lines = [shapely.LineString(line) for line in drawn.line]
+    found = []
+    for k, line in enumerate(lines):
+        up = int(drawn.parent[k])
+        gap = 0.0 if up == NULL else line.interpolate(0.0).distance(lines[up])
+        beyond = 0.0 if up == NULL else gap + min(MARGIN * drawn.height, drawn.s[k])
+        middle = 0.5 * (np.r_[0.0, drawn.node[k][:-1]] + drawn.node[k])
+        here = tree.nearest(shapely.line_interpolate_point(line, middle))
+        left, runs = middle + beyond, np.ones(len(middle), bool)
+        runs &= shapely.distance(shapely.points(point[here]), line) <= NEAR * drawn.height
+        while (going := (left > 0) & (above[here] != NULL)).any():
+            left[going] -= away[here[going]]
+            here[going] = above[here[going]]
+            on = shapely.distance(shapely.points(point[here]), line) <= NEAR * drawn.height
+            runs &= on | ~going | (left < beyond + MARGIN * drawn.height)
+        if up == NULL:
+            runs &= np.hypot(*(point[here] - drawn.line[k][0]).T) <= MARGIN * drawn.height
+        else:
+            at = shapely.points(point[here])
+            seat = shapely.line_locate_point(lines[up], at)
+            runs &= shapely.distance(at, lines[up]) <= NEAR * drawn.height
+            runs &= np.abs(seat - drawn.s[k]) <= gap + 2 * MARGIN * drawn.height
+        found.append(runs)
+    return found
+
+
+def _rootward(graph: SketchGraph, step: float):
+    """(points along all read curves, index of the next one towards the root, how far that is)."""
+    points, above, away, last = [], [], [], np.zeros(len(graph), int)
+    for row in range(len(graph)):
+        if graph.parent[row] == NULL:
+            points.append(graph.xy[row])
+            above.append(NULL)
+            away.append(0.0)
+        else:
+            fine = shapely.get_coordinates(shapely.segmentize(shapely.LineString(graph.curve(row)), step))
+            before = int(last[graph.parent[row]])
+            for k in range(1, len(fine)):
+                above.append(before if k == 1 else len(points) - 1)
+                points.append(fine[k])
+                away.append(float(np.hypot(*(fine[k] - fine[k - 1]))))
+        last[row] = len(points) - 1
+    return np.array(points), np.array(above), np.array(away)
+
+
+def _reversed(drawn: Wobbly, graph: SketchGraph) -> np.ndarray:
+    """Of every true stroke: does its (longest) stroke hang by the end that is its tip?"""
+    owner, found = _owner(drawn), np.zeros(len(drawn.line), bool)
+    for a in graph.attachments:
+        k = owner[a.stroke]
+        foot, tip = (np.hypot(*(drawn.line[k][end] - a.point)) for end in (0, -1))
+        if a.parent is None or owner[a.parent] != k:
+            found[k] = tip < foot
+    return found
+
+
+def _joined(drawn: Wobbly, graph: SketchGraph) -> np.ndarray:
+    """Of every true stroke: does it wrongly carry another on from its tip?"""
+    owner, found = _owner(drawn), np.zeros(len(drawn.line), bool)
+    for a in graph.attachments:
+        k = owner[a.stroke]
+        if a.parent is None or owner[a.parent] == k or not a.reason.startswith("carries"):
+            continue
+        up = owner[a.parent]
+        tip = _length(drawn.line[up]) - drawn.s[k] <= MARGIN * drawn.height
+        found[k] |= not (up == drawn.parent[k] and tip)
+    return found
+
+
+def _length(line: np.ndarray) -> float:
+    return float(np.hypot(*np.diff(line, axis=0).T).sum())
+
+
+def nearest_first(sketch: Sketch) -> list[tuple[str, str | None]]:
+    """(stroke, parent) by the baseline: the longest stroke first, each by its nearer end to the nearest before it."""
+    strokes = sorted(sketch.strokes, key=lambda stroke: -_length(stroke.points))
+    shapes = [shapely.LineString(stroke.points) for stroke in strokes]
+    found: list[tuple[str, str | None]] = [(strokes[0].id, None)]
+    for k, stroke in enumerate(strokes[1:], 1):
+        gaps = shapely.distance(shapely.points(stroke.points[[0, -1]])[:, None], np.array(shapes[:k], object)[None]).min(0)
+        found.append((stroke.id, strokes[int(np.argmin(gaps))].id))
+    return found
+
+
+def curve(count: int, jitters, ways=tuple(WAYS), *, first_seed: int = 0, source=None) -> dict[str, dict[str, dict[str, float]]]:
+    """way → jitter → figure (the mean over drawings)."""
+    source = list(trees() if source is None else source)
+    table: dict = {}
+    for way in ways:
+        table[way] = {}
+        for jitter in jitters:
+            made = drawings(count, jitter, moored=WAYS[way], first_seed=first_seed, source=source)
+            rows = [score(drawn, sketch_graph(drawn.sketch)) for drawn in made]
+            table[way][f"{jitter:g}"] = {name: float(np.mean([row[name] for row in rows])) for name in FIGURES}
+    return table
+
+
+def printed(table) -> str:
+    """The curve as text, percent."""
+    lines = [f"{'':8s}{'j %H':>6s}" + "".join(f"{name:>10s}" for name in FIGURES)]
+    for way, rows in table.items():
+        lines += [f"{way:8s}{j:>6s}" + "".join(f"{100 * row[name]:10.2f}" for name in FIGURES) for j, row in rows.items()]
+    return "\n".join(lines)
+
+
+def main(arguments: list[str] | None = None) -> None:
+    """The command line."""
+    parser = argparse.ArgumentParser(prog="python -m benchmarks.topology", description=__doc__.splitlines()[0])
+    parser.add_argument("--drawings", type=int, default=72, help="drawings for every jitter (default: 72)")
+    parser.add_argument("--jitter", type=float, nargs="+", default=list(JITTER), help="% of the drawn height")
+    parser.add_argument("--way", choices=WAYS, nargs="+", default=list(WAYS))
+    parser.add_argument("--skeletons", type=Path, help="a folder of measured trees instead of those shipped")
+    parser.add_argument("--seed", type=int, default=0, help="first seed of the drawings")
+    parser.add_argument("--record", action="store_true", help="make these figures the record")
+    options = parser.parse_args(arguments)
+    table = curve(options.drawings, options.jitter, options.way, first_seed=options.seed, source=trees(options.skeletons))
+    print(printed(table))
+    if options.record:
+        rounded = {way: {j: {name: round(v, 4) for name, v in row.items()} for j, row in rows.items()} for way, rows in table.items()}
+        RECORD.write_text(json.dumps({"drawings": options.drawings, "curve": rounded}, indent=1) + "\n")
+
+
+if __name__ == "__main__":
+    main()
