@@ -9,16 +9,24 @@ from sketchtree.errors import OptionError
 
 
 @dataclass(frozen=True)
-class ReadingOptions:
+class DrawingOptions:
+    """How a file becomes the branches that it shows."""
+
+    crown: str = "auto"  # auto | off
+    max_strokes: int = 20_000  # ≥ 1
+    max_mb: float = 100.0  # largest file, MB (10⁶ bytes), > 0
+    max_megapixels: float = 200.0  # largest picture, 10⁶ pixels, > 0
+
+
+@dataclass(frozen=True)
+class ReadingOptions(DrawingOptions):
     """How a sketch becomes drawn branches in 3D."""
 
     template: str = "auto"  # auto: best match; none: no template; else an exemplar's name
     theta: str = "fit"  # fit: learn Θ from the sketch; fixed: hold the template's
     method: str = "elevation"
     height: float | None = None  # metres, > 0; None: the template's
-    crown: str = "auto"  # auto | off
     planar: bool = False
-    max_strokes: int = 20_000
 
     def __post_init__(self):
         if self.height is not None and not (np.isfinite(self.height) and 0 < self.height <= 1000):

@@ -3,6 +3,7 @@
     strokes → sketch graph → template → depths → skeleton → propagation → radii → leaves → meshes
 """
 
+import dataclasses
 from dataclasses import dataclass
 from pathlib import Path
 
@@ -28,6 +29,7 @@ from sketchtree.options import ReadingOptions, TreeOptions
 from sketchtree.page import drawn_radius, page_to_world
 from sketchtree.parameters import GENERIC, Habit
 from sketchtree.propagate.generations import Propagate
+from sketchtree.roots import root_depth
 from sketchtree.similarity import Similarity
 from sketchtree.skeleton import TreeSkeleton
 from sketchtree.sketch.formats import read_sketch
@@ -103,21 +105,33 @@ def draw_out(
     with watch("read"):
         sketch = sketch if isinstance(sketch, Sketch) else read_sketch(sketch, max_strokes=options.max_strokes)
         graph = sketch_graph(sketch, crown=options.crown)
+        above = graph.above_ground()
     with watch("match"):
         templates = templates if templates is not None or options.template == "none" else Database.open()
-        matches, exemplar = choose_template(graph, templates, options.template)
+        matches, exemplar = choose_template(above, templates, options.template)
         habit = exemplar.habit if exemplar else Habit()
         prior = Prior(exemplar.theta, exemplar.limbs) if exemplar else Prior(GENERIC)
     with watch("infer"):
         solver = solver_named(options.method, theta=options.theta, planar=options.planar)
-        fit = infer(factor_graph(graph), prior, solver, key=stage_key(key, "infer"), throw=False)
+        fit = infer(factor_graph(above), prior, solver, key=stage_key(key, "infer"), throw=False)
         if fit.result == RESULTS.not_finite:
             raise InferenceError(f"The depths could not be inferred by `{options.method}`.", remedy=str(RESULTS[fit.result]))
-        similarity = page_to_world(graph, options.height or habit.height)
-        radius = drawn_radius(sketch, graph, similarity, habit)
+        fit = _with_roots(fit, graph)
+        similarity = page_to_world(above, options.height or habit.height)
+        radius = np.full(len(graph), np.nan)
+        radius[~graph.root] = drawn_radius(sketch, above, similarity, habit)
         skeleton = lift(graph, fit.depth, similarity, depth_sd=fit.depth_sd)
         skeleton = PipeRadii(habit, radius)(skeleton, key=stage_key(key, "radii"))
     return DrawnTree(graph, matches, exemplar, fit, similarity, skeleton, radius, habit)
+
+
+def _with_roots(fit: Fit, graph: SketchGraph) -> Fit:
+    """The fit with a row for every drawn root too (they stand last in the graph)."""
+    if not graph.root.any():
+        return fit
+    depth, sd = root_depth(graph), np.full(len(graph), np.nan)
+    depth[~graph.root], sd[~graph.root] = fit.depth, fit.depth_sd
+    return dataclasses.replace(fit, depth=depth, depth_sd=sd)
 
 
 def complete(
@@ -158,7 +172,7 @@ def _propagated(drawn: DrawnTree, options: TreeOptions, key) -> tuple[TreeSkelet
         max_segments=options.max_segments,
         exemplar=drawn.exemplar.skeleton if drawn.exemplar else None,
     )
-    grown = stage.run(drawn.skeleton, key=key)
+    grown = stage.run(drawn.skeleton, key=key)  # roots keep their rows, after all others
     radius = np.full(len(grown.skeleton), np.nan)
     radius[grown.drawn_row] = drawn.radius
     return PipeRadii(drawn.habit, radius)(grown.skeleton, key=key), grown.warnings

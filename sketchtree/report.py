@@ -14,6 +14,7 @@ import numpy as np
 from sketchtree.mrf.solver import RESULTS
 from sketchtree.parameters import TreeParameters
 from sketchtree.pipeline import DrawnTree, TreeModel
+from sketchtree.sketch.graph import SketchGraph
 from sketchtree.version import __version__
 
 SCHEMA = 1
@@ -36,33 +37,63 @@ def build_report(
     warnings: tuple[str, ...] = (),
 ) -> dict:
     """The report of one run; `model` is None where only the drawn branches were asked for."""
-    seen = list(drawn.warnings if model is None else model.warnings)
-    return _plain(
-        {
-            "schema": SCHEMA,
-            "version": __version__,
-            "command": command,
-            "template": [_match(match) for match in drawn.matches],
-            "template_used": drawn.exemplar.name if drawn.exemplar else None,
-            "theta": {"before": _theta(drawn.fit.theta_before), "after": _theta(drawn.fit.theta)},
-            "attachments": [_attachment(attachment) for attachment in drawn.graph.attachments],
-            "segments": {
-                "drawn": drawn.graph.segment_count,
-                "total": drawn.graph.segment_count if model is None else model.skeleton.segment_count,
-                "limbs": len(drawn.graph.limb_id),
-            },
-            "height": drawn.skeleton.height if model is None else model.skeleton.height,
-            "leaves": None if model is None else len(model.leaves),
-            "triangles": None if model is None else _triangles(model),
-            "transform": {"scale": drawn.similarity.scale, "translate": list(drawn.similarity.translate)},
-            "infer": _inference(drawn),
-            "seconds": {name: seconds.get(name) for name in SECONDS},
-            "peak_mb": peak_mb(),
-            "warnings": list(dict.fromkeys(seen + list(warnings))),
-            "options": options,
-            "seed": seed,
-        }
-    )
+    seen = drawn.warnings if model is None else model.warnings
+    total = drawn.graph.segment_count if model is None else model.skeleton.segment_count
+    found = {
+        "template": [_match(match) for match in drawn.matches],
+        "template_used": drawn.exemplar.name if drawn.exemplar else None,
+        "theta": {"before": _theta(drawn.fit.theta_before), "after": _theta(drawn.fit.theta)},
+        "height": drawn.skeleton.height if model is None else model.skeleton.height,
+        "leaves": None if model is None else len(model.leaves),
+        "triangles": None if model is None else _triangles(model),
+        "transform": {"scale": drawn.similarity.scale, "translate": list(drawn.similarity.translate)},
+        "infer": _inference(drawn),
+    }
+    return _plain(_frame(command, seed, seconds, options, (*seen, *warnings)) | _reading(drawn.graph, total) | found)
+
+
+def reading_report(graph: SketchGraph, *, command: str, seed: int, seconds: dict[str, float], options: dict) -> dict:
+    """The report of a run that only read the drawing: what was not asked for is null."""
+    return _plain(_frame(command, seed, seconds, options, graph.warnings) | _reading(graph, graph.segment_count))
+
+
+def _frame(command: str, seed: int, seconds: dict[str, float], options: dict, warnings: tuple[str, ...]) -> dict:
+    """What every report says of the run itself; null where nothing is known yet."""
+    return {
+        "schema": SCHEMA,
+        "version": __version__,
+        "command": command,
+        "template": [],
+        "template_used": None,
+        "theta": {"before": None, "after": None},
+        "height": None,
+        "leaves": None,
+        "triangles": None,
+        "transform": None,
+        "infer": None,
+        "seconds": {name: seconds.get(name) for name in SECONDS},
+        "peak_mb": peak_mb(),
+        "warnings": list(dict.fromkeys(warnings)),
+        "options": options,
+        "seed": seed,
+    }
+
+
+def _reading(graph: SketchGraph, total: int) -> dict:
+    """How the drawing was read. Sketch units, y up."""
+    return {
+        "attachments": [_attachment(attachment) for attachment in graph.attachments],
+        "roles": [_role(role) for role in graph.roles],
+        "cuts": [{"stroke": cut.stroke, "point": list(cut.point), "edge": cut.edge} for cut in graph.cuts],
+        "segments": {
+            "drawn": graph.segment_count,
+            "total": total,
+            "limbs": len(graph.limb_id),
+            "roots": int(np.sum(graph.root[graph.limb_first])),
+            "stems": int(np.sum(graph.is_base)),
+            "trees": len(np.unique(graph.tree)),
+        },
+    }
 
 
 def peak_mb() -> float | None:
@@ -98,6 +129,15 @@ def _attachment(attachment) -> dict:
         "cost": attachment.cost,
         "alternatives": [{"parent": parent, "cost": cost} for parent, cost in attachment.alternatives],
         "reason": attachment.reason,
+    }
+
+
+def _role(role) -> dict:
+    return {
+        "stroke": role.stroke,
+        "role": role.role,
+        "reason": role.reason,
+        "alternatives": [{"role": other, "cost": cost} for other, cost in role.alternatives],
     }
 
 

@@ -22,6 +22,7 @@ class Kind(IntEnum):
     PROPAGATED = 1
     GROWN = 2
     OBSERVED = 3
+    ROOT = 4  # drawn, below the ground
 
 
 @dataclass(frozen=True, eq=False)

@@ -27,6 +27,7 @@ from sketchtree.foliage.seasons import check_season
 from sketchtree.foliage.twigs import Twigs, fronds, leafy, wood_pieces
 from sketchtree.foliage.wear import Wear, wear_of
 from sketchtree.parameters import Habit
+from sketchtree.roots import without_roots
 from sketchtree.skeleton import TreeSkeleton
 
 _UP = np.array([0.0, 1.0, 0.0])
@@ -54,6 +55,7 @@ def populate(
     if max_leaves < 1:
         raise OptionError(f"At most {max_leaves} leaves were allowed.", remedy="Allow at least 1, or use season 'bare'.")
     wear = wear_of(habit, model, density)
+    tree, _ = without_roots(tree)
     if season == "bare" or tree.segment_count == 0:
         return Leaves.none(wear.model.name)
     budding, shoots = buds(_leafy_wood(tree, habit, wear), tree.limb, wear, habit.twig_radius, key)

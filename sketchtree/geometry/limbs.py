@@ -168,7 +168,7 @@ def _knots(tree: TreeSkeleton, cut: Chains, underground: float) -> _Knots:
     begin = np.where(is_first, start_radius[limb_of_row], tree.radius[tree.parent[cut.row]])
     share = (within + 1.0) / (inner[position] + 1.0)
     inner_radius = begin[position] * (1 - share) + tree.radius[point_row] * share
-    drawn = np.isin(tree.kind, (int(Kind.DRAWN), int(Kind.OBSERVED)))
+    drawn = np.isin(tree.kind, (int(Kind.DRAWN), int(Kind.OBSERVED), int(Kind.ROOT)))
     stem = np.flatnonzero(cut.is_stem)
     below = tree.tip[cut.foot[stem]] - np.array([0.0, 1.0, 0.0]) * (underground * start_radius[stem])[:, None]
     n_stem, n_limb = len(stem), len(cut.foot)

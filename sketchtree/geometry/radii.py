@@ -27,6 +27,7 @@ from jaxtyping import Array, Bool, Float, Key
 
 from sketchtree.errors import OptionError
 from sketchtree.parameters import Habit
+from sketchtree.roots import root_radius, without_roots
 from sketchtree.skeleton import TreeSkeleton
 from sketchtree.traverse import generations, is_tip, sum_to_root
 
@@ -51,11 +52,14 @@ class PipeRadii:
         """The tree with new radii. `key` is part of the stage's door; nothing here is random."""
         if len(tree) == 0:
             return tree
-        radius, start = pipe_radii(tree, self.habit)
-        if self.drawn_radius is not None:
-            drawn = _checked(self.drawn_radius, len(tree))
-            radius = honour_drawn(tree, radius, start, drawn, self.habit.twig_radius)
-        return tree.replace(radius=radius)
+        drawn = None if self.drawn_radius is None else _checked(self.drawn_radius, len(tree))
+        above, rows = without_roots(tree)
+        radius, start = pipe_radii(above, self.habit)
+        if drawn is not None:
+            radius = honour_drawn(above, radius, start, drawn[rows], self.habit.twig_radius)
+        full = np.ones(len(tree))
+        full[rows] = radius
+        return tree.replace(radius=root_radius(tree, full, drawn, self.habit.twig_radius))
 
 
 def pipe_radii(tree: TreeSkeleton, habit: Habit) -> tuple[Float[np.ndarray, " segment"], Float[np.ndarray, " segment"]]:

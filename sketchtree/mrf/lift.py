@@ -44,7 +44,7 @@ def lift(
         limb=graph.limb_id[graph.limb],
         stroke=graph.stroke,
         tree=graph.tree,
-        kind=np.full(len(graph), int(Kind.DRAWN)),
+        kind=np.where(graph.root, int(Kind.ROOT), int(Kind.DRAWN)),
         depth_sd=sd,
         curve_points=similarity.to_world(np.column_stack([graph.curve_points, curve_z])),
         curve_start=graph.curve_start,

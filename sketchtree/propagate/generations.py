@@ -17,6 +17,7 @@ from sketchtree.errors import OptionError
 from sketchtree.parameters import Habit, TreeParameters
 from sketchtree.propagate.fill import COARSE_GAP, GAP, HOLLOW_ROUNDS, LED_GAP, ROUNDS
 from sketchtree.propagate.growing import Growing, to_scale
+from sketchtree.roots import is_root, with_roots, without_roots
 from sketchtree.skeleton import TreeSkeleton
 
 GENERATIONS = 5  # without a crown (Chen §6)
@@ -79,8 +80,10 @@ def propagate(
 ) -> Propagation:
     """Grow what the sketch left out. Options as in `Propagate`; the given rows are kept as they are, long ones split."""
     limit = _limits(generations, max_segments, bool(crown))
+    whole = tree
+    tree, above = without_roots(whole)
     if len(tree) == 0 or limit == 0:
-        return Propagation(tree, np.zeros(len(tree), int), np.arange(len(tree)), 0, "generations", ())
+        return Propagation(whole, np.zeros(len(whole), int), np.arange(len(whole)), 0, "generations", ())
     growing = Growing(tree, to_scale(habit, tree, crown), theta, exemplar, crown, max_segments, key)
     growing.run(limit)
     limit = CROWN_GENERATIONS if generations is None else limit
@@ -91,10 +94,13 @@ def propagate(
     if gaps:
         growing.run(limit)
     ended = "habit" if growing.stopped_by == "generations" and len(growing.open) == 0 else growing.stopped_by
+    grown, row = growing.skeleton(), np.zeros(len(whole), np.int64)
+    row[above] = growing.drawn.row
+    row[is_root(whole)] = len(grown) + np.arange(len(whole) - len(above))
     return Propagation(
-        skeleton=growing.skeleton(),
-        generation=growing.generation_of_rows(),
-        drawn_row=growing.drawn.row,
+        skeleton=with_roots(grown, whole, row),
+        generation=np.r_[growing.generation_of_rows(), np.zeros(len(whole) - len(above), int)],
+        drawn_row=row,
         generations_done=growing.done,
         stopped_by=ended,
         warnings=_warnings(growing),

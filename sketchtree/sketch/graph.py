@@ -59,7 +59,7 @@ class SketchGraph:
     """One or several rooted trees of drawn segments. Sketch units, y up.
 
     Requirements, checked at construction: parents precede children; a base (parent NULL) is a point
-    on the ground; positions are finite; the rows of a limb are a chain.
+    on the ground; positions are finite; the rows of a limb are a chain; rows of drawn roots come last.
     """
 
     parent: Int[np.ndarray, " segment"]  # row; NULL at a base
@@ -93,6 +93,7 @@ class SketchGraph:
         n = len(self.parent)
         assert (self.parent < np.arange(n)).all(), "parents must precede children"
         assert np.isfinite(self.xy).all() and self.xy.shape == (n, 2)
+        assert not (self.root[:-1] & ~self.root[1:]).any(), "roots stand after all other rows"
         assert self.curve_start.shape == (n + 1,) and self.curve_start[-1] == len(self.curve_points)
 
     def __len__(self) -> int:
@@ -101,6 +102,21 @@ class SketchGraph:
     def replace(self, **columns) -> "SketchGraph":
         """The same graph with some columns exchanged; checked anew."""
         return dataclasses.replace(self, **columns)
+
+    def above_ground(self) -> "SketchGraph":
+        """The same graph without the rows and limbs of drawn roots; all other rows keep their numbers."""
+        if not self.root.any():
+            return self
+        count = int(np.sum(~self.root))
+        limbs, limb = np.unique(self.limb[:count], return_inverse=True)
+        rows = {name: getattr(self, name)[:count] for name in _ROW_COLUMNS}
+        points = int(self.curve_start[count])
+        return self.replace(
+            **(rows | {"limb": limb.reshape(-1)}),
+            limb_id=self.limb_id[limbs],
+            curve_points=self.curve_points[:points],
+            curve_start=self.curve_start[: count + 1],
+        )
 
     @cached_property
     def is_base(self) -> Bool[np.ndarray, " segment"]:
@@ -155,8 +171,9 @@ class SketchGraph:
 
     @cached_property
     def height(self) -> float:
-        """H: the drawn branches' height, or their width where that is larger; sketch units."""
-        points = np.concatenate([self.xy, self.curve_points])
+        """H: the drawn branches' height, or their width where that is larger, roots left out; sketch units."""
+        count = int(np.sum(~self.root))
+        points = np.concatenate([self.xy[:count], self.curve_points[: self.curve_start[count]]])
         return float(np.ptp(points, axis=0).max())
 
     def curve(self, row: int) -> Float[np.ndarray, "point 2"]:
@@ -178,3 +195,4 @@ _DTYPE = {
     "curve_start": np.int64,
     "limb_id": np.int64,
 }
+_ROW_COLUMNS = ("parent", "xy", "limb", "stroke", "tree", "width", "joined", "root")
