@@ -15,16 +15,25 @@ MARGIN = 40.0  # pixels around the drawing
 LEGEND = 420.0  # pixels: width of the legend's column
 
 
-def overlay(sketch: Sketch, graph: SketchGraph, *, underlay: UInt8[np.ndarray, "row column 3"] | None = None) -> Scene:
-    """The picture of what was read. `underlay`: the scanned drawing itself, whose pixels are the sketch's units."""
+def overlay(
+    sketch: Sketch,
+    graph: SketchGraph,
+    *,
+    underlay: UInt8[np.ndarray, "row column 3"] | None = None,
+    long_side: float = LONG_SIDE,
+    explained: bool = True,
+) -> Scene:
+    """The picture of what was read. `underlay`: the scanned drawing itself, whose pixels are the sketch's units;
+    `long_side`: pixels of the drawing's larger side; `explained`: with a legend beside it."""
     low, high = _bounds(sketch, graph)
-    scale = LONG_SIDE / float((high - low).max())
+    scale = long_side / float((high - low).max())
     width, height = (high - low) * scale
-    tall = max(height, LEAST_HEIGHT)
+    tall = max(height, LEAST_HEIGHT) if explained else height
     place = Placing(low, high, MARGIN, MARGIN + (tall - height) / 2, scale)
-    total = (MARGIN + width + MARGIN + LEGEND, MARGIN + tall + MARGIN)
+    total = (2 * MARGIN + width + (LEGEND if explained else 0.0), 2 * MARGIN + tall)
     marks = reading_marks(sketch, graph, place)
-    marks += legend(sketch.name, graph, 2 * MARGIN + width, MARGIN, total[1] - MARGIN / 2)
+    if explained:
+        marks += legend(sketch.name, graph, 2 * MARGIN + width, MARGIN, total[1] - MARGIN / 2)
     return Scene(round(total[0]), round(total[1]), tuple(marks), f"How {sketch.name} was read", _underlay(underlay, place))
 
 
