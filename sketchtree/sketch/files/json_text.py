@@ -1,0 +1,42 @@
+"""Is this text one well-formed JSON document, and are its numbers numbers?
+
+Files come from strangers: nesting deeper than the parser's stack, numbers beyond any float, and text in another
+encoding are all refused in one sentence.
+"""
+
+import json
+from typing import Any
+
+import numpy as np
+from jaxtyping import Float
+
+from sketchtree.errors import SketchError
+
+AGAIN = "Save the drawing again."
+
+
+def parse_json(data: bytes | str, name: str) -> Any:
+    """The document. UTF-8, -16 and -32 are told apart by their first bytes. Raises SketchError."""
+    try:
+        return json.loads(data)
+    except UnicodeDecodeError as error:
+        raise SketchError(f"{name} is not Unicode text (byte {error.start} is no {error.encoding}).", remedy="Save it as UTF-8.") from None
+    except RecursionError:
+        raise SketchError(f"{name} nests its lists or objects too deep.", remedy=AGAIN) from None
+    except ValueError as error:
+        raise SketchError(f"{name} is not one well-formed JSON document ({error}); it may be cut short.", remedy=AGAIN) from None
+
+
+def is_number(value: Any) -> bool:
+    """Whether a JSON value is a finite number (true and false are none)."""
+    return isinstance(value, (int, float)) and not isinstance(value, bool) and abs(value) <= 1.7e308
+
+
+def number_rows(rows: Any, size: int) -> Float[np.ndarray, "row {size}"] | None:
+    """A list of lists as (row, size), what follows in each row left out; None if it is no such list of finite numbers."""
+    if not isinstance(rows, list) or not all(isinstance(row, list) and len(row) >= size for row in rows):
+        return None
+    flat = [value for row in rows for value in row[:size]]
+    if not all(map(is_number, flat)):
+        return None
+    return np.array(flat, float).reshape(-1, size)
