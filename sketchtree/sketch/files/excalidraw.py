@@ -19,7 +19,7 @@ from sketchtree.sketch.files.excalidraw_labels import FRAMES, Labels, text_of
 from sketchtree.sketch.files.excalidraw_shapes import BOXED, POINTED, drawn
 from sketchtree.sketch.files.ids import unique
 from sketchtree.sketch.files.json_text import AGAIN, is_number, parse_json
-from sketchtree.sketch.files.limits import MAX_STROKES, check_strokes
+from sketchtree.sketch.files.limits import MAX_STROKES, check_number, check_strokes
 from sketchtree.sketch.files.paint import is_paint
 from sketchtree.sketch.strokes import Sketch, Stroke, StrokeKind
 
@@ -30,9 +30,12 @@ FLATNESS = 5e-4  # how far a flattened curve may lie from the true one, of the d
 _OTHERS = {"image": "picture", "text": "text", "embeddable": "web page", "iframe": "web page"}
 
 
-def read_excalidraw(data: bytes, name: str, *, max_strokes: int = MAX_STROKES) -> Sketch:
-    """The strokes of an Excalidraw file, in the order they are painted, px, y up. Raises SketchError naming the element."""
-    return excalidraw_sketch(parse_json(data, name), name, max_strokes=max_strokes)
+def read_excalidraw(data: bytes, name: str, *, max_strokes: int = MAX_STROKES, number: int | None = None) -> Sketch:
+    """The strokes of an Excalidraw file, in the order they are painted, px, y up. Raises SketchError naming the element.
+
+    `number` is the drawing wanted of a library, from 1; None: the first, with a warning if there are others.
+    """
+    return excalidraw_sketch(parse_json(data, name), name, max_strokes=max_strokes, number=number)
 
 
 def is_excalidraw(document: Any) -> bool:
@@ -41,11 +44,11 @@ def is_excalidraw(document: Any) -> bool:
     return isinstance(document, dict) and (text_of(document.get("type")).startswith("excalidraw") or any(key in document for key in keys))
 
 
-def excalidraw_sketch(document: Any, name: str, *, max_strokes: int = MAX_STROKES) -> Sketch:
+def excalidraw_sketch(document: Any, name: str, *, max_strokes: int = MAX_STROKES, number: int | None = None) -> Sketch:
     """The strokes of a parsed Excalidraw document; as `read_excalidraw`."""
     if not is_excalidraw(document):
         raise SketchError(f"{name} is JSON, but no Excalidraw drawing.", remedy=AGAIN)
-    elements, warnings = _elements(document, name)
+    elements, warnings = _elements(document, name, number)
     labels = Labels.of(elements)
     left_out: Counter[str] = Counter()
     shown = [(k, element) for k, element in enumerate(elements, 1) if _is_shown(element, labels, left_out)]
@@ -63,20 +66,18 @@ def excalidraw_sketch(document: Any, name: str, *, max_strokes: int = MAX_STROKE
     return Sketch(tuple(strokes), name=name, units="px", warnings=tuple(warnings))
 
 
-def _elements(document: dict[str, Any], name: str) -> tuple[list[dict[str, Any]], list[str]]:
-    """The elements of a scene, or of the first drawing of a library, and what to say about the choice."""
+def _elements(document: dict[str, Any], name: str, number: int | None) -> tuple[list[dict[str, Any]], list[str]]:
+    """The elements of a scene or of one drawing of a library, and what to say about the choice."""
     items = document.get("libraryItems", document.get("library"))
     elements, warnings = document.get("elements"), []
-    if elements is None and isinstance(items, list) and items:
-        elements = items[0].get("elements") if isinstance(items[0], dict) else items[0]
-        if len(items) > 1:
-            title = text_of(items[0].get("name")) if isinstance(items[0], dict) else ""
-            warnings.append(
-                f"{name} is a library of {len(items)} drawings; the first{f' ({title})' if title else ''} was read. "
-                "Put another one on a page of its own and save that."
-            )
-    elif items == []:
-        elements = []
+    if isinstance(items, list) and "elements" not in document:
+        item = items[check_number(number or 1, len(items), name) - 1]
+        elements = item.get("elements") if isinstance(item, dict) else item
+        if number is None and len(items) > 1:
+            title = f" ('{text_of(item.get('name'))}')" if isinstance(item, dict) and text_of(item.get("name")) else ""
+            warnings.append(f"{name} is a library of {len(items)} drawings; the first{title} was read. {name}#2 is the next.")
+    else:
+        check_number(number or 1, 1, name)
     if not isinstance(elements, list) or not all(isinstance(e, dict) and isinstance(e.get("type"), str) for e in elements):
         raise SketchError(f"{name} has no list 'elements' of objects with a 'type'.", remedy=AGAIN)
     return [element for element in elements if element.get("isDeleted") is not True], warnings

@@ -174,9 +174,7 @@ def _shown(view: Element, target: Element) -> Iterator[tuple[Element, slice]]:
             return
         target, depth = parts[first[depth] - 1], depth + 1
     span = slice(max(first[depth] - 1, 0) if depth < len(first) else None, last[depth] if depth < len(last) else None)
-    if local(target) == "trace":
-        yield target, span
-    elif span == slice(None):
+    if local(target) == "trace" or span == slice(None):
         yield target, span
     else:
         yield from ((part, slice(None)) for part in [e for e in target if local(e) in ("trace", "traceGroup", "traceView")][span])

@@ -7,7 +7,7 @@ that held before (the streaming style); a file with a single trace format means 
 import dataclasses
 from collections.abc import Iterator
 from dataclasses import dataclass
-from datetime import datetime, timezone
+from datetime import UTC, datetime
 from xml.etree.ElementTree import Element
 
 from sketchtree.sketch.files.inkml_channels import METRES, TraceFormat, local, number, per_metre, trace_format
@@ -104,7 +104,7 @@ class Contexts:
         if own is None and element.get("timeString"):
             try:
                 moment = datetime.fromisoformat(element.get("timeString").strip())
-                own = (moment if moment.tzinfo else moment.replace(tzinfo=timezone.utc)).timestamp() * 1e3
+                own = (moment if moment.tzinfo else moment.replace(tzinfo=UTC)).timestamp() * 1e3
             except (ValueError, OverflowError):
                 own = None
         return base + (own or 0.0) + (number(element.get("timeOffset")) or 0.0)

@@ -17,9 +17,9 @@ MAX_MEGAPIXELS = 200.0  # 10⁶ pixels of a picture
 
 def read_bytes(path: Path, *, max_mb: float = MAX_MB) -> bytes:
     """The bytes of a file. Raises SketchError for a folder, for what can't be read, and for more than `max_mb`."""
-    if path.is_dir():
-        raise SketchError(f"{path} is a folder, not a drawing.", remedy="Give the drawing inside it.")
     try:
+        if path.is_dir():
+            raise SketchError(f"{path} is a folder, not a drawing.", remedy="Give the drawing inside it.")
         with path.open("rb") as file:
             data = file.read(int(max_mb * 1e6) + 1)
             size = max(path.stat().st_size, len(data))
@@ -62,3 +62,10 @@ def check_strokes(count: int, name: str, max_strokes: int) -> None:
             f"{name} holds {count} strokes, more than {max_strokes}.",
             remedy="Draw fewer strokes, or raise the limit with --max-strokes.",
         )
+
+
+def check_number(number: int, count: int, name: str) -> int:
+    """`number`, if a file of `count` drawings has one of it (they count from 1). Raises SketchError."""
+    if not 1 <= number <= count:
+        raise SketchError(f"{name} has no drawing #{number}; it holds {count}.", remedy=f"Say #1 to #{count}." if count else "Give another file.")
+    return number

@@ -2,7 +2,7 @@
 
     {"word": "tree", "drawing": [[[x, …], [y, …], [t, …]?], …]}        px, y down; t in milliseconds, in the raw form only
 
-A file of the data set holds many drawings; a sketch is one.
+A file of the data set holds many drawings; a sketch is one of them.
 """
 
 from typing import Any
@@ -11,28 +11,27 @@ import numpy as np
 
 from sketchtree.errors import SketchError
 from sketchtree.sketch.files.json_text import number_rows, parse_json
-from sketchtree.sketch.files.limits import MAX_STROKES, check_strokes
+from sketchtree.sketch.files.limits import MAX_STROKES, check_number, check_strokes
 from sketchtree.sketch.strokes import Sketch, Stroke
 
 _REMEDY = "Save the line again as a file of its own."
 
 
-def read_quickdraw(data: bytes, name: str, *, max_strokes: int = MAX_STROKES) -> Sketch:
-    """The strokes of the one drawing in a file. Raises SketchError naming the stroke; also when there are several drawings."""
+def read_quickdraw(data: bytes, name: str, *, max_strokes: int = MAX_STROKES, number: int | None = None) -> Sketch:
+    """The strokes of drawing `number`, from 1; None where the file holds only one. Raises SketchError naming the stroke."""
     lines = [line for line in data.removeprefix(b"\xef\xbb\xbf").splitlines() if line.strip()]
-    if len(lines) != 1:
-        raise SketchError(f"{name} holds {len(lines)} drawings, one a line; a sketch is one.", remedy="Save the line you want as a file of its own.")
-    return quickdraw_sketch(parse_json(lines[0], name), name, max_strokes=max_strokes)
+    if number is None and len(lines) > 1:
+        raise SketchError(
+            f"{name} holds {len(lines)} drawings, one a line; a sketch is one.",
+            remedy=f"Say which: {name}#1 to {name}#{len(lines)}.",
+        )
+    line = lines[check_number(number or 1, len(lines), name) - 1]
+    return quickdraw_sketch(parse_json(line, name), name, max_strokes=max_strokes)
 
 
-def is_quickdraw(document: Any) -> bool:
-    """Whether a JSON document is one Quick, Draw! drawing."""
-    return isinstance(document, dict) and "drawing" in document
-
-
-def quickdraw_sketch(document: dict[str, Any], name: str, *, max_strokes: int = MAX_STROKES) -> Sketch:
+def quickdraw_sketch(document: Any, name: str, *, max_strokes: int = MAX_STROKES) -> Sketch:
     """The strokes of one parsed drawing; as `read_quickdraw`."""
-    drawing = document.get("drawing")
+    drawing = document.get("drawing") if isinstance(document, dict) else None
     if not isinstance(drawing, list):
         raise SketchError(f"{name} has no list 'drawing'.", remedy=_REMEDY)
     check_strokes(len(drawing), name, max_strokes)
