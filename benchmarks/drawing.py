@@ -13,7 +13,7 @@ from jaxtyping import Float
 from scipy.ndimage import gaussian_filter1d
 
 from sketchtree.axes import NULL
-from sketchtree.keys import stroke_limb_id
+from sketchtree.limb_ids import stroke_limb_id
 from sketchtree.skeleton import TreeSkeleton
 from sketchtree.sketch.graph import SketchGraph
 from sketchtree.traverse import limb_chains

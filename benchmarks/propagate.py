@@ -14,7 +14,7 @@ import time
 
 import numpy as np
 
-from sketchtree import keys
+from sketchtree import keys, limb_ids
 from sketchtree.axes import NULL
 from sketchtree.parameters import GENERIC, Habit
 from sketchtree.propagate.generations import propagate
@@ -30,7 +30,7 @@ def drawn_tree() -> TreeSkeleton:
     height = np.linspace(0.35, 0.95, LIMBS) * HEIGHT
     parent = [NULL, *range(LIMBS + 1)]
     tip = [[0, 0, 0]] + [[0.02 * i, y, 0.0] for i, y in enumerate(height)] + [[0.2, HEIGHT, 0.1]]
-    order, limb = [0] * (LIMBS + 2), [keys.stroke_limb_id("trunk")] * (LIMBS + 2)
+    order, limb = [0] * (LIMBS + 2), [limb_ids.stroke_limb_id("trunk")] * (LIMBS + 2)
     for i in range(LIMBS):
         out = np.array([np.cos(2.4 * i), 0.7, np.sin(2.4 * i)]) * (4.0 - 2.0 * i / LIMBS) / 3
         for step in range(3):
@@ -38,7 +38,7 @@ def drawn_tree() -> TreeSkeleton:
             tip.append(list(np.array(tip[above]) + out + [0, 0.1 * step, 0]))
             parent.append(above)
             order.append(1)
-            limb.append(keys.stroke_limb_id(f"limb {i}"))
+            limb.append(limb_ids.stroke_limb_id(f"limb {i}"))
     rows = len(parent)
     return TreeSkeleton.from_columns(
         np.array(parent), np.array(tip), np.linspace(0.25, 0.02, rows), order=np.array(order), limb=np.array(limb),

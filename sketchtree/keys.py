@@ -9,15 +9,13 @@ The per-limb generator is counter-based: splitmix64 (Steele, Lea & Flood 2014, "
 pseudorandom number generators") over (key, id, draw).
 """
 
-import hashlib
 import zlib
 
 import jax
 import numpy as np
 from jaxtyping import Array, Float, Int, Key
 
-_GOLDEN = np.uint64(0x9E3779B97F4A7C15)
-_INT63 = np.uint64(0x7FFFFFFFFFFFFFFF)
+from sketchtree.limb_ids import GOLDEN, mix
 
 
 def root_key(seed: int) -> Key[Array, ""]:
@@ -30,23 +28,11 @@ def stage_key(key: Key[Array, ""], name: str) -> Key[Array, ""]:
     return jax.random.fold_in(key, zlib.crc32(name.encode()))
 
 
-def stroke_limb_id(stroke_id: str) -> int:
-    """The 63-bit id of the limb drawn by this stroke."""
-    return int.from_bytes(hashlib.blake2b(stroke_id.encode(), digest_size=8).digest(), "little") >> 1
-
-
-def child_limb_id(parent_id: Int[np.ndarray, " limb"], rank: Int[np.ndarray, " limb"]) -> Int[np.ndarray, " limb"]:
-    """The 63-bit ids of undrawn limbs, each from its parent limb's id and its rank along that limb."""
-    with np.errstate(over="ignore"):
-        word = _mix(np.asarray(parent_id, np.uint64) + _GOLDEN * (np.asarray(rank, np.uint64) + np.uint64(1)))
-    return (word & _INT63).astype(np.int64)
-
-
 def uniform(key: Key[Array, ""] | np.uint64, limb_id: Int[np.ndarray, " limb"], draw: int) -> Float[np.ndarray, " limb"]:
     """One number in [0, 1) per limb; `draw` numbers the independent draws of one limb."""
     with np.errstate(over="ignore"):
-        salt = _mix(_words(key) + _GOLDEN * np.uint64(draw + 1))
-        word = _mix(_mix(np.asarray(limb_id, np.uint64) ^ salt) + salt)
+        salt = mix(_words(key) + GOLDEN * np.uint64(draw + 1))
+        word = mix(mix(np.asarray(limb_id, np.uint64) ^ salt) + salt)
     return (word >> np.uint64(11)).astype(np.float64) * 2.0**-53
 
 
@@ -67,10 +53,3 @@ def _words(key: Key[Array, ""] | np.uint64) -> np.uint64:
         return key
     high, low = (np.uint64(int(word)) for word in np.asarray(jax.random.key_data(key)).ravel()[:2])
     return (high << np.uint64(32)) | low
-
-
-def _mix(word):
-    word = np.asarray(word, np.uint64)
-    word = (word ^ (word >> np.uint64(30))) * np.uint64(0xBF58476D1CE4E5B9)
-    word = (word ^ (word >> np.uint64(27))) * np.uint64(0x94D049BB133111EB)
-    return word ^ (word >> np.uint64(31))

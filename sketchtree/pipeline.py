@@ -11,6 +11,7 @@ import numpy as np
 from jaxtyping import Array, Float, Key
 
 from sketchtree.choose import bark_model, choose_template, leaf_model
+from sketchtree.drawing import read_drawing
 from sketchtree.errors import InferenceError
 from sketchtree.foliage.cards import leaf_mesh
 from sketchtree.foliage.leaves import Leaves
@@ -32,9 +33,7 @@ from sketchtree.propagate.generations import Propagate
 from sketchtree.roots import root_depth
 from sketchtree.similarity import Similarity
 from sketchtree.skeleton import TreeSkeleton
-from sketchtree.sketch.formats import read_sketch
 from sketchtree.sketch.graph import SketchGraph
-from sketchtree.sketch.reading import sketch_graph
 from sketchtree.sketch.strokes import Sketch
 from sketchtree.templates.database import Database
 from sketchtree.templates.exemplar import Exemplar
@@ -103,8 +102,7 @@ def draw_out(
     """Strokes → sketch graph → template → depths: the drawn branches in 3D (§5, §7)."""
     watch = watch or Watch()
     with watch("read"):
-        sketch = sketch if isinstance(sketch, Sketch) else read_sketch(sketch, max_strokes=options.max_strokes)
-        graph = sketch_graph(sketch, crown=options.crown)
+        sketch, graph = read_drawing(sketch, options, watch)
         above = graph.above_ground()
     with watch("match"):
         templates = templates if templates is not None or options.template == "none" else Database.open()

@@ -4,21 +4,12 @@ Angles are in degrees, lengths in metres unless a key says sketch units; a missi
 """
 
 import json
-import math
-import sys
 from importlib.resources import files
-from pathlib import Path
-
-import numpy as np
 
 from sketchtree.mrf.solver import RESULTS
 from sketchtree.parameters import TreeParameters
 from sketchtree.pipeline import DrawnTree, TreeModel
-from sketchtree.sketch.graph import SketchGraph
-from sketchtree.version import __version__
-
-SCHEMA = 1
-SECONDS = ("import", "read", "match", "infer", "propagate", "foliage", "mesh", "export", "total")
+from sketchtree.reading_report import frame, plain, reading
 
 
 def report_schema() -> dict:
@@ -49,61 +40,7 @@ def build_report(
         "transform": {"scale": drawn.similarity.scale, "translate": list(drawn.similarity.translate)},
         "infer": _inference(drawn),
     }
-    return _plain(_frame(command, seed, seconds, options, (*seen, *warnings)) | _reading(drawn.graph, total) | found)
-
-
-def reading_report(graph: SketchGraph, *, command: str, seed: int, seconds: dict[str, float], options: dict) -> dict:
-    """The report of a run that only read the drawing: what was not asked for is null."""
-    return _plain(_frame(command, seed, seconds, options, graph.warnings) | _reading(graph, graph.segment_count))
-
-
-def _frame(command: str, seed: int, seconds: dict[str, float], options: dict, warnings: tuple[str, ...]) -> dict:
-    """What every report says of the run itself; null where nothing is known yet."""
-    return {
-        "schema": SCHEMA,
-        "version": __version__,
-        "command": command,
-        "template": [],
-        "template_used": None,
-        "theta": {"before": None, "after": None},
-        "height": None,
-        "leaves": None,
-        "triangles": None,
-        "transform": None,
-        "infer": None,
-        "seconds": {name: seconds.get(name) for name in SECONDS},
-        "peak_mb": peak_mb(),
-        "warnings": list(dict.fromkeys(warnings)),
-        "options": options,
-        "seed": seed,
-    }
-
-
-def _reading(graph: SketchGraph, total: int) -> dict:
-    """How the drawing was read. Sketch units, y up."""
-    return {
-        "attachments": [_attachment(attachment) for attachment in graph.attachments],
-        "roles": [_role(role) for role in graph.roles],
-        "cuts": [{"stroke": cut.stroke, "point": list(cut.point), "edge": cut.edge} for cut in graph.cuts],
-        "segments": {
-            "drawn": graph.segment_count,
-            "total": total,
-            "limbs": len(graph.limb_id),
-            "roots": int(np.sum(graph.root[graph.limb_first])),
-            "stems": int(np.sum(graph.is_base)),
-            "trees": len(np.unique(graph.tree)),
-        },
-    }
-
-
-def peak_mb() -> float | None:
-    """Peak resident memory of this process, MB (10⁶ bytes); None where the system does not tell."""
-    try:
-        import resource
-    except ModuleNotFoundError:
-        return None
-    peak = resource.getrusage(resource.RUSAGE_SELF).ru_maxrss
-    return round(peak / 1e6 if sys.platform == "darwin" else peak * 1024 / 1e6, 1)
+    return plain(frame(command, seed, seconds, options, (*seen, *warnings)) | reading(drawn.graph, total) | found)
 
 
 def _match(match) -> dict:
@@ -118,27 +55,6 @@ def _match(match) -> dict:
 
 def _theta(theta: TreeParameters | None) -> dict | None:
     return None if theta is None else theta.as_dict(degrees=True)
-
-
-def _attachment(attachment) -> dict:
-    return {
-        "stroke": attachment.stroke,
-        "parent": attachment.parent,
-        "point": list(attachment.point),
-        "gap": attachment.gap,
-        "cost": attachment.cost,
-        "alternatives": [{"parent": parent, "cost": cost} for parent, cost in attachment.alternatives],
-        "reason": attachment.reason,
-    }
-
-
-def _role(role) -> dict:
-    return {
-        "stroke": role.stroke,
-        "role": role.role,
-        "reason": role.reason,
-        "alternatives": [{"role": other, "cost": cost} for other, cost in role.alternatives],
-    }
 
 
 def _inference(drawn: DrawnTree) -> dict:
@@ -166,18 +82,3 @@ def _triangles(model: TreeModel) -> dict:
     for mesh in model.meshes:
         count["leaf" if mesh.name.startswith("leaf") else "wood"] += len(mesh.triangle)
     return count
-
-
-def _plain(value):
-    """The same value in JSON's own types; a number that is not finite becomes null."""
-    if isinstance(value, dict):
-        return {key: _plain(item) for key, item in value.items()}
-    if isinstance(value, list | tuple):
-        return [_plain(item) for item in value]
-    if isinstance(value, Path):
-        return str(value)
-    if isinstance(value, np.generic):
-        value = value.item()
-    if isinstance(value, float) and not math.isfinite(value):
-        return None
-    return value

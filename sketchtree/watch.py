@@ -7,14 +7,20 @@ from dataclasses import dataclass, field
 
 @dataclass
 class Watch:
-    """Seconds of every stage; tells `on_stage` when one begins."""
+    """Seconds of every stage; tells `on_stage` when one begins, `on_part` how much of a long one is done (0-1)."""
 
     on_stage: Callable[[str], None] = lambda stage: None
+    on_part: Callable[[float], None] = lambda done: None
     seconds: dict[str, float] = field(default_factory=dict)
 
     def __call__(self, stage: str):
         self.on_stage(stage)
         return _Lap(self, stage)
+
+
+def shared(part: Callable[[float], None] | None, low: float, high: float) -> Callable[[float], None] | None:
+    """A callback for one step of a longer work: its 0-1 becomes `low` to `high` of `part`."""
+    return None if part is None else lambda done: part(low + (high - low) * min(max(done, 0.0), 1.0))
 
 
 class _Lap:

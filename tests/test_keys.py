@@ -1,6 +1,6 @@
 import numpy as np
 
-from sketchtree import keys
+from sketchtree import keys, limb_ids
 
 KEY = keys.root_key(0)
 IDS = np.arange(20_000)
@@ -31,11 +31,11 @@ def test_normal_numbers_have_mean_0_and_sd_1():
 
 
 def test_stroke_ids_do_not_depend_on_the_process():
-    assert keys.stroke_limb_id("stroke-1") == keys.stroke_limb_id("stroke-1") >= 0
-    assert keys.stroke_limb_id("stroke-1") != keys.stroke_limb_id("stroke-2")
+    assert limb_ids.stroke_limb_id("stroke-1") == limb_ids.stroke_limb_id("stroke-1") >= 0
+    assert limb_ids.stroke_limb_id("stroke-1") != limb_ids.stroke_limb_id("stroke-2")
 
 
 def test_children_of_limbs_have_ids_of_their_own():
     parents = np.repeat(np.arange(1000), 50)
-    ids = keys.child_limb_id(parents, np.tile(np.arange(50), 1000))
+    ids = limb_ids.child_limb_id(parents, np.tile(np.arange(50), 1000))
     assert len(np.unique(ids)) == 50_000 and (ids >= 0).all()

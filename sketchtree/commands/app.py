@@ -17,6 +17,7 @@ from sketchtree.version import __version__
 COMMANDS = {
     "build": "A sketch in, a complete textured 3D tree out.",
     "infer": "Only the drawn branches, in 3D.",
+    "inspect": "How a drawing is read, as a picture: strokes, junctions, root, crown, doubts.",
     "templates": "The exemplars a sketch is matched with.",
 }
 """Command → its one line of help. Each lives in the module of its name, imported when it is used."""

@@ -51,7 +51,7 @@ def build(sketch: Path, output: Path, seed: int, quiet: bool, json_log: bool, re
     imported = time.perf_counter() - began
     reading, tree = writing.split_options(wanted, choices.ReadingOptions, choices.TreeOptions)
     progress = Progress(pipeline.STAGES, quiet=quiet, json_log=json_log)
-    watch = Watch(progress)
+    watch = Watch(progress, progress.part)
     with progress.running():
         templates = None if db is None and reading.template == "none" else Database.open(db)
         model = pipeline.sketch_to_tree(sketch, templates, key=root_key(seed), reading=reading, tree=tree, watch=watch)

@@ -37,7 +37,7 @@ def infer(sketch: Path, output: Path, frame: str, seed: int, quiet: bool, json_l
     imported = time.perf_counter() - began
     (reading,) = writing.split_options(wanted, choices.ReadingOptions)
     progress = Progress(("read", "match", "infer", "export"), quiet=quiet, json_log=json_log)
-    watch = Watch(progress)
+    watch = Watch(progress, progress.part)
     with progress.running():
         templates = None if db is None and reading.template == "none" else Database.open(db)
         drawn = pipeline.draw_out(sketch, templates, key=root_key(seed), options=reading, watch=watch)

@@ -5,6 +5,8 @@ import sys
 import time
 from contextlib import contextmanager
 
+PATIENCE = 2.0  # seconds after which a stage says how far it is
+
 
 class Progress:
     """Told of every stage by name; speaks on stderr only.
@@ -17,17 +19,30 @@ class Progress:
         self._json = json_log
         self._plain = not quiet and not json_log and not sys.stderr.isatty()
         self._bar = None if quiet or json_log or self._plain else _bar(len(stages))
-        self._began = time.perf_counter()
+        self._began = self._stage_began = time.perf_counter()
+        self._stage, self._now, self._next = "", 0, 0.1
 
     def __call__(self, stage: str) -> None:
         """A stage begins."""
+        self._stage, self._next, self._stage_began = stage, 0.1, time.perf_counter()
+        self._now = self._stages.index(stage) if stage in self._stages else self._now
         if self._json:
             _line(event="stage", stage=stage, seconds=round(time.perf_counter() - self._began, 3))
         elif self._plain:
             sys.stderr.write(f"{stage} …\n")
         elif self._bar is not None:
-            done = self._stages.index(stage) if stage in self._stages else None
-            self._bar.update(0, completed=done, description=stage)
+            self._bar.update(0, completed=self._now, description=stage)
+
+    def part(self, done: float) -> None:
+        """How much of the present stage is done, 0-1: the bar moves on; without one, a line for every tenth of a long stage."""
+        if self._bar is not None:
+            self._bar.update(0, completed=self._now + min(max(done, 0.0), 1.0))
+        elif (self._plain or self._json) and done >= self._next and time.perf_counter() - self._stage_began > PATIENCE:
+            self._next = int(done * 10) / 10 + 0.1
+            if self._json:
+                _line(event="part", stage=self._stage, done=round(done, 3), seconds=round(time.perf_counter() - self._began, 3))
+            else:
+                sys.stderr.write(f"{self._stage} … {done:.0%}\n")
 
     def say(self, text: str, *, event: str = "note") -> None:
         """A sentence for the user: a warning, or what was written."""

@@ -10,7 +10,7 @@ from dataclasses import dataclass
 import numpy as np
 from jaxtyping import Array, Float, Int, Key
 
-from sketchtree import keys
+from sketchtree import keys, limb_ids
 from sketchtree.axes import NULL
 from sketchtree.foliage.arrangement import azimuths
 from sketchtree.foliage.twigs import Twigs, level_side
@@ -77,7 +77,7 @@ def _nodes(pieces: Twigs, limb, wear: Wear, key) -> Buds:
     count = np.maximum(beyond - first, 0)
     piece = np.repeat(np.arange(len(pieces)), count)
     node = np.arange(len(piece)) - np.repeat(np.cumsum(count) - count - first, count)
-    ids = keys.child_limb_id(limb[pieces.row[piece]], node)
+    ids = limb_ids.child_limb_id(limb[pieces.row[piece]], node)
     shift = 0.5 * (keys.uniform(key, ids, _JITTER) - 0.5) * (node > 0)
     back = (node + shift) * wear.spacing - pieces.to_tip[piece]
     at = 1 - np.clip(back / length[piece], 0, 1)
@@ -128,7 +128,7 @@ def _short_shoots(nodes: Buds, wear: Wear, key) -> tuple[Buds, Float[np.ndarray,
         node=rank,
         along=nodes.along[of],
         segment=nodes.segment[of],
-        id=keys.child_limb_id(nodes.id[of], rank + 1000),
+        id=limb_ids.child_limb_id(nodes.id[of], rank + 1000),
         shoot=of,
     )
     return stems, np.stack([start, end], axis=1)
@@ -141,7 +141,7 @@ def _spread(nodes: Buds, wear: Wear) -> Buds:
     wide = _rows(nodes, np.repeat(np.arange(len(nodes)), per_node))
     rank = np.tile(np.arange(per_node), len(nodes))
     columns = {name: getattr(wide, name) for name in Buds.__dataclass_fields__}
-    return Buds(**columns | {"azimuth": azimuth.ravel(), "id": keys.child_limb_id(wide.id, rank)})
+    return Buds(**columns | {"azimuth": azimuth.ravel(), "id": limb_ids.child_limb_id(wide.id, rank)})
 
 
 def _rows(nodes: Buds, rows) -> Buds:

@@ -21,7 +21,7 @@ from dataclasses import dataclass, fields
 import numpy as np
 from jaxtyping import Array, Float, Int, Key
 
-from sketchtree import keys
+from sketchtree import keys, limb_ids
 from sketchtree.parameters import Habit, TreeParameters
 from sketchtree.propagate.block import Blocks
 from sketchtree.propagate.open_branch import Frame, OpenBranches, turn
@@ -57,7 +57,7 @@ class Nodes:
     @property
     def id(self) -> Int[np.ndarray, " node"]:
         """What the node's random numbers are drawn by."""
-        return keys.child_limb_id(self.limb, self.number * RANKS)
+        return limb_ids.child_limb_id(self.limb, self.number * RANKS)
 
     def join(self, other: "Nodes") -> "Nodes":
         """These nodes and then those."""
@@ -83,7 +83,7 @@ def attach(
     `spread` is κ. Laterals shorter than `MINIMUM_LENGTH` twig lengths are left out.
     """
     at, child, rank = _laterals(blocks, block)
-    limb = keys.child_limb_id(nodes.limb[at], nodes.number[at] * RANKS + 1 + rank)
+    limb = limb_ids.child_limb_id(nodes.limb[at], nodes.number[at] * RANKS + 1 + rank)
     reach = np.minimum(blocks.reach[child], LARGEST_REACH * habit.lateral_ratio)
     length = reach * nodes.whole[at] * np.exp(_LENGTH_SD * keys.normal(key, limb, 0))
     if habit.apical_control >= EXCURRENT:

@@ -22,7 +22,7 @@ import numpy as np
 from jaxtyping import Bool, Float, Int
 
 from sketchtree.axes import NULL
-from sketchtree.keys import child_limb_id
+from sketchtree.limb_ids import child_limb_id
 from sketchtree.parameters import Habit, TreeParameters
 from sketchtree.propagate.open_branch import frames, limb_positions, polar
 from sketchtree.skeleton import TreeSkeleton

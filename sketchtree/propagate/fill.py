@@ -17,7 +17,7 @@ import numpy as np
 from jaxtyping import Array, Float, Int, Key
 from scipy.spatial import cKDTree
 
-from sketchtree import keys
+from sketchtree import keys, limb_ids
 from sketchtree.parameters import Habit
 from sketchtree.propagate.attach_block import RANKS, Nodes
 from sketchtree.propagate.envelope import Envelope
@@ -83,7 +83,7 @@ def towards(
     keep = (divergence < _WIDEST) & (length > habit.twig_length)
     at, length, divergence, orientation = at[keep], length[keep], divergence[keep], orientation[keep]
     length = np.minimum(length, 0.8 * nodes.whole[at])
-    limb = keys.child_limb_id(nodes.limb[at], nodes.number[at] * RANKS + RANKS - 1 - round_)
+    limb = limb_ids.child_limb_id(nodes.limb[at], nodes.number[at] * RANKS + RANKS - 1 - round_)
     return OpenBranches(
         row=nodes.row[at],
         origin=nodes.tip[at],

@@ -9,7 +9,7 @@ turned about the vertical into the gap, with the angle and length that it was dr
 import numpy as np
 from jaxtyping import Array, Float, Key
 
-from sketchtree import keys
+from sketchtree import keys, limb_ids
 from sketchtree.propagate.drawn import DrawnLaterals
 from sketchtree.propagate.open_branch import OpenBranches, polar, turn
 from sketchtree.skeleton import TreeSkeleton
@@ -47,7 +47,7 @@ def _of_trunk(tree, frame, drawn, mine, beside, limb, key):
     present = np.concatenate([span[reach >= counts], aside[np.hypot(aside[:, 0], aside[:, 2]) >= counts]])
     azimuth = _sides(np.arctan2(present[:, 2], present[:, 0]))
     rank = _RANK + np.floor((azimuth % (2 * np.pi)) / _SECTOR).astype(np.int64)
-    ids = keys.child_limb_id(np.full(len(rank), limb), rank)
+    ids = limb_ids.child_limb_id(np.full(len(rank), limb), rank)
     able = mine[reach >= counts]
     source = able[(keys.uniform(key, ids, 14) * len(able)).astype(np.int64)]
 

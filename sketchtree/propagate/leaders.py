@@ -21,7 +21,7 @@ from dataclasses import dataclass
 import numpy as np
 from jaxtyping import Array, Bool, Float, Int, Key
 
-from sketchtree import keys
+from sketchtree import keys, limb_ids
 from sketchtree.axes import NULL
 from sketchtree.parameters import Habit
 from sketchtree.propagate.attach_block import Nodes
@@ -130,7 +130,7 @@ def _courses(tree, envelope, habit) -> list[_Course]:
         wood = np.flatnonzero(~tree.is_base & (tree.order < habit.max_order))
         if len(wood):
             row = wood[np.argmin(_distance(lobe, tree.tip[wood]))]
-            limb = keys.child_limb_id(tree.limb[row : row + 1], np.array([_RANK + rank]))[0]
+            limb = limb_ids.child_limb_id(tree.limb[row : row + 1], np.array([_RANK + rank]))[0]
             end = _ends(lobe, tree.tip[row : row + 1], habit)[0]
             found.append(_Course(int(row), int(limb), int(tree.order[row]) + 1, end, lobe, True))
     return found

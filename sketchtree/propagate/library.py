@@ -20,7 +20,7 @@ from functools import lru_cache
 import numpy as np
 from jaxtyping import Float, Int
 
-from sketchtree.keys import child_limb_id
+from sketchtree.limb_ids import child_limb_id
 from sketchtree.parameters import TreeParameters
 from sketchtree.propagate.block import Blocks, log_likelihood
 from sketchtree.propagate.open_branch import limb_positions

@@ -16,7 +16,7 @@ from dataclasses import dataclass
 import numpy as np
 from jaxtyping import Array, Float, Int, Key
 
-from sketchtree import keys
+from sketchtree import keys, limb_ids
 from sketchtree.axes import NULL
 from sketchtree.parameters import Habit, TreeParameters
 from sketchtree.propagate.attach_block import RANKS, Nodes
@@ -53,7 +53,7 @@ def plan(
     owner = np.repeat(np.arange(len(open_)), count)
     along = np.arange(len(owner)) - np.repeat(np.cumsum(count) - count, count)
     number = open_.node[owner] + along
-    node_id = keys.child_limb_id(open_.limb[owner], number * RANKS)
+    node_id = limb_ids.child_limb_id(open_.limb[owner], number * RANKS)
     weight = (1.15 - 0.3 * along / count[owner]) * (0.85 + 0.3 * keys.uniform(key, node_id, 5))
     total = np.bincount(owner, weight, minlength=len(open_))
     step = weight / total[owner] * open_.length[owner]
@@ -119,7 +119,7 @@ def _bends(open_, nodes, library, theta, key, spread):
     blocks = library.blocks
     has = nodes.bend != NULL
     child = blocks.start[np.where(has, nodes.bend, 0)]
-    noise = keys.normal(key, keys.child_limb_id(open_.limb[nodes.owner], nodes.number * RANKS), 7)
+    noise = keys.normal(key, limb_ids.child_limb_id(open_.limb[nodes.owner], nodes.number * RANKS), 7)
     bend = blocks.divergence[child]
     turned = np.nan_to_num(blocks.droop[child] * blocks.length[child])
     bend = np.sqrt(np.maximum(bend**2 - turned**2, 0.0)) + spread * theta.sigma_alpha * noise

@@ -4,7 +4,7 @@ import numpy as np
 import pytest
 from worlds import HABIT, THETA
 
-from sketchtree import keys
+from sketchtree import keys, limb_ids
 from sketchtree.propagate.attach_block import LARGEST_REACH, MINIMUM_LENGTH, Nodes, attach
 from sketchtree.propagate.block import blocks_of_parameters
 
@@ -31,7 +31,7 @@ def test_laterals_are_one_order_up_on_limbs_of_their_own():
     new = attached()
     assert (new.order == 2).all()
     assert len(np.unique(new.limb)) == len(new) == 40
-    expected = keys.child_limb_id(np.full(40, 77), np.arange(40) * 64 + 1)
+    expected = limb_ids.child_limb_id(np.full(40, 77), np.arange(40) * 64 + 1)
     np.testing.assert_array_equal(new.limb, expected)
 
 

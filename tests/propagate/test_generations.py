@@ -4,7 +4,7 @@ import numpy as np
 import pytest
 from worlds import HABIT, THETA, circle, drawn_tree
 
-from sketchtree import keys
+from sketchtree import keys, limb_ids
 from sketchtree.axes import NULL
 from sketchtree.errors import OptionError
 from sketchtree.propagate.envelope import Envelope
@@ -166,7 +166,7 @@ def test_another_key_grows_another_tree(plain):
 
 def test_a_stroke_more_leaves_the_growth_of_other_limbs_as_it_was():
     few, more = grown(drawn_tree(6), crown=CROWN), grown(drawn_tree(7), crown=CROWN)
-    limbs = [keys.stroke_limb_id(f"limb {slot}") for slot in range(12)]
+    limbs = [limb_ids.stroke_limb_id(f"limb {slot}") for slot in range(12)]
     limbs = [limb for limb in limbs if limb in few.skeleton.limb]
     assert len(limbs) == 6
     for limb in limbs:

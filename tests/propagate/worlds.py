@@ -2,7 +2,7 @@
 
 import numpy as np
 
-from sketchtree import keys
+from sketchtree import limb_ids
 from sketchtree.axes import NULL
 from sketchtree.parameters import GENERIC, Habit
 from sketchtree.skeleton import Kind, TreeSkeleton
@@ -60,4 +60,4 @@ def circle(x=0.0, y=5.5, radius=4.5, points=360):
 
 
 def _id(name: str) -> int:
-    return keys.stroke_limb_id(name)
+    return limb_ids.stroke_limb_id(name)
