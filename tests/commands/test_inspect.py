@@ -21,7 +21,8 @@ def test_the_ending_decides_the_picture(tmp_path, ending):
     out = tmp_path / f"attach{ending}"
     assert run(["inspect", str(OAK), "-o", str(out), "--quiet"]) == 0
     if ending == ".png":
-        assert min(Image.open(out).size) > 700
+        with Image.open(out) as picture:
+            assert min(picture.size) > 700
     else:
         assert ET.parse(out).getroot().tag.endswith("svg")
     assert [p.name for p in tmp_path.iterdir()] == [out.name]
