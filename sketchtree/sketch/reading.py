@@ -1,25 +1,22 @@
 """What tree do the strokes make? From a sketch to its rooted segment graph, one step after the other.
 
-    strokes → crown and obstacles apart → clean lines → what each grows from → limbs → nodes and segments
+    strokes → what each is → clean lines → what each grows from → limbs → nodes and segments
 """
 
 import numpy as np
-from jaxtyping import Float, Int
+from jaxtyping import Int
 
 from sketchtree.errors import OptionError, SketchError
-from sketchtree.keys import stroke_limb_id
+from sketchtree.limb_ids import stroke_limb_id
+from sketchtree.sketch.graph import Attachment, Role, SketchGraph
 from sketchtree.sketch.joining.attach import attach
 from sketchtree.sketch.joining.attachments import describe
-from sketchtree.sketch.joining.cleaning import as_line, clean
-from sketchtree.sketch.roles.contour import contour, only_outline
-from sketchtree.sketch.roles.crown import crown_strokes, has_area, outline
-from sketchtree.sketch.graph import SketchGraph
+from sketchtree.sketch.joining.cleaning import clean
 from sketchtree.sketch.joining.joints import Limb, limbs_of
 from sketchtree.sketch.joining.lines import Line, extent
 from sketchtree.sketch.joining.segments import columns
-from sketchtree.sketch.roles.silhouette import is_blob, middle_lines, with_holes
-from sketchtree.sketch.strokes import Sketch, StrokeKind
-from sketchtree.sketch.joining.widths import drawn_widths
+from sketchtree.sketch.roles.sorting import Sorted, sort_strokes
+from sketchtree.sketch.strokes import Sketch
 
 
 def sketch_graph(sketch: Sketch, *, crown: str = "auto") -> SketchGraph:
@@ -31,72 +28,69 @@ def sketch_graph(sketch: Sketch, *, crown: str = "auto") -> SketchGraph:
     """
     if crown not in ("auto", "off"):
         raise OptionError(f"crown={crown!r}; 'auto' or 'off' was expected.", remedy="Leave it out for 'auto'.")
-    parts = _sorted_strokes(sketch)
-    branch = [sketch.strokes[k] for k in parts[StrokeKind.BRANCH]]
-    around = None if parts[StrokeKind.CROWN] else contour(branch)
-    if around is None and not parts[StrokeKind.CROWN] and only_outline(branch):
-        raise SketchError(f"{sketch.name} has no branch strokes: only a crown.", remedy="Draw at least a trunk, as a line.")
-    legs = {} if around is None else {parts[StrokeKind.BRANCH][k]: left for k, left in around.legs.items()}
-    lines = _lines(sketch, parts[StrokeKind.BRANCH], legs)
-    cleaned = clean(lines, under_crown=bool(parts[StrokeKind.CROWN]) or around is not None)
+    parts = sort_strokes(sketch)
+    _check(sketch, parts)
+    cleaned = clean(parts.lines, under_crown=bool(parts.crowns))
     height = extent(cleaned.lines)
     hanging = attach(cleaned.lines)
     limbs = limbs_of(cleaned.lines, hanging)
     table, rows = columns(limbs, height)
     ids = tuple(stroke.id for stroke in sketch.strokes)
     attachments, doubts = describe(cleaned, hanging, limbs, rows, table["xy"], ids, height)
-    outlines = {kind: tuple(outline(sketch.strokes[k].points) for k in parts[kind]) for kind in StrokeKind}
-    crowns = outlines[StrokeKind.CROWN] if around is None else (outline(around.outline),)
+    roles = _with_dots(sketch, parts.roles, attachments)
+    joined = {a.stroke for a in attachments}
     return SketchGraph(
         **table,
-        width_is_wood=_measured(sketch, lines, table["width"]),
+        width_is_wood=parts.measured and bool(np.isfinite(table["width"]).any()),
         limb_id=_limb_ids(limbs, cleaned.lines),
         stroke_ids=ids,
-        crown=crowns if crown == "auto" else (),
-        obstacles=outlines[StrokeKind.OBSTACLE],
-        attachments=attachments,
-        warnings=(*sketch.warnings, *doubts),
+        crown=parts.crowns if crown == "auto" else (),
+        obstacles=parts.obstacles,
+        attachments=_in_order(ids, (*attachments, *(_apart(sketch, role) for role in roles if role.stroke not in joined))),
+        roles=roles,
+        ground=parts.ground,
+        cuts=parts.cuts,
+        warnings=(*sketch.warnings, *parts.warnings, *doubts),
     )
 
 
-def _sorted_strokes(sketch: Sketch) -> dict[StrokeKind, list[int]]:
-    """Rows of the strokes of each kind, crowns found by shape included."""
-    parts = {kind: [k for k, s in enumerate(sketch.strokes) if s.kind == kind] for kind in StrokeKind}
-    for kind in (StrokeKind.CROWN, StrokeKind.OBSTACLE):
-        parts[kind] = [k for k in parts[kind] if has_area(sketch.strokes[k])]
-    branch = parts[StrokeKind.BRANCH]
-    if not parts[StrokeKind.CROWN]:
-        parts[StrokeKind.CROWN] = [branch[k] for k in crown_strokes([sketch.strokes[k] for k in branch])]
-        parts[StrokeKind.BRANCH] = [k for k in branch if k not in parts[StrokeKind.CROWN]]
-    return parts
+def _check(sketch: Sketch, parts: Sorted) -> None:
+    """Raise where there is no line to grow a tree from."""
+    if parts.lines:
+        return
+    kinds = sorted({role.role for role in parts.roles})
+    what = f": only {' and '.join(kinds)}" if kinds else ": only dots or round shapes" if sketch.strokes else ""
+    raise SketchError(f"{sketch.name} has no branch strokes{what}.", remedy="Draw at least a trunk, as a line.")
 
 
-def _lines(sketch: Sketch, rows: list[int], legs: dict[int, tuple[np.ndarray, ...]]) -> list[Line]:
-    """The lines that the branch strokes draw, those down the middle of painted shapes included; of a
-    stroke that drew a crown only its `legs`."""
-    drawn = [row for row in rows if not sketch.strokes[row].filled and row not in legs]
-    strokes = [sketch.strokes[row] for row in drawn]
-    widths = drawn_widths(strokes)
-    lines = [as_line(row, stroke.id, stroke.points, width) for row, stroke, width in zip(drawn, strokes, widths, strict=True)]
-    lines += [as_line(row, sketch.strokes[row].id, points, np.nan) for row, parts in legs.items() for points in parts]
-    lines = [line for line in lines if line is not None]
-    painted = [row for row in rows if sketch.strokes[row].filled]
-    for outer, holes in with_holes([sketch.strokes[row] for row in painted]):
-        shape = sketch.strokes[painted[outer]]
-        if not is_blob(shape):
-            lines += middle_lines(painted[outer], shape, [sketch.strokes[painted[hole]] for hole in holes])
-    if not lines:
-        raise SketchError(
-            f"{sketch.name} has no branch strokes" + (": only dots or round shapes." if rows else "."),
-            remedy="Draw at least a trunk, as a line.",
-        )
-    return lines
+def _with_dots(sketch: Sketch, roles: tuple[Role, ...], attachments: tuple[Attachment, ...]) -> tuple[Role, ...]:
+    """The roles, and "dot" for every stroke that neither they nor the tree know of."""
+    known = {role.stroke for role in roles} | {a.stroke for a in attachments}
+    dots = [Role(s.id, "dot", "too small to be a branch, or without any length") for s in sketch.strokes if s.id not in known]
+    return (*roles, *dots)
 
 
-def _measured(sketch: Sketch, lines: list[Line], width: Float[np.ndarray, " segment"]) -> bool:
-    """Whether the widths were measured between the edges of what was drawn, and no pen set them."""
-    penned = any(np.isfinite(line.width).any() for line in lines if not sketch.strokes[line.row].filled)
-    return bool(np.isfinite(width).any()) and not penned
+def _apart(sketch: Sketch, role: Role) -> Attachment:
+    """The line of the report for a stroke that hangs on nothing."""
+    stroke = next(s for s in sketch.strokes if s.id == role.stroke)
+    x, y = stroke.points[0].tolist()
+    return Attachment(role.stroke, None, (x, y), 0.0, 0.0, role.alternatives, f"taken for {_ARTICLE.get(role.role, role.role)}: {role.reason}")
+
+
+_ARTICLE = {
+    "crown": "a crown",
+    "obstacle": "an obstacle",
+    "ground": "the ground",
+    "shadow": "a shadow",
+    "speckle": "a speck",
+    "paper": "the paper",
+    "dot": "a dot",
+}
+
+
+def _in_order(ids: tuple[str, ...], attachments: tuple[Attachment, ...]) -> tuple[Attachment, ...]:
+    rank = {stroke_id: k for k, stroke_id in enumerate(ids)}
+    return tuple(sorted(attachments, key=lambda a: rank[a.stroke]))
 
 
 def _limb_ids(limbs: list[Limb], lines: list[Line]) -> Int[np.ndarray, " limb"]:

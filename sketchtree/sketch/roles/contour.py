@@ -60,17 +60,17 @@ def contour(strokes: list[Stroke]) -> Contour | None:
     return None
 
 
-def only_outline(strokes: list[Stroke]) -> bool:
-    """Whether one or two unlabelled lines are a closed outline and nothing else."""
+def lone_outline(strokes: list[Stroke]) -> Float[np.ndarray, "point 2"] | None:
+    """The closed outline that one or two unlabelled lines draw, and nothing else; None for any other drawing."""
     if not 1 <= len(strokes) <= 2 or any(s.filled or s.labelled for s in strokes):
-        return False
+        return None
     drawn = [_evenly(_ring(s)) for s in strokes if len(s.points) > 2]
     size = float(np.ptp(np.concatenate([s.points for s in strokes]), axis=0).max())
     if len(drawn) < len(strokes):
-        return False
+        return None
     level = all(abs(line[0, 1] - line[-1, 1]) <= LEVEL * np.ptp(line[:, 0]) for line in drawn)
     ways = drawn if len(drawn) == 1 else [way for _, way in _pairs(drawn, size) if level]
-    return any(np.hypot(*(way[0] - way[-1])) <= MEET * size and _is_round(way) for way in ways)
+    return next((way for way in ways if np.hypot(*(way[0] - way[-1])) <= MEET * size and _is_round(way)), None)
 
 
 def _ring(stroke: Stroke) -> Float[np.ndarray, "point 2"]:

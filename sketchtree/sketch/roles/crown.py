@@ -1,34 +1,55 @@
-"""Which curve is the crown? What the file says, else a closed or nearly closed outline around the branches.
+"""Which closed curves are crowns? Closed or nearly closed outlines, drawn or painted, around the branches' tips.
 
-A stroke is a crown by its shape if its ends nearly meet, it is round rather than a thin loop (4πA/P² of its hull
-times the part of the hull it fills ≥ ROUND), it is large and reaches high, and at least half of the other strokes'
-upper ends lie in it or near it.
+A stroke is an outline by its shape if its ends nearly meet and it is round rather than a thin loop (4πA/P² of its hull
+times the part of the hull it fills ≥ ROUND; a painted one is bulky, 2A/P ≥ BULK of its size). It is a crown if it
+reaches high and at least half of the other strokes' upper ends lie in it or near it. Several smaller ones are crowns
+together: each on a limb of its own, all of them around half of the tips.
 """
 
 import numpy as np
 import shapely
-from jaxtyping import Float
+from jaxtyping import Bool, Float
 
-from sketchtree.sketch.roles.silhouette import is_blob
+from sketchtree.sketch.roles.found import Found
+from sketchtree.sketch.roles.measures import Measures
 from sketchtree.sketch.strokes import Stroke
 
 OPEN = 0.35  # widest opening of a nearly closed outline, of its larger side
 ROUND = 0.2  # least 4πA/P² of the outline's convex hull, times its share of the hull's area
+BULK = 0.14  # least 2A/P of a painted crown, of its larger side: trunks and limbs are thinner
 LARGE = 0.3  # least size of a crown, of the drawing's
+SMALL = 0.1  # the same where several are crowns together …
+MOST = 12  # … no more than these: else they are leaves
 HIGH = 0.6  # of the drawing's height: a crown reaches above it (a shadow on the ground does not)
 NEAR = 0.1  # of the drawing's size: a tip this near to the outline counts as inside
+STANDS = 0.05  # of the drawing's height: a shape that comes this near to its foot stands on the ground
+SLIM = 2.0  # height over width from which such a shape is a trunk's outline
 
 
-def crown_strokes(strokes: list[Stroke]) -> list[int]:
-    """Which of these unlabelled branch strokes are crown outlines by their shape."""
-    if len(strokes) < 2:
+def closed_crowns(m: Measures, free: Bool[np.ndarray, " stroke"], wood: Bool[np.ndarray, " stroke"]) -> list[Found]:
+    """The crowns among the strokes `free` to be one; `wood` are those whose tips they may hold."""
+    low, high = m.drawing
+    size = float((high - low).max())
+    rows = _outlines(m, free, size)
+    if len(rows) == 0:
         return []
-    size = float(np.ptp(np.concatenate([s.points for s in strokes]), axis=0).max())
-    tips = np.array([_upper_end(stroke) for stroke in strokes])
-    found = [k for k, s in enumerate(strokes) if not s.labelled and _is_outline(s.points, size) and not (s.filled and not is_blob(s))]
-    high = _level(strokes, HIGH)
-    around = [k for k in found if strokes[k].points[:, 1].max() >= high and _encloses(strokes[k].points, np.delete(tips, found, 0), size)]
-    return around if len(around) < len(strokes) else []
+    regions = np.array([_region(m.strokes[row].points, NEAR * size) for row in rows], object)
+    others = wood.copy()
+    others[rows] = False
+    tips = _upper_ends(m, others)
+    level = low[1] + HIGH * (high[1] - low[1])
+    inside = np.array([shapely.contains_xy(region, tips) for region in regions]).reshape(len(rows), len(tips))
+    reaches = m.high[rows, 1] >= level
+    if len(tips) == 0:
+        return []
+    alone = reaches & (m.size[rows] >= LARGE * size) & (inside.mean(1) >= 0.5)
+    if alone.any():
+        return _kept(m, rows, regions, alone, "a closed outline around most of the branches' tips")
+    together = inside.any(1)
+    enough = inside[together].any(0).mean() >= 0.5 and together.sum() <= MOST
+    if enough and reaches[together].any() and (len(rows) > 1 or m.size[rows[0]] >= LARGE * size):
+        return _kept(m, rows, regions, together, "one of several closed outlines on the branches' tips")
+    return []
 
 
 def outline(points: Float[np.ndarray, "point 2"]) -> Float[np.ndarray, "point 2"]:
@@ -44,29 +65,39 @@ def has_area(stroke: Stroke) -> bool:
     return len(outline(stroke.points)) >= 3 and shapely.convex_hull(shapely.MultiPoint(stroke.points)).area > 0
 
 
-def _is_outline(points: Float[np.ndarray, "point 2"], size: float) -> bool:
-    side = float(np.ptp(points, axis=0).max())
-    if side < LARGE * size or len(points) < 4:
-        return False
-    hull = shapely.convex_hull(shapely.MultiPoint(points))
-    area = abs(float(shapely.area(shapely.Polygon(points))))
-    compact = 4 * np.pi * hull.area / hull.length**2
-    opening = float(np.hypot(*(points[0] - points[-1])))
-    return opening <= OPEN * side and compact * min(area / hull.area if hull.area else 0.0, 1.0) >= ROUND
+def _outlines(m: Measures, free, size: float):
+    """Rows of the strokes that are outlines by their shape."""
+    rows = np.flatnonzero(free & (m.size >= SMALL * size) & (m.opening <= OPEN * m.size) & (np.diff(m.first_point) >= 4) & (m.area > 0))
+    if len(rows) == 0:
+        return rows
+    hull = shapely.convex_hull([shapely.MultiPoint(m.strokes[row].points) for row in rows])
+    area, around = shapely.area(hull), shapely.length(hull)
+    compact = 4 * np.pi * area / around**2 * np.minimum(m.area[rows] / area, 1.0)
+    bulky = 2 * m.area[rows] / np.maximum(m.length[rows], around) >= BULK * m.size[rows]
+    side = m.high[rows] - m.low[rows]
+    low, high = m.drawing
+    stands = m.low[rows, 1] <= low[1] + STANDS * (high[1] - low[1])
+    trunk = stands & (side[:, 1] >= SLIM * side[:, 0]) & (m.high[rows, 1] < high[1])
+    return rows[(compact >= ROUND) & (bulky | ~m.filled[rows]) & ~trunk]
 
 
-def _encloses(points: Float[np.ndarray, "point 2"], tips: Float[np.ndarray, "stroke 2"], size: float) -> bool:
-    region = shapely.make_valid(shapely.Polygon(points)).buffer(NEAR * size)
-    return len(tips) > 0 and float(shapely.contains_xy(region, tips).mean()) >= 0.5
+def _region(points, near: float) -> shapely.Polygon:
+    return shapely.make_valid(shapely.Polygon(points)).buffer(near)
 
 
-def _level(strokes: list[Stroke], part: float) -> float:
-    y = np.concatenate([stroke.points[:, 1] for stroke in strokes])
-    return float(y.min() + part * np.ptp(y))
+def _upper_ends(m: Measures, rows: Bool[np.ndarray, " stroke"]) -> Float[np.ndarray, "tip 2"]:
+    tips = np.where((m.first[:, 1] >= m.last[:, 1])[:, None], m.first, m.last)
+    for row in np.flatnonzero(rows & m.closed):
+        points = m.strokes[row].points
+        tips[row] = points[np.argmax(points[:, 1])]
+    return tips[rows]
 
 
-def _upper_end(stroke: Stroke) -> Float[np.ndarray, " 2"]:
-    ends = stroke.points if stroke.filled or stroke.closed else stroke.points[[0, -1]]
-    return ends[np.argmax(ends[:, 1])]
-
-
+def _kept(m: Measures, rows, regions, chosen, reason: str) -> list[Found]:
+    """The chosen outlines as crowns; those that lie wholly within another as marks inside it."""
+    found = []
+    for k in np.flatnonzero(chosen):
+        others = [j for j in np.flatnonzero(chosen) if m.area[rows[j]] > m.area[rows[k]]]
+        inner = any(shapely.contains_xy(regions[j], m.strokes[rows[k]].points).mean() > 0.95 for j in others)
+        found.append(Found(int(rows[k]), "leaves", "an outline inside the crown") if inner else Found(int(rows[k]), "crown", reason))
+    return found

@@ -3,8 +3,7 @@ import pytest
 from hands import EXAMPLES, SHARED
 from test_shapes import ring
 
-from sketchtree.errors import SketchError
-from sketchtree.sketch.roles.contour import contour, only_outline
+from sketchtree.sketch.roles.contour import contour, lone_outline
 from sketchtree.sketch.formats import read_sketch
 from sketchtree.sketch.reading import sketch_graph
 from sketchtree.sketch.strokes import Sketch, Stroke
@@ -71,17 +70,18 @@ def test_no_limb_of_an_example_is_taken_for_a_crown(path):
         assert contour([Stroke(s.id, s.points) for s in branches[:count]]) is None
 
 
-def test_an_outline_alone_is_no_tree():
+def test_an_outline_alone_is_a_bush_on_a_stem():
     whole = ring(40)
     for lines in ([whole], [whole[10:32], np.roll(whole[:-1], -30, axis=0)[:21]]):
-        assert only_outline(strokes(*lines))
-        with pytest.raises(SketchError, match="sketch has no branch strokes: only a crown"):
-            graph_of(*lines)
+        assert lone_outline(strokes(*lines)) is not None
+        graph = graph_of(*lines)
+        assert len(graph.crown) == 1 and len(graph.limb_id) == 1 and graph.xy[0] == pytest.approx((0, 40), abs=1)
+        assert "The drawing shows a crown and no branch: one stem was put from the ground into it." in graph.warnings[0]
 
 
 def test_two_stems_whose_tips_meet_are_stems():
     left = np.c_[-30 * np.sin(np.linspace(0, np.pi, 20)), np.linspace(0, 100, 20)]
-    assert not only_outline(strokes(left, left * (-1, 1)))
+    assert lone_outline(strokes(left, left * (-1, 1))) is None
 
 
 def test_a_trunk_drawn_down_and_up_again_is_one():

@@ -1,0 +1,168 @@
+"""Which strokes are the ground? Level lines at the foot of a stem, and what stands on them that is no stem.
+
+A level line is the ground if a stem stands on it: the lower end of a stroke that rises from there through a good part of
+the drawing. A limb fails: it starts higher up its stem. What lies on one side of the stem only must keep as low as
+its foot, and the drawing may go on below the line only as roots do: less deep than the tree is tall, in several lines or painted.
+With a line found, the small things that stand on it away from every stem are grass.
+"""
+
+from dataclasses import dataclass
+
+import numpy as np
+import shapely
+from jaxtyping import Bool, Float, Int
+
+from sketchtree.sketch.roles.found import Found
+from sketchtree.sketch.roles.measures import Measures
+
+LONG = 0.15  # of the drawing's height: least width of a ground line
+FLAT = 0.07  # of the drawing's height: how far it strays from its chord …
+SLOPE = 0.3  # … and how steep that may be: a hillside
+WINDING = 6.0  # most length of a line of grass, of its width
+AT_FOOT = 0.05  # of the drawing's height: a stem ends this near to the line it stands on
+RISES = 0.25  # of the drawing's height: what goes up less from the line is no stem
+BESIDE = 0.03  # of the drawing's height: a line that goes on this far on both sides of the foot passes under it
+DEEP = 0.08  # of the drawing's height: what reaches deeper below the line must look like roots
+TOGETHER = 0.2  # of the drawing's height: roots start no farther apart
+TUFT = 0.1  # of the drawing's height: grass is smaller
+APART = 0.015  # of the drawing's height: grass does not touch a stem
+BROAD = 1.2  # of the width of the rest: a wider painted area at the foot is ground, no shadow
+
+
+@dataclass(frozen=True, eq=False)
+class Stems:
+    """Strokes that may stand on the ground."""
+
+    row: Int[np.ndarray, " stem"]
+    foot: Float[np.ndarray, "stem 2"]  # their lower end; their lowest point if they are closed
+    top: Float[np.ndarray, " stem"]  # how high they reach
+
+
+def stems(m: Measures, rows: Int[np.ndarray, " row"]) -> Stems:
+    """These strokes with their feet."""
+    foot = np.where((m.first[:, 1] <= m.last[:, 1])[:, None], m.first, m.last)[rows]
+    for k in np.flatnonzero(m.closed[rows]):
+        points = m.strokes[rows[k]].points
+        foot[k] = points[np.argmin(points[:, 1])]
+    return Stems(rows, foot, m.high[rows, 1])
+
+
+def ground_lines(m: Measures, free: Bool[np.ndarray, " stroke"], wood: Bool[np.ndarray, " stroke"]) -> list[Found]:
+    """The level lines that a stem stands on. `free`: strokes not yet known; `wood`: strokes that may be stems."""
+    height = _height(m, wood)
+    flat = free & ~m.closed & _level(m, height)
+    if not flat.any() or height <= 0:
+        return []
+    standing = stems(m, np.flatnonzero(wood & ~flat))
+    found = []
+    for row in np.flatnonzero(flat):
+        reason = _stood_on(m, int(row), standing, height)
+        if reason:
+            found.append(Found(int(row), "ground", reason, (("branch", 0.5),)))
+    return found
+
+
+def grass(m: Measures, free: Bool[np.ndarray, " stroke"], lines: list[np.ndarray], wood: Bool[np.ndarray, " stroke"]) -> list[Found]:
+    """The small strokes that stand on the ground lines away from every stem."""
+    height = _height(m, wood)
+    small = free & (m.size <= TUFT * height)
+    if not lines or not small.any():
+        return []
+    ground = shapely.union_all([shapely.LineString(line) for line in lines])
+    large = shapely.union_all([_shape(m, row) for row in np.flatnonzero(wood & (m.size > TUFT * height))])
+    found = []
+    for row in np.flatnonzero(small):
+        points = m.strokes[row].points
+        lowest = shapely.Point(points[np.argmin(points[:, 1])])
+        near = lowest.distance(ground) <= 0.5 * AT_FOOT * height or _shape(m, row).distance(ground) <= 0.2 * AT_FOOT * height
+        if near and (m.filled[row] or _shape(m, row).distance(large) > APART * height):
+            found.append(Found(int(row), "ground", "a small mark on the ground line, apart from every stem", (("branch", 0.5),)))
+    return found
+
+
+def level_at(lines: list[np.ndarray], x: float) -> float:
+    """Height of the ground at `x`: of the line below or above, else of the nearest end."""
+    best, nearest = 0.0, np.inf
+    for line in lines:
+        line = line[np.argsort(line[:, 0], kind="stable")]
+        off = max(line[0, 0] - x, x - line[-1, 0], 0.0)
+        if off < nearest:
+            best, nearest = float(np.interp(x, line[:, 0], line[:, 1])), off
+    return best
+
+
+def _height(m: Measures, wood) -> float:
+    """Height of what may be wood; of all there is, if that is more sensible."""
+    rows = np.flatnonzero(wood) if wood.any() else np.arange(len(m))
+    return float(m.high[rows, 1].max() - m.low[rows, 1].min())
+
+
+def _level(m: Measures, height: float) -> Bool[np.ndarray, " stroke"]:
+    """Strokes that run level and long."""
+    width = m.high[:, 0] - m.low[:, 0]
+    chord = m.last - m.first
+    with np.errstate(invalid="ignore", divide="ignore"):
+        slope = np.abs(chord[:, 1]) / np.abs(chord[:, 0])
+    long = (width >= LONG * height) & (m.length <= WINDING * width) & (slope <= SLOPE)
+    flat = np.zeros(len(m), bool)
+    for row in np.flatnonzero(long & (m.high[:, 1] - m.low[:, 1] <= SLOPE * width + FLAT * height)):
+        points = m.strokes[row].points
+        off = points[:, 1] - np.interp(points[:, 0], *_by_x(m.first[row], m.last[row]))
+        flat[row] = np.ptp(off) <= min(2 * FLAT * height, 0.25 * width[row])
+    return flat
+
+
+def _by_x(a, b):
+    a, b = sorted((a.tolist(), b.tolist()))
+    return (a[0], b[0]), (a[1], b[1])
+
+
+def _stood_on(m: Measures, row: int, standing: Stems, height: float) -> str:
+    """Why this level line is the ground; "" if it need not be."""
+    line = m.strokes[row].points
+    shape = shapely.LineString(line)
+    at = np.array([level_at([line], x) for x in standing.foot[:, 0]]) if len(standing.row) else np.zeros(0)
+    rising = standing.top - at >= RISES * height
+    over = (standing.foot[:, 0] >= m.low[row, 0] - AT_FOOT * height) & (standing.foot[:, 0] <= m.high[row, 0] + AT_FOOT * height)
+    near = shapely.distance(shapely.points(standing.foot), shape) <= AT_FOOT * height if len(at) else np.zeros(0, bool)
+    near |= over & (np.abs(standing.foot[:, 1] - at) <= AT_FOOT * height)
+    deep = float(np.median(line[:, 1]) - m.drawing[0][1])
+    if deep > float(m.drawing[1][1] - np.median(line[:, 1])):
+        return ""
+    feet = standing.foot[near & rising]
+    if len(feet) == 0:
+        return "a level line that the tree passes through, roots below" if _rooted(m, row, height, deep) else ""
+    passes = bool((feet[:, 0].min() - m.low[row, 0] >= BESIDE * height) and (m.high[row, 0] - feet[:, 0].max() >= BESIDE * height))
+    keeps_low = bool(line[:, 1].max() <= feet[:, 1].max() + 0.02 * height)
+    if deep > DEEP * height and not (passes and _rootlike(m, row, height)):
+        return ""
+    return "a level line that a stem stands on" if passes or keeps_low else ""
+
+
+def _rooted(m: Measures, row: int, height: float, deep: float) -> bool:
+    """Whether a wide level line crosses a tree that goes on below it as roots do."""
+    width = float(m.high[row, 0] - m.low[row, 0])
+    line = m.strokes[row].points
+    straight = float(np.ptp(line[:, 1])) <= FLAT * height
+    everything = float(m.drawing[1][0] - m.drawing[0][0])
+    return straight and width >= 0.5 * everything and deep > DEEP * height and _rootlike(m, row, height)
+
+
+def _rootlike(m: Measures, row: int, height: float) -> bool:
+    """Whether what lies below a line is painted, or several strokes that spread."""
+    level = float(np.median(m.strokes[row].points[:, 1]))
+    below = np.flatnonzero((m.low[:, 1] < level - 0.5 * DEEP * height) & (np.arange(len(m)) != row))
+    painted = m.filled[below] & (m.high[below, 1] > level)
+    wholly = below[(m.high[below, 1] <= level + AT_FOOT * height) & ~m.closed[below]]
+    upper = np.where((m.first[:, 1] >= m.last[:, 1])[:, None], m.first, m.last)[wholly]
+    lower = np.where((m.first[:, 1] >= m.last[:, 1])[:, None], m.last, m.first)[wholly]
+    falls = upper[:, 1] - lower[:, 1] >= 0.25 * np.hypot(*(upper - lower).T)
+    from_foot = falls & (np.abs(upper[:, 1] - level) <= AT_FOOT * height)
+    return bool(painted.any() or (from_foot.sum() >= 2 and np.ptp(upper[from_foot, 0]) <= TOGETHER * height))
+
+
+def _shape(m: Measures, row: int):
+    points = m.strokes[row].points
+    if m.filled[row] and len(points) > 2:
+        return shapely.make_valid(shapely.Polygon(points))
+    return shapely.LineString(points) if len(points) > 1 else shapely.Point(points[0])

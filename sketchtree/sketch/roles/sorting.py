@@ -1,0 +1,177 @@
+"""What is each stroke: branch, crown, obstacle, ground, shadow, leaves, hatching, root, or the paper itself?
+
+Names win: what a layer, a class or an id says is not questioned. The rest is decided by shape and place, in this
+order, each rule on what the ones before it left: the paper, ground lines, shadows, crowns, what is drawn inside a crown, leaves.
+All others are wood: their lines are what is joined to a tree. A rule needs several cues; a stroke that shows only one
+stays a branch.
+"""
+
+from dataclasses import dataclass, field
+
+import numpy as np
+import shapely
+from jaxtyping import Bool, Float
+
+from sketchtree.sketch.graph import Cut, Role
+from sketchtree.sketch.joining.lines import Line
+from sketchtree.sketch.roles.contour import contour, lone_outline
+from sketchtree.sketch.roles.crown import closed_crowns, has_area, outline
+from sketchtree.sketch.roles.found import Found, role_warnings
+from sketchtree.sketch.roles.ground import grass, ground_lines
+from sketchtree.sketch.roles.leaves import MASS, leaf_shapes, marks_inside, scribbles
+from sketchtree.sketch.roles.masses import border, bulk_and_trunk, mass
+from sketchtree.sketch.roles.measures import Measures
+from sketchtree.sketch.roles.named import role_in_names
+from sketchtree.sketch.roles.page import cuts_of, frames
+from sketchtree.sketch.roles.implied import implied_stems
+from sketchtree.sketch.roles.shadow import shadows
+from sketchtree.sketch.roles.wood import wood_lines
+from sketchtree.sketch.strokes import Sketch, StrokeKind
+
+
+@dataclass(frozen=True, eq=False)
+class Sorted:
+    """The strokes of a sketch by what they are; sketch units, y up."""
+
+    lines: list[Line]  # of the wood above the ground
+    roots: list[Line]  # of the wood below it
+    measured: bool  # the lines' widths are the limbs' own thickness; no pen set them
+    crowns: tuple[Float[np.ndarray, "point 2"], ...]  # closed outlines, first point not repeated
+    obstacles: tuple[Float[np.ndarray, "point 2"], ...]
+    ground: tuple[Float[np.ndarray, "point 2"], ...]  # drawn ground lines
+    roles: tuple[Role, ...]  # strokes that are no branch, or only in part, in the order of the file
+    cuts: tuple[Cut, ...]  # where the page's edge cuts the wood
+    warnings: tuple[str, ...]
+
+
+@dataclass(eq=False)
+class _Table:
+    """The strokes while they are being sorted."""
+
+    m: Measures
+    wood: Bool[np.ndarray, " stroke"]  # may be branches
+    free: Bool[np.ndarray, " stroke"]  # may be anything: wood that no name calls so
+    found: dict[int, Found] = field(default_factory=dict)
+    outlines: list[np.ndarray] = field(default_factory=list)  # of crowns
+    legs: dict[int, tuple[np.ndarray, ...]] = field(default_factory=dict)  # wood in strokes that drew a crown too
+
+    def take(self, found: list[Found]) -> None:
+        """These strokes are known now."""
+        for one in found:
+            self.found[one.row] = one
+            self.wood[one.row] = self.free[one.row] = False
+
+    def rows(self, role: str) -> list[int]:
+        """The strokes known to be this."""
+        return sorted(row for row, one in self.found.items() if one.role == role)
+
+
+def sort_strokes(sketch: Sketch) -> Sorted:
+    """What every stroke of the sketch is. Neither order nor direction of the strokes matters."""
+    if not sketch.strokes:
+        return Sorted([], [], False, (), (), (), (), (), ())
+    table = _named(sketch)
+    table.take(frames(table.m, table.free))
+    table.take(ground_lines(table.m, table.free, table.wood))
+    ground = [table.m.strokes[row].points for row in table.rows("ground")]
+    table.take(grass(table.m, table.free, ground, table.wood))
+    table.take(shadows(table.m, table.free, table.wood))
+    _find_crowns(table)
+    _find_leaves(table)
+    lines, measured = wood_lines(sketch.strokes, np.flatnonzero(table.wood).tolist(), table.legs)
+    stem_warnings = []
+    if not lines and table.outlines:
+        lines, stem_warnings = implied_stems(table.outlines, ground, *_owner(table))
+    cuts, cut_warnings = cuts_of(lines, sketch.page)
+    roles = tuple(table.found[row].named(sketch.strokes[row].id) for row in sorted(table.found))
+    return Sorted(
+        lines=lines,
+        roots=[],
+        measured=measured,
+        crowns=tuple(table.outlines),
+        obstacles=tuple(outline(sketch.strokes[row].points) for row in table.rows("obstacle") if has_area(sketch.strokes[row])),
+        ground=tuple(ground),
+        roles=roles,
+        cuts=cuts,
+        warnings=(*role_warnings(roles), *stem_warnings, *cut_warnings),
+    )
+
+
+def _named(sketch: Sketch) -> _Table:
+    """The strokes, those known by name taken."""
+    strokes = sketch.strokes
+    branch = np.array([s.kind == StrokeKind.BRANCH for s in strokes])
+    labelled = np.array([s.labelled for s in strokes])
+    table = _Table(Measures.of(strokes), branch.copy(), branch & ~labelled)
+    for row, stroke in enumerate(strokes):
+        if not branch[row]:
+            known = has_area(stroke)
+            reason = f"named a{'n' if stroke.kind == StrokeKind.OBSTACLE else ''} {stroke.kind}" if stroke.labelled else f"drawn as a {stroke.kind}"
+            table.take([Found(row, str(stroke.kind), reason if known else f"{reason}, but it encloses nothing: left out")])
+            if known and stroke.kind == StrokeKind.CROWN:
+                table.outlines.append(outline(stroke.points))
+        elif not stroke.labelled and (role := role_in_names(stroke)) and role != "root":
+            table.take([Found(row, role, "named so")])
+    return table
+
+
+def _find_crowns(table: _Table) -> None:
+    """The crowns by their shape, unless the file names one."""
+    if table.outlines:
+        return
+    m = table.m
+    closed = closed_crowns(m, table.free, table.wood)
+    table.take(closed)
+    table.outlines += [outline(m.strokes[one.row].points) for one in closed if one.role == "crown"]
+    if table.outlines:
+        return
+    rows = np.flatnonzero(table.wood)
+    around = contour([m.strokes[row] for row in rows])
+    if around is None:
+        _find_bush(table)
+        return
+    table.outlines.append(outline(around.outline))
+    for k, legs in around.legs.items():
+        row = int(rows[k])
+        table.take([Found(row, "crown", "part of one contour around a crown on its trunk")])
+        if legs:
+            table.legs[row] = legs
+
+
+def _find_bush(table: _Table) -> None:
+    """A crown without any trunk, where nothing else is drawn."""
+    m, rows = table.m, np.flatnonzero(table.wood)
+    alone = lone_outline([m.strokes[row] for row in rows])
+    if alone is not None:
+        table.outlines.append(outline(alone))
+        table.take([Found(int(row), "crown", "a closed outline without a trunk") for row in rows])
+        return
+    wild = scribbles(m, table.free)
+    for row in wild[m.size[wild] >= MASS * float((m.drawing[1] - m.drawing[0]).max())] if len(wild) else ():
+        area = mass(m.strokes[row].points)
+        if area.is_empty:
+            continue
+        crown, trunk = bulk_and_trunk(area)
+        table.outlines.append(border(crown or area))
+        table.take([Found(int(row), "crown", "a scribble of foliage")])
+
+
+def _owner(table: _Table) -> tuple[int, str]:
+    """(row, id) of the stroke that an implied stem is put down to: the first that drew a crown, in the order of their ids."""
+    rows = table.rows("crown")
+    row = min(rows, key=lambda k: table.m.strokes[k].id)
+    return row, table.m.strokes[row].id
+
+
+def _find_leaves(table: _Table) -> None:
+    """Leaves, and marks inside the crowns."""
+    rows = np.flatnonzero(table.wood)
+    if len(rows) < 2:
+        return
+    height = float(max(table.m.high[rows, 1].max() - table.m.low[rows, 1].min(), 0.0))
+    if table.outlines:
+        crown = shapely.union_all([shapely.make_valid(shapely.Polygon(points)).buffer(0.02 * height) for points in table.outlines])
+        table.take(marks_inside(table.m, table.free, crown, table.wood, height))
+    leaves = leaf_shapes(table.m, table.free, height)
+    if len(leaves) < table.wood.sum():
+        table.take(leaves)
