@@ -19,6 +19,7 @@ STRAIGHT = np.radians(28)  # the same over a bridge
 WIDTH = 0.5  # radians for a width e times as large
 REACH = 5.0  # half widths beyond the joint's ink over which a direction is taken
 BRIDGE = 7.0  # half widths: a bridge is no longer
+RING = 12.0  # half widths: a shorter loop is not drawn in one line
 
 End = tuple[int, int]  # (edge, 0 at its node a or 1 at its node b)
 
@@ -87,7 +88,8 @@ def _pairs(web: Web, ends: list[End], pen: float) -> dict[End, End]:
     for k, one in enumerate(ends):
         for two in ends[k + 1 :]:
             cost, turn = _cost(web, one, two, pen, node_half[one])
-            if turn <= BEND and one[0] != two[0]:
+            ring = one[0] == two[0] and web.edges[one[0]].length < RING * node_half[one]
+            if turn <= BEND and not ring:
                 costs.append((cost, one, two))
     onward: dict[End, End] = {}
     for _, one, two in sorted(costs):
@@ -133,14 +135,14 @@ def _over(web: Web, key: int, pen: float) -> tuple[tuple[End, End], ...]:
 def _straight(web: Web, one: End, two: End, pen: float) -> tuple[float, float]:
     """(cost, greatest turn) of a line over a bridge: also of each half against the line between the two."""
     e, f = web.edges[one[0]], web.edges[two[0]]
-    at = web.place[e.a if one[1] == 0 else e.b], web.place[f.a if two[1] == 0 else f.b]
     skip = max(web.half[e.a if one[1] == 0 else e.b], web.half[f.a if two[1] == 0 else f.b])
     cost, turn = _cost(web, one, two, pen, skip)
     ends = [_beyond(e, one[1], skip), _beyond(f, two[1], skip)]
     chord = ends[1] - ends[0]
     chord = chord / max(float(np.hypot(*chord)), 1e-9)
-    lean = [np.arccos(np.clip(np.dot(-heading(e, one[1], pen, skip), chord), -1, 1)), np.arccos(np.clip(np.dot(heading(f, two[1], pen, skip), chord), -1, 1))]
-    return cost + float(sum(lean)), max(turn, float(max(lean)))
+    turns = np.dot(-heading(e, one[1], pen, skip), chord), np.dot(heading(f, two[1], pen, skip), chord)
+    lean = np.arccos(np.clip(turns, -1.0, 1.0))
+    return cost + float(lean.sum()), max(turn, float(lean.max()))
 
 
 def _beyond(edge: Edge, side: int, skip: float) -> Float[np.ndarray, " 2"]:

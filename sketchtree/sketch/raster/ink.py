@@ -18,13 +18,15 @@ from skimage.filters import apply_hysteresis_threshold
 
 from sketchtree.sketch.raster.paper import Darkness
 
-COARSE = 1.2  # megapixels of the first look
+COARSE = 1.2  # megapixels of the first look at a large picture …
+SMALL = 0.5  # … and of the look at a small one, enlarged
 MOST = 6.0  # megapixels looked at, at most
 FINE = 5.0  # pixels that a pen's line is wide at least, where the limits allow
 ENLARGED = 4.0  # times the picture is enlarged at most
 HIGH, LOW = 6.0, 3.5  # thresholds, in σ …
 HIGH_PART, LOW_PART = 0.5, 0.25  # … and of D
 EDGE = 0.45  # of the darkest d nearby
+BROADEST = 0.012  # of the drawing's larger side: what is wider than that on average are limbs, and no pen's lines
 FAINTEST = 0.04  # of the paper's lightness: nothing paler is a line
 
 
@@ -35,7 +37,7 @@ class Ink:
     mask: Bool[np.ndarray, "row col"]
     d: Float[np.ndarray, "row col"]  # darkness at the same resolution
     scale: float  # pixels of the working picture in one of these
-    pen: float  # width of a typical line, pixels of the mask
+    pen: float  # width of a pen's line, pixels of the mask
     contrast: float  # D
     grain: float  # σ at this resolution
 
@@ -43,7 +45,7 @@ class Ink:
 def find_ink(dark: Darkness) -> Ink | None:
     """The ink at a resolution that suits the pen; None when nothing stands out of the paper."""
     pixels = dark.d.size / 1e6
-    scale = max(1.0, float(np.sqrt(pixels / COARSE)))
+    scale = max(1.0, float(np.sqrt(pixels / COARSE))) * float(np.clip(np.sqrt(pixels / SMALL), 1 / ENLARGED, 1.0))
     ink = _at(dark, scale)
     if ink is None:
         return None
@@ -73,7 +75,12 @@ def _at(dark: Darkness, scale: float) -> Ink | None:
     mask = apply_hysteresis_threshold(np.where(strong, d, 0), min(low, high), high)
     if not mask.any():
         return None
-    return Ink(mask, d, scale, pen_width(mask), contrast, still)
+    return Ink(mask, d, scale, min(pen_width(mask), BROADEST * _extent(mask)), contrast, still)
+
+
+def _extent(mask: Bool[np.ndarray, "row col"]) -> float:
+    """The larger side of what is drawn, pixels."""
+    return float(max(np.ptp(np.flatnonzero(mask.any(axis))) + 1 for axis in (0, 1)))
 
 
 def _resized(d: Float[np.ndarray, "row col"], scale: float) -> Float[np.ndarray, "row col"]:

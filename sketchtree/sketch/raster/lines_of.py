@@ -35,16 +35,26 @@ class Traced:
         """Length, pixels."""
         return float(np.hypot(*np.diff(self.points, axis=0).T).sum())
 
+    def reversed(self) -> "Traced":
+        """The same line drawn the other way."""
+        return Traced(self.points[::-1], self.width[::-1], self.closed, self.joints[::-1])
+
+    def grow(self, side: int, more: Float[np.ndarray, "point 2"]) -> None:
+        """Lengthen it by points beyond its first (0) or last (1) one, nearest first."""
+        if side == 0:
+            self.points, self.width = np.vstack([more[::-1], self.points]), np.r_[np.full(len(more), self.width[0]), self.width]
+        else:
+            self.points, self.width = np.vstack([self.points, more]), np.r_[self.width, np.full(len(more), self.width[-1])]
+
 
 def whole_lines(web: Web, links: Links, pen: float) -> list[Traced]:
-    """The lines of a web, longest first; those that end on another touch it exactly."""
+    """The lines of a web; those that end on another touch it exactly."""
     chains = _chains(web, links)
     lines = [_raw(web, chain, ring) for chain, ring in chains]
     through = _through(web, chains, links)
     lines = [_smooth(line) for line in lines]
-    order = sorted(range(len(lines)), key=lambda k: (-lines[k].length, lines[k].points[0].tolist()))
-    _touch(lines, through, web, order)
-    return [_thinned_out(lines[k], pen) for k in order]
+    _touch(lines, through, web)
+    return lines
 
 
 def _chains(web: Web, links: Links) -> list[tuple[list[End], bool]]:
@@ -134,24 +144,27 @@ def _gauss(values: Float[np.ndarray, "point column"], sigma: float, mode: str, o
     return smooth
 
 
-def _touch(lines: list[Traced], through: dict[int, list[int]], web: Web, order: list[int]) -> None:
+def _touch(lines: list[Traced], through: dict[int, list[int]], web: Web) -> None:
     """Draw every line that ends in a joint on to the line that goes through it, or to the joint's middle."""
-    for k in order:
-        for side in (0, -1):
+    for k in range(len(lines)):
+        for side in (0, 1):
             node = lines[k].joints[side]
             if node < 0:
                 continue
             hosts = [j for j in through.get(node, []) if j != k]
-            end = lines[k].points[side]
-            ahead = end + _outward(lines[k], side) * min(web.half[node], float(np.hypot(*(end - web.place[node]))))
+            end = lines[k].points[-side]
+            ahead = end + end_direction(lines[k], side) * min(web.half[node], float(np.hypot(*(end - web.place[node]))))
             target = _nearest([lines[j] for j in hosts], ahead) if hosts else web.place[node]
-            _append(lines[k], side, target)
+            if (end != target).any():
+                lines[k].grow(side, target[None])
 
 
-def _outward(line: Traced, side: int) -> Float[np.ndarray, " 2"]:
+def end_direction(line: Traced, side: int) -> Float[np.ndarray, " 2"]:
+    """Unit direction in which a line leaves at its first (0) or last (1) point."""
     points = line.points if side == 0 else line.points[::-1]
-    reach = points[min(len(points) - 1, max(2, int(2 * line.width.mean())))]
-    step = points[0] - reach
+    s = np.r_[0.0, np.cumsum(np.hypot(*np.diff(points, axis=0).T))]
+    reach = min(s[-1], max(4.0, 1.5 * float(line.width[0 if side == 0 else -1])))
+    step = points[0] - [np.interp(reach, s, points[:, k]) for k in (0, 1)]
     return step / max(float(np.hypot(*step)), 1e-9)
 
 
@@ -160,16 +173,7 @@ def _nearest(hosts: list[Traced], point: Float[np.ndarray, " 2"]) -> Float[np.nd
     return best
 
 
-def _append(line: Traced, side: int, target: Float[np.ndarray, " 2"]) -> None:
-    if (line.points[side] == target).all():
-        return
-    if side == 0:
-        line.points, line.width = np.vstack([target, line.points]), np.r_[line.width[0], line.width]
-    else:
-        line.points, line.width = np.vstack([line.points, target]), np.r_[line.width, line.width[-1]]
-
-
-def _thinned_out(line: Traced, pen: float) -> Traced:
+def thinned_out(line: Traced, pen: float) -> Traced:
     """The line with only the points that bend it, and some between them for its width."""
     if len(line.points) < 3:
         return line

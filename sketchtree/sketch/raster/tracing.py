@@ -3,7 +3,7 @@
 Pixels are neighbours if they share a side, or a corner without a common neighbour on either side of it; so a plain
 line has two neighbours everywhere. Pixels with one neighbour are ends, with three or more are joints, and the pixels
 between are an edge. Joints that touch each other are one. A spur, an edge with a free end, is only the
-border's roughness or a limb's corner unless it reaches out of the ink around its joint by SPUR of its half width.
+border's roughness or a limb's corner unless it reaches out of the ink around its joint by SPUR of its half width and the pen's width.
 """
 
 from dataclasses import dataclass, field
@@ -11,7 +11,7 @@ from dataclasses import dataclass, field
 import numpy as np
 from jaxtyping import Bool, Float, Int
 
-SPUR = (0.5, 1.5)  # least reach of a side line out of the ink: times the half width, plus pixels
+SPUR = (0.5, 0.4)  # least reach of a side line out of the ink: half widths of the joint, plus pens
 TOUCH = 1.5  # pixels: joints no farther apart are one
 
 _AROUND = np.array([(-1, 0), (0, 1), (1, 0), (0, -1), (-1, 1), (1, 1), (1, -1), (-1, -1)])
@@ -70,11 +70,11 @@ class Web:
         return len(self.at[node])
 
 
-def trace(skeleton: Bool[np.ndarray, "row col"], half: Float[np.ndarray, "row col"]) -> Web:
-    """The graph of a skeleton, joints merged, spurs pruned, no node left on a plain line."""
+def trace(skeleton: Bool[np.ndarray, "row col"], half: Float[np.ndarray, "row col"], pen: float) -> Web:
+    """The graph of a skeleton, joints merged, spurs pruned, no node left on a plain line. `pen`: width of its line, pixels."""
     web = _web(skeleton, half)
     _merge_joints(web)
-    _prune(web)
+    _prune(web, pen)
     return web
 
 
@@ -169,7 +169,7 @@ def _fuse(web: Web, head: int, nodes: list[int]) -> None:
         web.drop(key)
 
 
-def _prune(web: Web) -> None:
+def _prune(web: Web, pen: float) -> None:
     """Drop spurs, the shortest of each joint first, until there are none."""
     waiting = sorted(web.at)
     while waiting:
@@ -177,7 +177,7 @@ def _prune(web: Web) -> None:
         for node in waiting:
             if node not in web.at or web.degree(node) < 3:
                 continue
-            spurs = [(reach, key) for key in web.at[node] if (reach := _reach(web, node, key)) < _least(web, node)]
+            spurs = [(reach, key) for key in web.at[node] if (reach := _reach(web, node, key)) < SPUR[0] * web.half[node] + SPUR[1] * pen]
             if spurs:
                 end = web.drop(min(spurs)[1]).other(node)
                 del web.at[end], web.place[end], web.half[end]
@@ -188,10 +188,6 @@ def _prune(web: Web) -> None:
     for node in list(web.at):
         if node in web.at and web.degree(node) == 2:
             _dissolve(web, node)
-
-
-def _least(web: Web, node: int) -> float:
-    return SPUR[0] * web.half[node] + SPUR[1]
 
 
 def _reach(web: Web, node: int, key: int) -> float:

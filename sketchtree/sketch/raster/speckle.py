@@ -1,0 +1,56 @@
+"""Which spots of ink are no line? Specks of dust and of the paper's grain, and the dark edge that a scan leaves.
+
+A spot is a speck if it is no longer than SPECK times the pen's width and round, or smaller than TINY of the pen's width
+squared. An edge is ink that touches the picture's border over most of one side and reaches at most RIM of it inward.
+"""
+
+from dataclasses import dataclass
+
+import numpy as np
+from jaxtyping import Bool
+from scipy.ndimage import find_objects, label
+
+SPECK = 2.2  # pens: a round spot no longer is a speck
+TINY = 1.2  # pens squared: a spot of less ink is a speck, whatever its shape
+LONG = 2.5  # longer side of a spot's box over its shorter one: a dash
+RIM = 0.06  # of the picture's side
+ALONG = 0.5  # of the picture's side
+
+
+@dataclass(frozen=True, eq=False)
+class Swept:
+    """The ink without what is no line."""
+
+    mask: Bool[np.ndarray, "row col"]
+    specks: int
+    edges: int
+
+
+def swept(mask: Bool[np.ndarray, "row col"], pen: float) -> Swept:
+    """Take specks and the scan's edge out of the ink."""
+    labels, count = label(mask, np.ones((3, 3)))
+    if count == 0:
+        return Swept(mask, 0, 0)
+    area = np.bincount(labels.ravel(), minlength=count + 1)[1:]
+    boxes = find_objects(labels)
+    low = np.array([(box[0].start, box[1].start) for box in boxes])
+    high = np.array([(box[0].stop, box[1].stop) for box in boxes])
+    side = (high - low).astype(float)
+    long, short = side.max(1), side.min(1)
+    speck = (long <= SPECK * pen) & (long <= LONG * short) | (area < TINY * pen**2)
+    speck &= area < area.max()
+    edge = _edges(low, high, np.array(mask.shape)) & (area < area.max()) if count > 1 else np.zeros(count, bool)
+    keep = np.r_[False, ~(speck | edge)]
+    return Swept(keep[labels], int(speck.sum()), int((edge & ~speck).sum()))
+
+
+def _edges(low, high, shape) -> Bool[np.ndarray, " spot"]:
+    """Spots that run along one side of the picture."""
+    found = np.zeros(len(low), bool)
+    for across in (0, 1):
+        along = 1 - across
+        thin = (high - low)[:, across] <= RIM * shape[across]
+        runs = (high - low)[:, along] >= ALONG * shape[along]
+        at = (low[:, across] == 0) | (high[:, across] == shape[across])
+        found |= thin & runs & at
+    return found
