@@ -134,7 +134,7 @@ def _width(element: dict[str, Any], pressed: bool) -> float:
     """Line width as painted, px."""
     width = element.get("strokeWidth", 2)
     if not is_number(width) or width < 0:
-        raise ValueError(f"its strokeWidth is {str(width)[:40]!r}; a number of at least 0 was expected")
+        raise ValueError(f"its strokeWidth is {width!r:.40}; a number of at least 0 was expected")
     if element["type"] != "freedraw":
         return float(width)
     return FREEDRAW * float(width) * (1.0 if pressed else 1.0 - THINNING * (1.0 - math.sin(math.pi * MOUSE / 2)))

@@ -105,7 +105,8 @@ def _rounded(corners: Float[np.ndarray, "4 2"], cut: Float[np.ndarray, " 4"], to
     leave = corners + cut[:, None] * side
     reach = corners - np.roll(cut[:, None] * side, 1, axis=0)
     bends = np.stack([reach, reach + (corners - reach) * 2 / 3, leave + (corners - leave) * 2 / 3, leave], axis=1)
-    straight = np.stack([np.roll(leave, 1, axis=0)] * 2 + [reach] * 2, axis=1)
+    begin, to = np.roll(leave, 1, axis=0), reach
+    straight = np.stack([begin, begin + (to - begin) / 3, to - (to - begin) / 3, to], axis=1)
     return flatten(np.stack([straight, bends], axis=1).reshape(8, 4, 2), tolerance)[0]
 
 
@@ -127,5 +128,5 @@ def _number(element: dict[str, Any], key: str, default: float | None = None) -> 
     value = element.get(key, default)
     value = default if value is None else value
     if not is_number(value):
-        raise ValueError(f"its {key} is {str(value)[:40]!r}; a finite number was expected")
+        raise ValueError(f"its {key} is {value!r:.40}; a finite number was expected")
     return float(value)

@@ -197,7 +197,6 @@ def _stroke(ink: Ink, stroke_id: str, walk: Walk, largest: float) -> Stroke:
     table = np.concatenate(ink.table)
     points = positions(table, ink.form)
     kind = kind_named(*ink.names)
-    closed = len(points) > 2 and bool((points[0] == points[-1]).all())
     time = times(table, ink.form, ink.begin, ink.lasts)
     try:
         return Stroke(
@@ -205,7 +204,6 @@ def _stroke(ink: Ink, stroke_id: str, walk: Walk, largest: float) -> Stroke:
             points,
             kind or StrokeKind.BRANCH,
             labelled=kind is not None,
-            closed=closed,
             width=walk.contexts.width(ink.setting),
             pressure=forces(table, ink.form, largest),
             time=None if time is None else time + ink.setting.clock,

@@ -39,4 +39,4 @@ def number_rows(rows: Any, size: int) -> Float[np.ndarray, "row {size}"] | None:
     flat = [value for row in rows for value in row[:size]]
     if not all(map(is_number, flat)):
         return None
-    return np.array(flat, float).reshape(-1, size)
+    return np.array(flat, float).reshape(len(rows), size)
