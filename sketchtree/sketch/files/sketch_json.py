@@ -73,7 +73,7 @@ def _check_head(document: Any, name: str) -> None:
 def _stroke(row: Any, k: int, name: str, up: bool) -> Stroke:
     if not isinstance(row, dict):
         raise SketchError(f"in {name}, it is not an object.", stroke=k + 1, remedy=_REMEDY)
-    stroke_id = str(row.get("id", f"stroke-{k + 1}"))
+    stroke_id = str(row.get("id", f"stroke-{k + 1}")).encode("utf-8", "replace").decode()  # half a surrogate pair can't be printed
     columns = _columns(row.get("points"), stroke_id, name)
     kind = row.get("kind")
     if kind is not None and kind not in tuple(StrokeKind):
@@ -152,4 +152,5 @@ def _column(values) -> np.ndarray:
 
 
 def _is_number(value: Any) -> bool:
-    return isinstance(value, (int, float)) and not isinstance(value, bool)
+    """Whether a JSON value is a number that a float can hold; NaN and infinity are told apart later."""
+    return isinstance(value, float) or (isinstance(value, int) and not isinstance(value, bool) and abs(value) <= 1.7e308)

@@ -1,0 +1,174 @@
+"""Files made to break a reader: each gives a sketch or one sentence, in bounded time and memory."""
+
+import gzip
+import json
+import struct
+import zlib
+
+import pytest
+from hands import EXAMPLES
+
+from sketchtree.errors import SketchError
+from sketchtree.sketch.files.excalidraw_embed import embedded_scene
+from sketchtree.sketch.formats import read_sketch
+
+SVG = '<svg xmlns="http://www.w3.org/2000/svg" xmlns:xlink="http://www.w3.org/1999/xlink" viewBox="0 0 9 9">{}</svg>'
+PATH = '<path d="M0 0L1 5" stroke="red" fill="none"/>'
+ROW = {"id": "trunk", "points": [[0, 0], [1, 5]]}
+SKETCH = json.dumps({"sketchtree": 1, "strokes": [ROW]})
+SCENE = json.dumps({"type": "excalidraw", "elements": [{"type": "line", "id": "a", "x": 0, "y": 0, "points": [[0, 0], [1, 5]]}]})
+INK = '<ink xmlns="http://www.w3.org/2003/InkML"><trace>0 0, 1 5</trace></ink>'
+LINE = json.dumps({"drawing": [[[0, 1], [0, 5]]]})
+TEXTS = {"t.svg": SVG.format(PATH), "t.json": SKETCH, "t.excalidraw": SCENE, "t.inkml": INK, "t.ndjson": LINE}
+
+
+def chunk(kind: bytes, body: bytes) -> bytes:
+    return struct.pack(">I", len(body)) + kind + body + struct.pack(">I", zlib.crc32(kind + body))
+
+
+def png(width: int, height: int, rows: bytes) -> bytes:
+    head = chunk(b"IHDR", struct.pack(">IIBBBBB", width, height, 1, 0, 0, 0, 0))
+    return b"\x89PNG\r\n\x1a\n" + head + chunk(b"IDAT", zlib.compress(rows, 9)) + chunk(b"IEND", b"")
+
+
+def laughs() -> str:
+    steps = "".join(f'<!ENTITY l{k} "' + f"&l{k - 1};" * 10 + '">' for k in range(1, 12))
+    return f'<!DOCTYPE svg [<!ENTITY l0 "ha">{steps}]>' + SVG.format(f"<text>&l11;</text>{PATH}")
+
+
+def uses(levels: int) -> str:
+    groups = "".join(f'<g id="g{k}">' + f'<use href="#g{k - 1}"/>' * 10 + "</g>" for k in range(1, levels))
+    return SVG.format(f'<defs><g id="g0">{PATH}</g>{groups}</defs><use href="#g{levels - 1}"/>')
+
+
+REFUSED = {
+    "laughs.svg": (laughs(), "declares XML entities"),
+    "ink_laughs.inkml": (laughs().replace("<svg", "<ink").replace("</svg>", "</ink>").replace("svg [", "ink ["), "declares XML entities"),
+    "fetch.svg": ('<!DOCTYPE svg [<!ENTITY a SYSTEM "file:///etc/passwd">]>' + SVG.format(f"<text>&a;</text>{PATH}"), "declares an entity of another file"),
+    "parameter.svg": ('<!DOCTYPE svg [<!ENTITY % a SYSTEM "http://127.0.0.1/">%a;]>' + SVG.format(PATH), "declares a parameter entity"),
+    "uses.svg": (uses(9), "nests its groups|holds more than"),
+    "deep.svg": (SVG.format("<g>" * 100_000 + PATH + "</g>" * 100_000), "nests its groups"),
+    "deep.json": ("[" * 100_000, "not one well-formed JSON document|nests its lists"),
+    "deep_objects.json": ('{"sketchtree": 1, "strokes": ' + '{"a":' * 100_000, "not one well-formed JSON document|nests its lists"),
+    "deep.excalidraw": ('{"type": "excalidraw", "elements": ' + "[" * 100_000 + "]" * 100_000 + "}", "nests its lists or objects too deep|list 'elements'"),
+    "infinite.json": (SKETCH.replace("[1, 5]", "[1, 1e400]"), "not a finite number|point 2 is"),
+    "nan.json": (SKETCH.replace("[1, 5]", "[1, NaN]"), "not a finite number|point 2 is"),
+    "long_number.json": (SKETCH.replace("[1, 5]", f"[1, {'9' * 5000}]"), "not one well-formed JSON document"),
+    "large_number.json": (SKETCH.replace("[1, 5]", f"[1, {'9' * 400}]"), "not a finite number|point 2 is"),
+    "infinite.excalidraw": (SCENE.replace("[1, 5]", "[1, 1e400]"), "finite numbers"),
+    "large_number.excalidraw": (SCENE.replace("[1, 5]", f"[1, {'9' * 400}]"), "finite numbers"),
+    "infinite.ndjson": (LINE.replace("[0, 5]", "[0, -1e999]"), "finite numbers"),
+    "infinite.inkml": (INK.replace("1 5", "1 1e999"), "not a finite number"),
+    "long_hex.inkml": (INK.replace("1 5", f"1 #{'F' * 5000}"), "not a finite number"),
+    "far.json": (SKETCH.replace("[1, 5]", "[1, 1e300]"), r"reaches 1e\+300 px from the origin; 1e\+12 is the limit"),
+    "tiny.json": (SKETCH.replace("[0, 0], [1, 5]", "[1000, 0], [1000, 1e-8]"), "only 1e-08 px large, too small to be told from rounding"),
+    "twice.json": (json.dumps({"sketchtree": 1, "strokes": [ROW, ROW]}), "its id is used twice"),
+    "latin.excalidraw": (SCENE.replace('"a"', '"\xe9"').encode("latin-1"), "is not Unicode text"),
+    "latin.ndjson": (LINE.replace("{", '{"word": "\xe9", ').encode("latin-1"), "is not Unicode text"),
+    "folded.json": (SKETCH.encode() + b"\0" * 9, "not one well-formed JSON document"),
+    "bomb.png": (png(50_000, 50_000, b"\0"), "50000 × 50000 pixels .2500 megapixels.; at most 200 megapixels are read"),
+}
+
+
+@pytest.mark.parametrize("name", REFUSED)
+def test_a_hostile_file_is_refused_in_one_sentence(name, tmp_path):
+    data, message = REFUSED[name]
+    (tmp_path / name).write_bytes(data if isinstance(data, bytes) else data.encode())
+    with pytest.raises(SketchError, match=message) as error:
+        read_sketch(tmp_path / name)
+    assert error.value.remedy and len(str(error.value)) < 600
+
+
+def test_a_gzip_bomb_stops_at_the_limit(tmp_path):
+    (tmp_path / "bomb.svgz").write_bytes(gzip.compress(b" " * 30_000_000))
+    with pytest.raises(SketchError, match="bomb.svgz unpacks to more than 20 MB; the limit is 20 MB. .*--max-mb"):
+        read_sketch(tmp_path / "bomb.svgz", max_mb=20)
+
+
+def test_a_bomb_inside_an_excalidraw_png_stops_at_the_limit():
+    packed = json.dumps({"encoded": zlib.compress(b" " * 30_000_000).decode("latin-1"), "compressed": True}, ensure_ascii=False).encode("latin-1")
+    plain = png(1, 1, b"\0\0")
+    data = plain[:33] + chunk(b"tEXt", b"application/vnd.excalidraw+json\0" + packed) + plain[33:]
+    assert embedded_scene(data, max_mb=1) is None
+
+
+@pytest.mark.parametrize("name", TEXTS)
+def test_a_file_over_the_limit_names_the_option_that_lifts_it(name, tmp_path):
+    (tmp_path / name).write_text(TEXTS[name] + " " * 20_000)
+    with pytest.raises(SketchError, match=f"{name} holds 0 MB; the limit is 0.02 MB. .*raise the limit with --max-mb"):
+        read_sketch(tmp_path / name, max_mb=0.02)
+    assert len(read_sketch(tmp_path / name, max_mb=0.03)) == 1
+
+
+@pytest.mark.parametrize("encoding", ["utf-8-sig", "utf-16", "utf-16-le", "utf-16-be"])
+@pytest.mark.parametrize("name", TEXTS)
+def test_every_unicode_encoding_reads_like_utf_8(name, encoding, tmp_path):
+    (tmp_path / name).write_bytes(TEXTS[name].encode(encoding))
+    sketch = read_sketch(tmp_path / name)
+    assert sketch.strokes[0].points.tolist() == [[0, 0], [1, -5]] and sketch.warnings == ()
+
+
+@pytest.mark.parametrize("name", TEXTS)
+def test_line_ends_of_any_system_read_alike(name, tmp_path):
+    text = TEXTS[name].replace("><", ">\r\n<").replace(", ", ",\r\n") if name != "t.ndjson" else TEXTS[name] + "\r\n"
+    (tmp_path / name).write_bytes(text.encode())
+    assert read_sketch(tmp_path / name).strokes[0].points.tolist() == [[0, 0], [1, -5]]
+
+
+@pytest.mark.parametrize("name", TEXTS)
+def test_a_truncated_file_is_refused_or_read_for_what_it_has(name, tmp_path):
+    for size in range(1, len(TEXTS[name]), 7):
+        (tmp_path / name).write_bytes(TEXTS[name][:size].encode())
+        with pytest.raises(SketchError):
+            read_sketch(tmp_path / name)
+
+
+@pytest.mark.parametrize("said", TEXTS)
+@pytest.mark.parametrize("held", TEXTS)
+def test_a_mislabelled_file_is_read_by_what_it_holds_and_remarked_on(held, said, tmp_path):
+    path = tmp_path / f"tree.{said.rpartition('.')[2]}"
+    path.write_text(TEXTS[held])
+    sketch = read_sketch(path)
+    fits = held == said or (said == "t.json" and held in ("t.excalidraw", "t.ndjson"))
+    assert sketch.strokes[0].points.tolist() == [[0, 0], [1, -5]]
+    assert bool(sketch.warnings) != fits and all("is named like a" in warning for warning in sketch.warnings)
+
+
+def test_a_drawing_named_like_a_picture_is_read_and_remarked_on(tmp_path):
+    (tmp_path / "tree.png").write_text(TEXTS["t.svg"])
+    assert read_sketch(tmp_path / "tree.png").warnings == (
+        "tree.png is named like a PNG picture, but it holds a SVG drawing; it was read as that.",
+    )
+
+
+def test_a_picture_named_like_a_drawing_is_read_and_remarked_on(tmp_path):
+    import numpy as np
+    from PIL import Image, ImageDraw
+
+    page = Image.new("L", (200, 200), 255)
+    ImageDraw.Draw(page).line([(100, 190), (100, 20)], fill=0, width=5)
+    page.save(tmp_path / "tree.png")
+    (tmp_path / "tree.svg").write_bytes((tmp_path / "tree.png").read_bytes())
+    sketch, said = read_sketch(tmp_path / "tree.png"), read_sketch(tmp_path / "tree.svg")
+    assert np.array_equal(sketch.strokes[0].points, said.strokes[0].points)
+    assert said.warnings[0] == "tree.svg is named like a SVG drawing, but it holds a PNG picture; it was read as that."
+
+
+@pytest.mark.parametrize("path", sorted(EXAMPLES.glob("*.svg"))[:2] + sorted(EXAMPLES.glob("*.json"))[:1], ids=lambda p: p.name)
+def test_half_of_a_real_drawing_is_refused(path, tmp_path):
+    data = path.read_bytes()
+    (tmp_path / path.name).write_bytes(data[: len(data) // 2])
+    with pytest.raises(SketchError, match="well-formed"):
+        read_sketch(tmp_path / path.name)
+
+
+def test_names_no_file_can_have_are_refused(tmp_path):
+    for name in ("a\0b.svg", "x" * 5000 + ".svg", "x" * 5000 + "#3"):
+        with pytest.raises(SketchError):
+            read_sketch(tmp_path / name)
+
+
+def test_half_a_surrogate_pair_in_an_id_can_be_printed(tmp_path):
+    for name, text in (("t.json", SKETCH.replace("trunk", r"\ud800")), ("t.excalidraw", SCENE.replace('"a"', r'"\ud800"'))):
+        (tmp_path / name).write_text(text)
+        read_sketch(tmp_path / name).strokes[0].id.encode("utf-8")
