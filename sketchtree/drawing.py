@@ -16,5 +16,11 @@ def read_drawing(source: Sketch | str | Path, options: DrawingOptions, watch: Wa
     """(the drawing, its segment tree). Raises SketchError."""
     if isinstance(source, Sketch):
         return source, sketch_graph(source, crown=options.crown)
-    sketch = read_sketch(source, max_strokes=options.max_strokes)
+    sketch = read_sketch(
+        source,
+        max_strokes=options.max_strokes,
+        max_mb=options.max_mb,
+        max_megapixels=options.max_megapixels,
+        progress=shared(watch.on_part, 0.0, _FILE),
+    )
     return sketch, sketch_graph(sketch, crown=options.crown)

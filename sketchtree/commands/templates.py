@@ -5,7 +5,7 @@ from pathlib import Path
 
 import click
 
-from sketchtree.commands.options import common
+from sketchtree.commands.options import common, drawing
 from sketchtree.commands.planned import not_yet
 from sketchtree.commands.progress import Progress
 from sketchtree.errors import OptionError
@@ -74,16 +74,20 @@ def sheet_command(out: Path, db: Path | None, report: Path | None, **_) -> None:
 @click.argument("sketch", type=click.Path(path_type=Path))
 @click.option("--json", "as_json", is_flag=True, help="One JSON array instead of lines.")
 @click.option("--score", type=click.Choice(SCORES), default="calibrated", show_default=True, help="Ours, or exactly the paper's.")
-@click.option("--crown", type=click.Choice(["auto", "off"]), default="auto", show_default=True, help="Use a drawn crown, or not.")
+@drawing
 @common
-def match_command(sketch: Path, as_json: bool, score: str, crown: str, db: Path | None, report: Path | None, **_) -> None:
+def match_command(sketch: Path, as_json: bool, score: str, db: Path | None, report: Path | None, **wanted) -> None:
     """Which exemplars a sketch is like, best first."""
-    from sketchtree.sketch.formats import read_sketch
-    from sketchtree.sketch.reading import sketch_graph
+    from sketchtree.commands.writing import split_options
+    from sketchtree.drawing import read_drawing
+    from sketchtree.options import DrawingOptions
     from sketchtree.templates.database import Database
     from sketchtree.templates.match import match
+    from sketchtree.watch import Watch
 
-    ranked = match(sketch_graph(read_sketch(sketch), crown=crown), Database.open(db), score=score)
+    (options,) = split_options(wanted, DrawingOptions)
+    _, graph = read_drawing(sketch, options, Watch())
+    ranked = match(graph.above_ground(), Database.open(db), score=score)
     keys = ("name", "view_deg", "score", "crown", "branching")
     rows = [{key: getattr(row, key) for key in keys} for row in ranked]
     if as_json:

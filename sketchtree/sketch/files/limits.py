@@ -29,7 +29,7 @@ def read_bytes(path: Path, *, max_mb: float = MAX_MB) -> bytes:
         reason = getattr(error, "strerror", None) or error
         raise SketchError(f"{path} can't be read ({reason}).", remedy="Check the file's name and its permissions.") from None
     if len(data) > max_mb * 1e6:
-        raise too_large(path.name, f"holds {size / 1e6:.0f} MB", max_mb)
+        raise too_large(path.name, f"holds {size / 1e6:.3g} MB", max_mb)
     return data
 
 
