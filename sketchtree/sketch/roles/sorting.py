@@ -18,12 +18,12 @@ from sketchtree.sketch.roles.contour import contour, lone_outline
 from sketchtree.sketch.roles.crown import closed_crowns, has_area, outline
 from sketchtree.sketch.roles.found import Found, role_warnings
 from sketchtree.sketch.roles.ground import grass, ground_lines
+from sketchtree.sketch.roles.implied import implied_stems
 from sketchtree.sketch.roles.leaves import MASS, leaf_shapes, marks_inside, scribbles
 from sketchtree.sketch.roles.masses import border, bulk_and_trunk, mass
 from sketchtree.sketch.roles.measures import Measures
 from sketchtree.sketch.roles.named import role_in_names
 from sketchtree.sketch.roles.page import cuts_of, frames
-from sketchtree.sketch.roles.implied import implied_stems
 from sketchtree.sketch.roles.shadow import shadows
 from sketchtree.sketch.roles.wood import wood_lines
 from sketchtree.sketch.strokes import Sketch, StrokeKind
@@ -78,7 +78,8 @@ def sort_strokes(sketch: Sketch) -> Sorted:
     table.take(shadows(table.m, table.free, table.wood))
     _find_crowns(table)
     _find_leaves(table)
-    lines, measured = wood_lines(sketch.strokes, np.flatnonzero(table.wood).tolist(), table.legs)
+    wood = wood_lines(sketch.strokes, np.flatnonzero(table.wood).tolist(), table.legs)
+    lines = wood.lines
     stem_warnings = []
     if not lines and table.outlines:
         lines, stem_warnings = implied_stems(table.outlines, ground, *_owner(table))
@@ -87,7 +88,7 @@ def sort_strokes(sketch: Sketch) -> Sorted:
     return Sorted(
         lines=lines,
         roots=[],
-        measured=measured,
+        measured=wood.measured,
         crowns=tuple(table.outlines),
         obstacles=tuple(outline(sketch.strokes[row].points) for row in table.rows("obstacle") if has_area(sketch.strokes[row])),
         ground=tuple(ground),
@@ -151,7 +152,7 @@ def _find_bush(table: _Table) -> None:
         area = mass(m.strokes[row].points)
         if area.is_empty:
             continue
-        crown, trunk = bulk_and_trunk(area)
+        crown, _ = bulk_and_trunk(area)
         table.outlines.append(border(crown or area))
         table.take([Found(int(row), "crown", "a scribble of foliage")])
 

@@ -3,9 +3,9 @@ import pytest
 from hands import EXAMPLES, SHARED
 from test_shapes import ring
 
-from sketchtree.sketch.roles.contour import contour, lone_outline
 from sketchtree.sketch.formats import read_sketch
 from sketchtree.sketch.reading import sketch_graph
+from sketchtree.sketch.roles.contour import contour, lone_outline
 from sketchtree.sketch.strokes import Sketch, Stroke
 
 DOME = ring(40, opening=0.6)  # open towards the ground

@@ -2,12 +2,12 @@ import numpy as np
 import pytest
 
 from sketchtree.sketch.joining.cleaning import as_line, clean
+from sketchtree.sketch.joining.tremor import without_tremor
+from sketchtree.sketch.reading import sketch_graph
 from sketchtree.sketch.roles.crown import closed_crowns
 from sketchtree.sketch.roles.measures import Measures
-from sketchtree.sketch.reading import sketch_graph
 from sketchtree.sketch.roles.silhouette import is_blob, middle_lines, with_holes
 from sketchtree.sketch.strokes import Sketch, Stroke
-from sketchtree.sketch.joining.tremor import without_tremor
 
 
 def crown_strokes(strokes):

@@ -1,0 +1,88 @@
+"""Which painted shapes are single strokes of a brush? Programs that outline strokes write each as a filled polygon.
+
+The border of such a shape is walked in N even steps b_0 … b_{N-1}. If it is one stroke, the two halves that part at one of its
+ends run side by side, so that with the right end k
+
+    middle  m_j = (b_{k+j} + b_{k-j}) / 2        width  w_j = |b_{k+j} − b_{k−j}|        j = 0 … N/2
+
+k is where the mean width is least. It is a stroke if it is slender (mean w ≤ SLENDER of the length of m) and never
+much wider than usual (a fork is: where its arms part, b_{k+j} and b_{k−j} lie on different arms). The border may cross itself:
+a stroke that loops stays a stroke. An open line that runs out and back (both sides of a limb, joined at its tip) is read in the same way.
+"""
+
+from dataclasses import dataclass
+
+import numpy as np
+import shapely
+from jaxtyping import Bool, Float, Int
+
+STEPS = 96  # N
+SLENDER = 0.3  # greatest mean width of a stroke, of its length
+BULGE = 2.6  # greatest width of a stroke, of its middle width
+STRAY = 0.12  # greatest distance between the tenths of its width that lie highest and the middle line, of its length
+BATCH = 256  # shapes worked on at once
+
+
+@dataclass(frozen=True, eq=False)
+class Middles:
+    """The middle lines of shapes, one a row; only those that are single strokes mean anything."""
+
+    points: Float[np.ndarray, "shape step 2"]
+    width: Float[np.ndarray, "shape step"]
+    single: Bool[np.ndarray, " shape"]
+
+
+def middles(borders: Float[np.ndarray, "shape step 2"]) -> Middles:
+    """The middle lines of closed borders, each given by STEPS even steps (the first not repeated)."""
+    if len(borders) == 0:
+        return Middles(np.zeros((0, STEPS // 2 + 1, 2)), np.zeros((0, STEPS // 2 + 1)), np.zeros(0, bool))
+    parts = [_middles(borders[k : k + BATCH]) for k in range(0, len(borders), BATCH)]
+    return Middles(*(np.concatenate([getattr(part, name) for part in parts]) for name in ("points", "width", "single")))
+
+
+def even_border(points: Float[np.ndarray, "point 2"]) -> Float[np.ndarray, "step 2"]:
+    """STEPS points at even lengths along the closed line through these."""
+    ring = np.vstack([points, points[:1]])
+    s = np.r_[0.0, np.cumsum(np.hypot(*np.diff(ring, axis=0).T))]
+    at = np.arange(STEPS) * (s[-1] / STEPS)
+    return np.stack([np.interp(at, s, ring[:, axis]) for axis in (0, 1)], 1)
+
+
+def _middles(borders) -> Middles:
+    ends = _ends(borders)
+    j = np.arange(STEPS // 2 + 1)
+    rows = np.arange(len(borders))[:, None]
+    ahead, behind = borders[rows, (ends[:, None] + j) % STEPS], borders[rows, (ends[:, None] - j) % STEPS]
+    points, width = 0.5 * (ahead + behind), np.hypot(*np.moveaxis(ahead - behind, -1, 0))
+    length = np.hypot(*np.moveaxis(np.diff(points, axis=1), -1, 0)).sum(1)
+    inner = width[:, 2:-2]
+    usual = np.median(inner, axis=1)
+    with np.errstate(divide="ignore", invalid="ignore"):
+        single = (inner.mean(1) <= SLENDER * length) & (inner.max(1) <= np.maximum(BULGE * usual, STRAY * length)) & (usual > 0)
+    return Middles(points, width, single)
+
+
+def _ends(borders) -> Int[np.ndarray, " shape"]:
+    """Where each border is parted: the step whose two sides run closest together."""
+    x, y = borders[..., 0], borders[..., 1]
+    apart = np.hypot(x[:, :, None] - x[:, None, :], y[:, :, None] - y[:, None, :])
+    j = np.arange(1, STEPS // 2)
+    k = np.arange(STEPS // 2)
+    ahead, behind = (k[:, None] + j) % STEPS, (k[:, None] - j) % STEPS
+    return apart[:, ahead, behind].mean(-1).argmin(-1)
+
+
+def slenderness(area: Float[np.ndarray, " shape"], around: Float[np.ndarray, " shape"]) -> Float[np.ndarray, " shape"]:
+    """Length over width of the rectangles of these areas and perimeters; 1 where none is so round."""
+    half = 0.25 * np.maximum(around, 1e-300)
+    root = np.sqrt(np.maximum(half**2 - area, 0.0))
+    return (half + root) / np.maximum(half - root, 1e-9 * half)
+
+
+def simplified(points: Float[np.ndarray, "step 2"], width: Float[np.ndarray, " step"], tolerance: float):
+    """(points, widths) of a middle line without the points that do not bend it."""
+    line = shapely.LineString(points)
+    kept = shapely.get_coordinates(shapely.simplify(line, tolerance))
+    s = np.r_[0.0, np.cumsum(np.hypot(*np.diff(points, axis=0).T))]
+    at = shapely.line_locate_point(line, shapely.points(kept))
+    return kept, np.interp(at, s, width)

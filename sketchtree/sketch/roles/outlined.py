@@ -1,0 +1,115 @@
+"""Which lines are the sides of a limb rather than limbs? Limbs drawn by their outline become their middle line.
+
+Three ways to draw one: a closed thin outline; one line out and back again, open at the foot; two lines that meet at
+the tip. All of them, once closed, enclose a slender shape (`brush`). What is wider, or encloses next to nothing, stays
+as it was drawn: a limb that arches over, or a line gone over twice.
+"""
+
+import numpy as np
+import shapely
+from jaxtyping import Float, Int
+from scipy.spatial import cKDTree
+
+from sketchtree.sketch.joining.lines import Line, extent
+from sketchtree.sketch.roles.brush import Middles, even_border, middles, simplified
+
+MEET = 0.015  # of H: the two sides meet at the tip
+FREE = 0.02  # of H: and nothing else comes nearer to it
+HELD = 0.05  # of H: at the foot something else does
+NARROW = 0.12  # widest mean distance of the sides of an open outline, of its length
+PAIRED = 0.25  # the same of two lines that meet at the tip
+WIDE = 0.008  # of H: sides nearer to each other are one line drawn twice
+FEET = 0.4  # farthest the two feet lie apart, of the length
+LIKE = 0.6  # least ratio of the lengths of two sides
+LOOSE = 1.6  # widest opening of an outline at the foot, of its mean width
+
+
+def limbs_of_outlines(lines: list[Line], closed: list[bool]) -> tuple[list[Line], list[tuple[Line, Line]]]:
+    """(the lines, those that outline a limb replaced by its middle; (middle, other side) where two lines drew one).
+
+    `closed`: lines that the file closes, or that were drawn as closed.
+    """
+    if not lines:
+        return lines, []
+    height = extent(lines)
+    lines = _single_outlines(lines, closed, height)
+    return _pairs(lines, height)
+
+
+def _single_outlines(lines: list[Line], closed: list[bool], height: float) -> list[Line]:
+    """Lines that run out and back become their middle."""
+    length = np.array([line.length for line in lines])
+    opening = np.array([np.hypot(*(line.points[0] - line.points[-1])) for line in lines])
+    back = np.array(closed) | (opening <= 0.3 * length)
+    rows = [k for k in np.flatnonzero(back) if len(lines[k].points) > 3 and lines[k].length > 4 * WIDE * height]
+    if not rows:
+        return lines
+    found = middles(np.array([even_border(lines[k].points) for k in rows]))
+    result = list(lines)
+    for n, k in enumerate(rows):
+        limit = np.inf if closed[k] else NARROW
+        if _is_limb(found, n, limit, height) and (closed[k] or opening[k] <= LOOSE * found.width[n].mean()):
+            result[k] = _middle_line(lines[k], found, n, height)
+    return result
+
+
+def _pairs(lines: list[Line], height: float) -> tuple[list[Line], list[tuple[Line, Line]]]:
+    """Two lines that meet at a free tip, and not far apart at the foot, become their middle."""
+    rows, turned = _meeting(lines, height)
+    if len(rows) == 0:
+        return lines, []
+    sides = [(lines[a].reversed() if ta else lines[a], lines[b].reversed() if tb else lines[b]) for (a, b), (ta, tb) in zip(rows, turned, strict=True)]
+    found = middles(np.array([even_border(np.vstack([one.points, other.points[::-1]])) for one, other in sides]))
+    used: set[int] = set()
+    made = []
+    for n in np.argsort(found.width.mean(1), kind="stable"):
+        a, b = rows[n]
+        if not used & {a, b} and _is_limb(found, n, PAIRED, height):
+            used |= {int(a), int(b)}
+            longer, shorter = sorted(sides[n], key=lambda side: -side.length)
+            made.append((_middle_line(longer, found, n, height), shorter))
+    return [line for k, line in enumerate(lines) if k not in used] + [middle for middle, _ in made], made
+
+
+def _is_limb(found: Middles, n: int, limit: float, height: float) -> bool:
+    mean = float(found.width[n].mean())
+    length = float(np.hypot(*np.diff(found.points[n], axis=0).T).sum())
+    return bool(found.single[n] and mean <= limit * length and mean >= WIDE * height)
+
+
+def _middle_line(line: Line, found: Middles, n: int, height: float) -> Line:
+    points, width = simplified(found.points[n], found.width[n], 1e-3 * height)
+    return Line(line.row, line.id, points, width)
+
+
+def _meeting(lines: list[Line], height: float) -> tuple[Int[np.ndarray, "pair 2"], Float[np.ndarray, "pair 2"]]:
+    """(pairs of lines that may be two sides, whether each must be turned so that it ends at the tip)."""
+    ends = np.array([line.points[k] for line in lines for k in (0, -1)])
+    length = np.array([line.length for line in lines])
+    pairs = cKDTree(ends).query_pairs(MEET * height, output_type="ndarray")
+    a, b = pairs.T // 2
+    feet = np.hypot(*(ends[pairs[:, 0] ^ 1] - ends[pairs[:, 1] ^ 1]).T)
+    alike = np.minimum(length[a], length[b]) >= LIKE * np.maximum(length[a], length[b])
+    kept = (a != b) & alike & (feet <= FEET * np.minimum(length[a], length[b])) & (feet >= WIDE * height)
+    pairs = pairs[kept]
+    if len(pairs) == 0:
+        return np.zeros((0, 2), np.int64), np.zeros((0, 2), bool)
+    free, held = _touched(lines, ends, pairs, height)
+    pairs = pairs[free & held]
+    return pairs // 2, pairs % 2 == 0
+
+
+def _touched(lines: list[Line], ends, pairs, height: float):
+    """(whether nothing but the pair comes near its tip, whether something else comes near its feet)."""
+    tree = shapely.STRtree(shapely.linestrings(np.concatenate([line.points for line in lines]), indices=np.repeat(np.arange(len(lines)), [len(line.points) for line in lines])))
+
+    def others_near(points, reach):
+        row, line = tree.query(shapely.points(points), predicate="dwithin", distance=reach)
+        own = (line == pairs[row, 0] // 2) | (line == pairs[row, 1] // 2)
+        near = np.zeros(len(pairs), bool)
+        near[row[~own]] = True
+        return near
+
+    tips = 0.5 * (ends[pairs[:, 0]] + ends[pairs[:, 1]])
+    feet = [others_near(ends[pairs[:, k] ^ 1], HELD * height) for k in (0, 1)]
+    return ~others_near(tips, FREE * height), feet[0] | feet[1]
