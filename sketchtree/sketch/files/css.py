@@ -1,85 +1,161 @@
 """Which style does an element have? The part of the CSS cascade that decides what a drawing shows.
 
 Declarations win in this order (CSS Cascade 4, §6): presentation attributes, rules of `<style>` elements by
-specificity and order, the `style` attribute, then whatever is marked `!important`. Only properties that
-matter to reading strokes are kept. Style sheets are never fetched.
+specificity and order, the `style` attribute, then whatever is marked `!important`. Custom properties (`--ink`) are
+inherited and put in where `var()` asks for them. Only properties that matter to reading strokes are kept. Style
+sheets of other files are never fetched.
 """
 
+import re
 from collections.abc import Iterator, Mapping
+from functools import lru_cache
+from xml.etree.ElementTree import Element
 
 import cssselect2
 import tinycss2
 from cssselect2 import ElementWrapper
 
-_INHERITED = frozenset({"fill", "stroke", "stroke-width", "fill-opacity", "stroke-opacity", "visibility", "color", "font-size"})
+from sketchtree.sketch.files.document import local_name
+
+_INHERITED = frozenset(
+    {"fill", "stroke", "stroke-width", "fill-opacity", "stroke-opacity", "visibility", "color", "font-size", "fill-rule", "clip-rule"}
+)
+GEOMETRY = frozenset({"d", "x", "y", "cx", "cy", "r", "rx", "ry", "width", "height"})  # SVG 2: attributes that CSS may set
 _OWN = frozenset(
     {"display", "opacity", "transform", "transform-origin", "transform-box", "translate", "rotate", "scale", "vector-effect"}
-)
-_PRESENTATION = _INHERITED | {"display", "opacity", "transform-origin", "vector-effect"}
+    | {"clip-path", "mask", "mask-type", "overflow"}
+) | GEOMETRY
+_READ = _INHERITED | _OWN
+_PRESENTATION = _INHERITED | {"display", "opacity", "transform-origin", "vector-effect", "clip-path", "mask", "mask-type", "overflow"}
+_SIMPLE = re.compile(r"[^\"'\\(){}\[\]/@<]*")  # a style attribute that colons and semicolons alone divide
+_VARIABLE = re.compile(r"var\(\s*(--[^\s,()]+)\s*(?:,([^()]*(?:\([^()]*\)[^()]*)*))?\)", re.IGNORECASE)
+_LONGEST = 10_000  # characters of a value once its variables are put in
+_MOST_SIBLINGS = 2_000  # elements in one group up to which selectors that look at all of them are tried
+_LOOKS_AROUND = re.compile(r"~(?!=)|-of-type|:nth-last|:has\(", re.IGNORECASE)
 
 Style = Mapping[str, str]
+Declarations = tuple[tuple[str, str, bool], ...]  # (property, value, important)
 
 
 class Cascade:
     """The style sheets of one document: `style(element, inherited)` is the computed style of an element."""
 
-    def __init__(self, root: ElementWrapper):
+    def __init__(self, root: Element):
+        self.warnings: list[str] = []
         self._matcher = cssselect2.Matcher()
-        for element in root.iter_subtree():
-            if element.local_name == "style" and _for_screen(element.etree_element.get("media", "")):
-                self._add(tinycss2.parse_stylesheet(element.etree_element.text or "", True, True))
+        self._rules = 0
+        sheets = [element for element in root.iter() if local_name(element.tag) == "style"]
+        self._crowded = bool(sheets) and max(len(element) for element in root.iter()) > _MOST_SIBLINGS
+        for element in sheets:
+            if element.get("type", "text/css").strip() in ("", "text/css") and _for_screen(element.get("media", "")):
+                self._add(tinycss2.parse_stylesheet(element.text or "", True, True))
+        self._wrapper: dict[Element, ElementWrapper] = {}
+        if self._rules:
+            self._wrapper = {e.etree_element: e for e in ElementWrapper.from_xml_root(root).iter_subtree()}
 
     def _add(self, rules) -> None:
         for rule in rules:
             if rule.type == "at-rule" and rule.lower_at_keyword == "media" and rule.content is not None:
                 if _for_screen(tinycss2.serialize(rule.prelude)):
                     self._add(tinycss2.parse_rule_list(rule.content, True, True))
+            elif rule.type == "at-rule" and rule.lower_at_keyword == "import":
+                self.warnings.append("A style sheet of another file was left out; lines may look other than drawn.")
             elif rule.type == "qualified-rule":
                 self._add_rule(rule)
 
     def _add_rule(self, rule) -> None:
-        declarations = list(_declarations(rule.content))
+        declarations = _declarations(tinycss2.parse_blocks_contents(rule.content, True, True))
+        prelude = tinycss2.serialize(rule.prelude)
+        if self._crowded and _LOOKS_AROUND.search(prelude):
+            self.warnings.append(f"The style rule '{prelude.strip()[:40]}' was left out: it compares too many elements with each other.")
+            return
         try:
             selectors = cssselect2.compile_selector_list(rule.prelude)
         except cssselect2.SelectorError:  # CSS says: a rule with a selector one does not know is skipped
             return
         for selector in selectors:
-            if selector.pseudo_element is None and not selector.never_matches:
+            if declarations and selector.pseudo_element is None and not selector.never_matches:
                 self._matcher.add_selector(selector, declarations)
+                self._rules += 1
 
-    def style(self, element: ElementWrapper, inherited: Style) -> Style:
+    def style(self, element: Element, inherited: Style) -> Style:
         """The computed style: property → value as text. `inherited` is the parent's (or the `use`'s)."""
-        attributes = element.etree_element.attrib
-        layers = [[(name, attributes[name], False) for name in _PRESENTATION & attributes.keys()]]
-        layers += [declarations for *_, declarations in self._matcher.match(element)]
-        layers.append(list(_declarations(attributes.get("style", ""))))
-        own: dict[str, str] = {}
-        for important in (False, True):
-            for declarations in layers:
-                own.update((name, value) for name, value, mark in declarations if mark == important)
+        attributes = element.attrib
+        layers: list = [[(name, attributes[name], False) for name in attributes if name in _PRESENTATION]]
+        if self._rules:
+            layers += [declarations for *_, declarations in self._matcher.match(self._wrapper[element])]
+        if "style" in attributes:
+            layers.append(_of_attribute(attributes["style"]))
+        own: dict[str, str] = {name: value for layer in layers for name, value, mark in layer if not mark}
+        own.update((name, value) for layer in layers for name, value, mark in layer if mark)
         return _computed(own, inherited)
 
 
 def _computed(own: dict[str, str], inherited: Style) -> Style:
-    style = {name: value for name, value in inherited.items() if name in _INHERITED}
+    style = {name: value for name, value in inherited.items() if name in _INHERITED or name[:2] == "--"}
+    variables = {name: value for name, value in own.items() if name[:2] == "--"}
+    style.update(variables)
     for name, value in own.items():
-        keyword = value.lower()
+        if name in variables:
+            continue
+        if "var(" in value:
+            value = _with_variables(value, style)
+        keyword = value.strip().lower()
         if keyword == "inherit":
             style.update({name: inherited[name]} if name in inherited else {})
-        elif keyword in ("initial", "revert") or (keyword == "unset" and name in _OWN):
+        elif keyword in ("initial", "revert") or (keyword in ("unset", "") and name in _OWN):
             style.pop(name, None)
-        elif keyword != "unset":
+        elif keyword not in ("unset", ""):
             style[name] = value
     return style
 
 
-def _declarations(content) -> Iterator[tuple[str, str, bool]]:
-    """(property, value, important) of the declarations we read."""
-    for item in tinycss2.parse_blocks_contents(content, True, True):
-        if item.type == "declaration" and item.lower_name in _INHERITED | _OWN:
-            yield item.lower_name, tinycss2.serialize(item.value).strip(), item.important
+def _with_variables(value: str, style: Style) -> str:
+    """The value with every `var(--name, fallback)` put in; "" (as if it were not there) if one is missing or they never end."""
+    for _ in range(20):
+        missing = [m[0] for m in _VARIABLE.finditer(value) if m[1] not in style and m[2] is None]
+        if missing or len(value) > _LONGEST:
+            return ""
+        if not _VARIABLE.search(value):
+            return value
+        value = _VARIABLE.sub(lambda match: style.get(match[1], match[2] or "").strip(), value)
+    return ""
+
+
+@lru_cache(maxsize=4096)
+def _of_attribute(text: str) -> Declarations:
+    """The declarations of a `style` attribute; drawings repeat few of them often."""
+    if not _SIMPLE.fullmatch(text):
+        return _declarations(tinycss2.parse_blocks_contents(text, True, True))
+    found = []
+    for part in text.split(";"):
+        name, colon, value = part.partition(":")
+        name, (value, mark, _) = name.strip(), value.partition("!")
+        if colon and (name.lower() in _READ or name[:2] == "--"):
+            found.append((name if name[:2] == "--" else name.lower(), value.strip(), bool(mark)))
+    return tuple(found)
+
+
+def _declarations(items) -> Declarations:
+    """The declarations we read."""
+    return tuple(_read(items))
+
+
+def _read(items) -> Iterator[tuple[str, str, bool]]:
+    for item in items:
+        if item.type == "declaration" and (item.lower_name in _READ or item.name[:2] == "--"):
+            name = item.name if item.name[:2] == "--" else item.lower_name
+            yield name, tinycss2.serialize(item.value).strip(), item.important
 
 
 def _for_screen(media: str) -> bool:
-    queries = [query.lower().replace("only ", "").strip() or "all" for query in media.split(",")]
-    return any(query.startswith(("all", "screen", "(")) for query in queries)
+    """Whether a media query holds for a bright screen; what can't be told (widths, resolutions) holds."""
+    return any(_holds(query.lower().strip()) for query in media.split(","))
+
+
+def _holds(query: str) -> bool:
+    query = query.removeprefix("only ").strip() or "all"
+    if query.startswith("not "):
+        return not _holds(query[4:])
+    dark = re.search(r"prefers-color-scheme\s*:\s*dark", query) is not None
+    return query.startswith(("all", "screen", "(")) and not dark

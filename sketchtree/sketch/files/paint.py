@@ -1,21 +1,24 @@
-"""Does a fill or a stroke show at all? Colours are not read beyond that."""
+"""Does a fill or a stroke show at all, and how bright is it? Colours are not read beyond that."""
+
+from functools import lru_cache
+
+from tinycss2.color3 import parse_color
 
 from sketchtree.sketch.files.css import Style
 
 
 def is_paint(paint: str, opacity: str, style: Style) -> bool:
     """Whether a fill or stroke shows at all."""
-    paint = paint.strip().lower()
-    if paint == "currentcolor":
-        paint = style.get("color", "black").strip().lower()
-    clear = paint.startswith(("rgba(", "hsla(", "rgb(", "hsl(")) and _alpha(paint) == 0.0
-    clear |= paint.startswith("#") and len(paint) in (5, 9) and set(paint[(len(paint) - 1) // 4 * 3 + 1 :]) == {"0"}
-    return paint not in ("none", "transparent") and not clear and fraction(opacity) > 0.0
+    if paint.lower() == "currentcolor":
+        paint = style.get("color", "black")
+    return not _is_clear(paint) and fraction(opacity) > 0.0
 
 
-def _alpha(paint: str) -> float:
-    parts = paint[paint.index("(") + 1 :].rstrip(")").replace("/", " / ").replace(",", " ").split()
-    return fraction(parts[-1]) if "/" in parts or len(parts) == 4 else 1.0
+def luminance(paint: str, style: Style) -> float:
+    """How bright a paint is, 0 black to 1 white (the weights of linear sRGB, as masks have it); a pattern or gradient counts as white."""
+    if paint.lower() == "currentcolor":
+        paint = style.get("color", "black")
+    return _luminance(paint)
 
 
 def fraction(text: str) -> float:
@@ -24,3 +27,24 @@ def fraction(text: str) -> float:
         return float(text.rstrip("%")) / (100.0 if text.endswith("%") else 1.0)
     except ValueError:
         return 1.0
+
+
+@lru_cache(maxsize=1024)
+def _is_clear(paint: str) -> bool:
+    paint = paint.strip().lower()
+    clear = paint.startswith(("rgba(", "hsla(", "rgb(", "hsl(")) and _alpha(paint) == 0.0
+    clear |= paint.startswith("#") and len(paint) in (5, 9) and set(paint[(len(paint) - 1) // 4 * 3 + 1 :]) == {"0"}
+    return clear or paint in ("none", "transparent")
+
+
+def _alpha(paint: str) -> float:
+    parts = paint[paint.index("(") + 1 :].rstrip(")").replace("/", " / ").replace(",", " ").split()
+    return fraction(parts[-1]) if "/" in parts or len(parts) == 4 else 1.0
+
+
+@lru_cache(maxsize=1024)
+def _luminance(paint: str) -> float:
+    colour = parse_color(paint.strip())
+    if not isinstance(colour, tuple):
+        return 1.0
+    return 0.2126 * colour[0] + 0.7152 * colour[1] + 0.0722 * colour[2]

@@ -1,168 +1,281 @@
 """Which shapes does an SVG document paint, in which order, and where?
 
-Styles cascade (`css`), transforms nest (`transforms`), `use` and nested `svg` are followed; what is hidden, transparent
-or unpainted is left out, and so are the contents of definitions.
+Styles cascade (`css`), transforms nest (`transforms`), `use`, `switch` and nested `svg` are followed, clips and masks
+(`clips`) are worked out; what is hidden, transparent or unpainted is left out and counted (`left_out`).
 """
 
-from collections.abc import Iterator
-from dataclasses import dataclass, field
+import math
+from collections.abc import Iterator, Mapping
+from contextlib import contextmanager
+from dataclasses import dataclass
+from types import MappingProxyType
+from typing import NamedTuple
+from xml.etree.ElementTree import Element
 
 import numpy as np
-from cssselect2 import ElementWrapper
 
 from sketchtree.errors import SketchError
-from sketchtree.sketch.files.css import Cascade, Style
-from sketchtree.sketch.files.labels import kind_named
-from sketchtree.sketch.files.outlines import Subpath, flatten, subpaths
-from sketchtree.sketch.files.paint import fraction, is_paint
-from sketchtree.sketch.strokes import StrokeKind
-from sketchtree.sketch.files.transforms import IDENTITY, Matrix, matrix_of
-from sketchtree.sketch.files.viewport import REDRAW, nested, page, user_length
+from sketchtree.sketch.files.areas import Area
+from sketchtree.sketch.files.clips import Clips, rectangle
+from sketchtree.sketch.files.css import GEOMETRY, Cascade, Style
+from sketchtree.sketch.files.document import DEEPEST, XLINK, local_name, too_deep
+from sketchtree.sketch.files.left_out import LeftOut
+from sketchtree.sketch.files.names import Naming
+from sketchtree.sketch.files.outlines import SHAPES, flatten, subpaths
+from sketchtree.sketch.files.paint import fraction, is_paint, luminance
+from sketchtree.sketch.files.path_data import Subpath
+from sketchtree.sketch.files.path_effects import Spine, spine
+from sketchtree.sketch.files.transforms import IDENTITY, Matrix, matrix_of, translation
+from sketchtree.sketch.files.viewport import Box, at, nested, page, user_length
 
-DEEPEST = 256  # nested elements
-_SHAPES = frozenset({"path", "line", "polyline", "polygon", "rect", "circle", "ellipse"})
 _GROUPS = frozenset({"svg", "g", "a", "switch"})
-_LABELS = ("{http://www.inkscape.org/namespaces/inkscape}label", "id", "class", "data-name")
-_HREF = ("href", "{http://www.w3.org/1999/xlink}href")
+_PAINTED = SHAPES | _GROUPS | {"use", "symbol"}
+_OTHER = {"text": "a text", "flowRoot": "a text", "image": "a picture", "foreignObject": "an embedded page"}
+_HREF = ("href", f"{{{XLINK}}}href")
+_MOST_CLONED = 50_000  # elements drawn through `use`, beyond two for every stroke allowed
 
 
-@dataclass(frozen=True, eq=False)
+@dataclass(frozen=True, eq=False, slots=True)
 class Shape:
     """One painted shape, its geometry in user units of the root (y down)."""
 
-    id: str | None
+    element: Element
     paths: list[Subpath]
-    kind: StrokeKind | None
-    width: float | None
-    filled: bool
+    naming: Naming
+    width: float | None  # line width; None for a shape that is only filled
+    filled: bool  # painted as an area, without a line
+    rule: str  # how its area is told from its outline: nonzero, evenodd
+    fill: tuple[float, float] | None  # (luminance, opacity) of the area's paint
+    line: tuple[float, float] | None  # … and of the line's
+    clip: Area | None  # where it shows; None: everywhere
+    spine: Spine | None  # of a line thickened by an effect; widths already in root units
+    matrix: Matrix  # from its own coordinates to the root's
 
 
-@dataclass(frozen=True)
-class _Scope:
+class _Scope(NamedTuple):
     """What an element inherits."""
 
-    matrix: Matrix = field(default_factory=lambda: IDENTITY)
-    style: Style = field(default_factory=dict)
-    kind: StrokeKind | None = None
+    matrix: Matrix = IDENTITY
+    style: Style = MappingProxyType({})
+    naming: Naming = Naming()
     depth: int = 0
     uses: tuple[str, ...] = ()
+    clip: Area | None = None
+    ghost: bool = False  # geometry counts, paint does not: the shapes of a clip path
+    given: Mapping[str, str] = MappingProxyType({})  # width and height of the `use` that draws this symbol
 
 
 class Walk:
     """One pass over a document, in the order of painting."""
 
-    def __init__(self, root: ElementWrapper, name: str, max_strokes: int):
-        self.name, self.max_strokes = name, max_strokes
-        self.root, self.cascade = root, Cascade(root)
-        self.view = page(root, name)
-        self.by_id = {e.id: e for e in reversed(list(root.iter_subtree())) if e.id}
-        self.warnings: list[str] = []
-        self.seen = 0
+    def __init__(self, root: Element, name: str, max_strokes: int):
+        self.name, self.max_strokes, self.root = name, max_strokes, root
+        self.cascade = Cascade(root)
+        self.box, self.has_page = page(root, name)
+        self.view = self.box[2:]
+        self.by_id: dict[str, Element] = {}
+        for element in root.iter():
+            if (own := element.get("id")) is not None:
+                self.by_id.setdefault(own, element)
+        self.clips = Clips(self)
+        self.left_out = LeftOut()
+        self.elsewhere: dict[str, int] = {}  # `use` of other files
+        self._found: list[Shape] = []
+        self._cloned = 0
+        self._strokes = 0
+        self._boxes: dict[Element, Box] = {}
 
     def shapes(self) -> list[Shape]:
         """Every painted shape. Raises SketchError when there are more than `max_strokes` strokes."""
-        found: list[Shape] = []
-        count = 0
-        for shape in self._element(self.root, _Scope()):
-            found.append(shape)
-            count += len(shape.paths)
-            if count > self.max_strokes:
-                raise SketchError(
-                    f"{self.name} holds more than {self.max_strokes} strokes.",
-                    remedy="Draw fewer strokes, or raise the limit with --max-strokes.",
-                )
-        return found
+        self._element(self.root, _Scope())
+        return self._found
 
-    def _element(self, element: ElementWrapper, scope: _Scope) -> Iterator[Shape]:
-        tag, attributes = element.local_name, element.etree_element.attrib
-        self._guard(scope)
-        if tag not in _SHAPES | _GROUPS | {"use", "symbol"} or (tag == "symbol" and not scope.uses):
-            return
-        style = self.cascade.style(element, scope.style)
-        if style.get("display") == "none" or fraction(style.get("opacity", "1")) == 0.0:
-            return
-        matrix = scope.matrix @ self._matrix(element, style)
-        kind = kind_named(*(attributes.get(label) for label in _LABELS)) or scope.kind
-        inner = _Scope(matrix, style, kind, scope.depth + 1, scope.uses)
-        if tag in _SHAPES:
-            yield from self._shape(element, inner)
-        elif tag == "use":
-            yield from self._use(element, inner)
-        else:
-            yield from self._children(element, inner)
+    def warnings(self) -> tuple[str, ...]:
+        """What was left out, or read in doubt."""
+        others = [
+            f"A <use> of '{target[:60]}'" + (f" (and {count - 1} more of it)" if count > 1 else "") + " was left out: other files are not read."
+            for target, count in self.elsewhere.items()
+        ]
+        return (*self.left_out.sentence(), *others, *self.cascade.warnings, *self.clips.warnings)
 
-    def _children(self, element: ElementWrapper, scope: _Scope) -> Iterator[Shape]:
-        if scope.depth > 1 and element.local_name in ("svg", "symbol"):
-            scope = _Scope(scope.matrix @ nested(element, self.view, self.name), scope.style, scope.kind, scope.depth, scope.uses)
-        for child in element.iter_children():
-            yield from self._element(child, scope)
+    def ghosts(self, node: Element, matrix: Matrix) -> list[Shape]:
+        """The shapes inside a clip path, whatever their paint."""
+        return self._apart(node, _Scope(matrix, depth=2, ghost=True))
 
-    def _use(self, element: ElementWrapper, scope: _Scope) -> Iterator[Shape]:
-        attributes = element.etree_element.attrib
-        target = next((attributes[h] for h in _HREF if h in attributes), "")
-        if not target.startswith("#"):
-            self.warnings.append(f"A <use> of '{target[:60]}' was left out: other files are not read.")
-        elif target[1:] in self.by_id and target not in scope.uses:
-            x, y = (user_length(attributes.get(a, "0"), i, element, self.view, self.name) for i, a in enumerate("xy"))
-            shift = np.array([[1, 0, x], [0, 1, y], [0, 0, 1.0]])
-            inner = _Scope(scope.matrix @ shift, scope.style, scope.kind, scope.depth, (*scope.uses, target))
-            yield from self._element(self.by_id[target[1:]], inner)
+    def painted(self, node: Element, matrix: Matrix, style: Style) -> list[Shape]:
+        """The shapes inside a mask."""
+        return self._apart(node, _Scope(matrix, style, depth=2))
 
-    def _shape(self, element: ElementWrapper, scope: _Scope) -> Iterator[Shape]:
-        style = scope.style
-        stroke = is_paint(style.get("stroke", "none"), style.get("stroke-opacity", "1"), style)
-        fill = is_paint(style.get("fill", "black"), style.get("fill-opacity", "1"), style) and element.local_name != "line"
-        width = user_length(style.get("stroke-width", "1"), 2, element, self.view, self.name) if stroke else 0.0
-        if style.get("visibility", "visible") != "visible" or not (fill or width > 0):
-            return
-        if style.get("vector-effect") != "non-scaling-stroke":
-            width *= float(np.sqrt(abs(np.linalg.det(scope.matrix[:2, :2]))))
-        paths = [transformed(path, scope.matrix) for path in self._geometry(element)]
-        filled = width <= 0
-        yield Shape(element.id, paths, scope.kind, None if filled else width, filled)
+    def fill_box(self, element: Element) -> Box:
+        """Bounding box of an element in its own coordinates, line widths and clips left out."""
+        if element not in self._boxes:
+            self._boxes[element] = (0.0, 0.0, 0.0, 0.0)  # what it is to its own descendants, should they ask
+            paths = [path for shape in self._apart(element, _Scope(depth=2, ghost=True), itself=True) for path in shape.paths]
+            self._boxes[element] = _bounds(paths)
+        return self._boxes[element]
 
-    def _geometry(self, element: ElementWrapper) -> list[Subpath]:
-        try:
-            return subpaths(element.local_name, element.etree_element.attrib, self.view)
-        except ValueError as error:
-            raise SketchError(f"in {self.name}, {error}.", stroke=element.id or f"<{element.local_name}>", remedy=REDRAW) from None
-
-    def _matrix(self, element: ElementWrapper, style: Style) -> Matrix:
+    def matrix(self, element: Element, style: Style) -> Matrix:
+        """The transform of one element."""
+        attribute = element.get("transform")
+        if attribute is None and not style.keys() & _MOVES:
+            return IDENTITY
         if style.get("transform-box") in ("fill-box", "content-box", "stroke-box", "border-box"):
-            box = self._fill_box(element)
+            box = self.fill_box(element)
         else:
             box = (0.0, 0.0, *self.view)
-        attribute = None if element is self.root else element.etree_element.get("transform")
-        style = {} if element is self.root else style
         try:
             return matrix_of(attribute, style, box)
         except ValueError as error:
-            raise SketchError(f"in {self.name}, {error}.", stroke=element.id or f"<{element.local_name}>", remedy=REDRAW) from None
+            raise at(element, self.name, error) from None
 
-    def _fill_box(self, element: ElementWrapper) -> tuple[float, float, float, float]:
-        """Bounding box of an element in its own coordinates."""
-        scope = _Scope(depth=2)
-        if element.local_name in _SHAPES:
-            paths = self._geometry(element)
+    def _apart(self, node: Element, scope: _Scope, *, itself: bool = False) -> list[Shape]:
+        """The shapes of a part of the document by themselves; nothing of it is counted."""
+        with self._aside() as found:
+            if itself and local_name(node.tag) in SHAPES:
+                self._shape(node, scope, {"visibility": "visible"})
+            elif not itself or local_name(node.tag) in _GROUPS | {"symbol"}:
+                for child in node:
+                    self._element(child, scope)
+            elif local_name(node.tag) == "use":
+                self._use(node, scope)
+        return found
+
+    @contextmanager
+    def _aside(self) -> Iterator[list[Shape]]:
+        kept = self._found, self.left_out, self._strokes
+        self._found, self.left_out = [], LeftOut()
+        try:
+            yield self._found
+        finally:
+            self._found, self.left_out, self._strokes = kept
+
+    def _element(self, element: Element, scope: _Scope) -> None:
+        tag = local_name(element.tag)
+        if tag not in _PAINTED or (tag == "symbol" and not scope.uses):
+            if tag in _OTHER:
+                self.left_out.add(_OTHER[tag])
+            return
+        self._guard(scope)
+        style = self.cascade.style(element, scope.style)
+        if style.get("display", "").lower() == "none" or fraction(style.get("opacity", "1")) <= 0.0 or not _fits(element):
+            self._hide(element, scope)
+            return
+        is_root = element is self.root
+        naming = scope.naming if is_root else scope.naming.within(element, is_group=tag not in SHAPES)
+        own = IDENTITY if is_root else self.matrix(element, style)
+        matrix = scope.matrix if own is IDENTITY else scope.matrix @ own
+        clip = scope.clip
+        if "clip-path" in style or "mask" in style:
+            part = self.clips.region(element, style, matrix)
+            clip = part if clip is None else clip if part is None else clip & part
+        inner = _Scope(matrix, style, naming, scope.depth + 1, scope.uses, clip, scope.ghost)
+        if tag in SHAPES:
+            self._shape(element, inner, style)
+        elif tag == "use":
+            self._use(element, inner)
         else:
-            paths = [path for child in element.iter_children() for shape in self._element(child, scope) for path in shape.paths]
-        if not paths:
-            return 0.0, 0.0, 0.0, 0.0
-        corners = np.concatenate([np.concatenate([p.start[None], flatten(p.cubics, 1e-3 * extent_of(paths))[0]]) for p in paths])
-        low, high = corners.min(0), corners.max(0)
-        return float(low[0]), float(low[1]), float(high[0] - low[0]), float(high[1] - low[1])
+            self._group(element, tag, inner, scope.given)
+
+    def _group(self, element: Element, tag: str, scope: _Scope, given: Mapping[str, str]) -> None:
+        if tag == "symbol" or (tag == "svg" and element is not self.root):
+            matrix, port = nested(element, self.view, self.name, given)
+            clip = scope.clip
+            if port is not None and scope.style.get("overflow", "hidden") not in ("visible", "auto"):
+                shown = rectangle(port, scope.matrix)
+                clip = shown if clip is None else clip & shown
+            scope = scope._replace(matrix=scope.matrix @ matrix, clip=clip)
+        if tag == "switch":
+            first = next((child for child in element if isinstance(child.tag, str) and local_name(child.tag) and _fits(child)), None)
+            if first is not None:
+                self._element(first, scope)
+            else:
+                self._hide(element, scope)
+            return
+        for child in element:
+            self._element(child, scope)
+
+    def _use(self, element: Element, scope: _Scope) -> None:
+        attributes = element.attrib
+        target = next((attributes[h] for h in _HREF if h in attributes), "")
+        if not target.startswith("#"):
+            self.elsewhere[target] = self.elsewhere.get(target, 0) + 1
+        elif target[1:] not in self.by_id:
+            self.left_out.add("a clone of nothing")
+        elif target not in scope.uses:
+            x, y = (user_length(attributes.get(a, "0"), i, element, self.view, self.name) for i, a in enumerate("xy"))
+            given = {side: attributes[side] for side in ("width", "height") if side in attributes}
+            shifted = scope.matrix if x == y == 0 else scope.matrix @ translation(x, y)
+            inner = scope._replace(matrix=shifted, uses=(*scope.uses, target), given=given)
+            self._element(self.by_id[target[1:]], inner)
+
+    def _shape(self, element: Element, scope: _Scope, style: Style) -> None:
+        stroke, fill = self._paints(element, style)
+        width = user_length(style.get("stroke-width", "1"), 2, element, self.view, self.name) if stroke else 0.0
+        under = None if scope.ghost else spine(element, self.by_id)
+        if style.get("visibility", "visible") != "visible":
+            self._hide(element, scope)
+            return
+        if not (scope.ghost or fill or width > 0):
+            if local_name(element.tag) != "rect":  # programs put unpainted rectangles around drawings
+                self.left_out.add("a shape without fill or stroke")
+            return
+        scale = math.sqrt(abs(scope.matrix[0, 0] * scope.matrix[1, 1] - scope.matrix[0, 1] * scope.matrix[1, 0]))
+        if style.get("vector-effect") != "non-scaling-stroke":
+            width *= scale
+        if under is not None:
+            knots = None if under.knots is None else under.knots * (1.0, scale)
+            under = Spine(under.data, knots, None if under.width is None else under.width * scale)
+        filled = width <= 0 and under is None
+        paths = [transformed(path, scope.matrix) for path in self._geometry(element, style, under)]
+        self._count(len(paths))
+        rule = style.get("clip-rule" if scope.ghost else "fill-rule", "nonzero")
+        shown = None if filled else under.width if under is not None else width
+        self._found.append(Shape(element, paths, scope.naming, shown, filled, rule, fill, stroke, scope.clip, under, scope.matrix))
+
+    def _paints(self, element: Element, style: Style) -> tuple[tuple[float, float] | None, tuple[float, float] | None]:
+        """(luminance, opacity) of the line's and of the area's paint; None where there is none."""
+        paint, opacity = style.get("stroke", "none"), style.get("stroke-opacity", "1")
+        stroke = (luminance(paint, style), fraction(opacity)) if is_paint(paint, opacity, style) else None
+        paint, opacity = style.get("fill", "black"), style.get("fill-opacity", "1")
+        fill = (luminance(paint, style), fraction(opacity)) if is_paint(paint, opacity, style) else None
+        return stroke, None if local_name(element.tag) == "line" else fill
+
+    def _geometry(self, element: Element, style: Style, under: Spine | None) -> list[Subpath]:
+        attributes = element.attrib
+        if under is not None:
+            attributes = {"d": under.data}
+        elif style.keys() & GEOMETRY:
+            attributes = {**attributes, **_styled(style)}
+        try:
+            return subpaths(local_name(element.tag), attributes, self.view)
+        except ValueError as error:
+            raise at(element, self.name, error) from None
+
+    def _hide(self, element: Element, scope: _Scope) -> None:
+        count = 1 if scope.uses else sum(local_name(part.tag) in SHAPES or local_name(part.tag) == "use" for part in element.iter())
+        self.left_out.add("a hidden shape", count)
+
+    def _count(self, strokes: int) -> None:
+        self._strokes += strokes
+        if self._strokes > self.max_strokes:
+            raise SketchError(
+                f"{self.name} holds more than {self.max_strokes} strokes.",
+                remedy="Draw fewer strokes, or raise the limit with --max-strokes.",
+            )
 
     def _guard(self, scope: _Scope) -> None:
-        self.seen += 1
-        if scope.depth > DEEPEST or self.seen > 10 * self.max_strokes + 100_000:
-            raise SketchError(
-                f"{self.name} nests its groups more than {DEEPEST} deep, or repeats them too often.",
-                remedy="Ungroup the drawing, unlink its clones, and export it again.",
-            )
+        self._cloned += bool(scope.uses)
+        if scope.depth > DEEPEST or self._cloned > 2 * self.max_strokes + _MOST_CLONED:
+            raise too_deep(self.name)
+
+
+_MOVES = frozenset({"transform", "translate", "rotate", "scale"})
 
 
 def transformed(path: Subpath, matrix: Matrix) -> Subpath:
     """The same geometry after a transform."""
+    if matrix is IDENTITY:
+        return path
     linear, shift = matrix[:2, :2].T, matrix[:2, 2]
     return Subpath(path.start @ linear + shift, path.cubics @ linear + shift, path.closed)
 
@@ -172,3 +285,30 @@ def extent_of(paths: list[Subpath]) -> float:
     points = np.concatenate([p.start[None] for p in paths] + [p.cubics.reshape(-1, 2) for p in paths])
     finite = points[np.isfinite(points).all(1)]
     return float(np.ptp(finite, axis=0).max()) if len(finite) else 0.0
+
+
+def _bounds(paths: list[Subpath]) -> Box:
+    if not paths:
+        return 0.0, 0.0, 0.0, 0.0
+    tolerance = 1e-3 * extent_of(paths)
+    corners = np.concatenate([np.concatenate([p.start[None], flatten(p.cubics, tolerance)[0]]) for p in paths])
+    low, high = corners.min(0), corners.max(0)
+    return float(low[0]), float(low[1]), float(high[0] - low[0]), float(high[1] - low[1])
+
+
+def _fits(element: Element) -> bool:
+    """Whether an element is for us: no extension of some program, and in English if in any language."""
+    if element.get("requiredExtensions", "").strip():
+        return False
+    languages = element.get("systemLanguage")
+    return languages is None or any(part.strip().lower().split("-")[0] == "en" for part in languages.split(","))
+
+
+def _styled(style: Style) -> dict[str, str]:
+    """Geometry that style sheets set, as attributes."""
+    found = {name: style[name] for name in GEOMETRY & style.keys()}
+    if "d" in found:
+        data = found.pop("d").strip()
+        if data.startswith("path(") and data.endswith(")"):
+            found["d"] = data[5:-1].strip(" \"'")
+    return found

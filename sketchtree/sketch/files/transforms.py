@@ -11,6 +11,7 @@ sheet replaces it.
 
 import math
 import re
+from functools import lru_cache
 
 import numpy as np
 from jaxtyping import Float
@@ -26,6 +27,7 @@ _NUMBER = re.compile(r"([-+]?(?:\d+\.?\d*|\.\d+)(?:[eE][-+]?\d+)?)([a-zA-Z%]*)")
 _LENGTH = {"": 1.0, "px": 1.0, "in": 96.0, "cm": 96 / 2.54, "mm": 96 / 25.4, "q": 96 / 101.6, "pt": 96 / 72, "pc": 16.0}
 _LENGTH |= {"em": 16.0, "rem": 16.0, "ex": 8.0}
 _ANGLE = {"": 1.0, "deg": 1.0, "grad": 0.9, "rad": 180 / math.pi, "turn": 360.0}
+_MOVES = frozenset({"translate", "rotate", "scale", "transform-origin"})
 _KEYWORD = {"left": "0%", "top": "0%", "center": "50%", "right": "100%", "bottom": "100%"}
 
 
@@ -33,33 +35,37 @@ def length(text: str, percent_of: float = 0.0) -> float:
     """A CSS or SVG length in user units (96 px an inch). Raises ValueError if it is none."""
     match = _NUMBER.fullmatch(text.strip())
     if match is None:
-        raise ValueError(f"'{text}' is not a length")
+        raise ValueError(f"'{text[:40]}' is not a length")
     value, unit = float(match[1]), match[2].lower()
     if unit == "%":
         return value / 100 * percent_of
     if unit not in _LENGTH:
-        raise ValueError(f"'{text}' has a unit that is not a length")
+        raise ValueError(f"'{text[:40]}' has a unit that is not a length")
     return value * _LENGTH[unit]
 
 
 def matrix_of(attribute: str | None, style: Style, box: tuple[float, float, float, float]) -> Matrix:
     """The matrix of one element. `box` (x, y, width, height) is what percentages and the origin refer to."""
     listed = style.get("transform", attribute)
+    if not _MOVES & style.keys():
+        return IDENTITY if listed is None else transform_list(listed, box)
     moves = [_one("translate", style.get("translate"), box), _one("rotate", style.get("rotate"), box)]
     moves += [_one("scale", style.get("scale"), box), transform_list(listed, box)]
     whole = moves[0] @ moves[1] @ moves[2] @ moves[3]
     if "transform-origin" not in style:
         return whole
     x, y = _origin(style["transform-origin"], box)
-    return _translate(x, y) @ whole @ _translate(-x, -y)
+    return translation(x, y) @ whole @ translation(-x, -y)
 
 
+@lru_cache(maxsize=4096)
 def transform_list(text: str | None, box: tuple[float, float, float, float] = (0.0, 0.0, 0.0, 0.0)) -> Matrix:
     """A list of transform functions as one matrix, leftmost outermost. Raises ValueError for an unknown one."""
     whole = IDENTITY
     if text and text.strip().lower() != "none":
         for name, arguments in _FUNCTION.findall(text):
             whole = whole @ _function(name.lower(), _NUMBER.findall(arguments), box)
+        whole.flags.writeable = False
     return whole
 
 
@@ -90,10 +96,10 @@ def _function(name: str, arguments: list[tuple[str, str]], box) -> Matrix:
 def _translation(name: str, arguments, box) -> Matrix:
     x, y = ((length("".join(part), box[2 + axis]) for axis, part in enumerate((arguments * 2)[:2])))
     if name == "translatex":
-        return _translate(x, 0.0)
+        return translation(x, 0.0)
     if name == "translatey":
-        return _translate(0.0, length("".join(arguments[0]), box[3]))
-    return _translate(x, y if len(arguments) > 1 else 0.0)
+        return translation(0.0, length("".join(arguments[0]), box[3]))
+    return translation(x, y if len(arguments) > 1 else 0.0)
 
 
 def _rotation(arguments) -> Matrix:
@@ -102,7 +108,7 @@ def _rotation(arguments) -> Matrix:
     if len(arguments) < 3:
         return turn
     x, y = float(arguments[1][0]), float(arguments[2][0])
-    return _translate(x, y) @ turn @ _translate(-x, -y)
+    return translation(x, y) @ turn @ translation(-x, -y)
 
 
 def _scaling(name: str, arguments) -> Matrix:
@@ -121,7 +127,8 @@ def _skew(name: str, arguments) -> Matrix:
     return np.array([[1, x, 0], [y, 1, 0], [0, 0, 1]])
 
 
-def _translate(x: float, y: float) -> Matrix:
+def translation(x: float, y: float) -> Matrix:
+    """A shift."""
     return np.array([[1, 0, x], [0, 1, y], [0, 0, 1.0]])
 
 

@@ -1,34 +1,39 @@
 """How large is the page, and what do lengths on it mean? Viewboxes, nested viewports, percentages."""
 
+from collections.abc import Mapping
+from xml.etree.ElementTree import Element
+
 import numpy as np
-from cssselect2 import ElementWrapper
 
 from sketchtree.errors import SketchError
-from sketchtree.sketch.files.transforms import Matrix, length
+from sketchtree.sketch.files.document import local_name
+from sketchtree.sketch.files.transforms import Matrix, length, translation
 
 REDRAW = "Draw that shape again, or export the drawing as plain SVG."
 
+Box = tuple[float, float, float, float]  # x, y, width, height; y down
 
-def page(root: ElementWrapper, name: str) -> tuple[float, float]:
-    """(width, height) of the root's viewBox, else of the page."""
+
+def page(root: Element, name: str) -> tuple[Box, bool]:
+    """The root's viewBox, else the page from 0, 0; and whether the file says so at all (or a browser's 300 × 150 stands in)."""
     box = _view_box(root, name)
     if box is not None:
-        return box[2], box[3]
-    size = [root.etree_element.get(side, "100%") for side in ("width", "height")]
+        return box, True
+    size = [root.get(side, "100%") for side in ("width", "height")]
     try:
-        page = length(size[0], 300.0), length(size[1], 150.0)
+        width, height = length(size[0], 300.0), length(size[1], 150.0)
     except ValueError:
-        page = (300.0, 150.0)
-    if min(page) <= 0:
+        width, height = 300.0, 150.0
+    if min(width, height) <= 0 or not np.isfinite([width, height]).all():
         raise SketchError(
-            f"{name} has a page of no size ({size[0]} × {size[1]}).",
+            f"{name} has a page of no size ({size[0][:20]} × {size[1][:20]}).",
             remedy="Set the page's width and height, and export it again.",
         )
-    return page
+    return (0.0, 0.0, width, height), not any(side.strip().endswith("%") for side in size)
 
 
-def _view_box(element: ElementWrapper, name: str) -> tuple[float, float, float, float] | None:
-    text = element.etree_element.get("viewBox")
+def _view_box(element: Element, name: str) -> Box | None:
+    text = element.get("viewBox")
     if text is None:
         return None
     try:
@@ -44,25 +49,40 @@ def _view_box(element: ElementWrapper, name: str) -> tuple[float, float, float, 
     return x, y, width, height
 
 
-def nested(element: ElementWrapper, view: tuple[float, float], name: str) -> Matrix:
-    """A nested `svg` or `symbol`: its viewBox, centred in its own rectangle (xMidYMid meet, or none)."""
-    attributes = element.etree_element.attrib
+def nested(element: Element, view: tuple[float, float], name: str, given: Mapping[str, str] | None = None) -> tuple[Matrix, Box | None]:
+    """(matrix, the rectangle it shows in outer units) of a nested `svg` or `symbol`: its viewBox fitted into its own
+    rectangle as `preserveAspectRatio` says. `given` replaces attributes: the width and height of a `use`. No rectangle: nothing is cut."""
+    attributes = {**element.attrib, **(given or {})}
     x, y = (user_length(attributes.get(a, "0"), i, element, view, name) for i, a in enumerate("xy"))
     box = _view_box(element, name)
-    if box is None:
-        return np.array([[1, 0, x], [0, 1, y], [0, 0, 1.0]])
+    if box is None and not {"width", "height"} & attributes.keys():
+        return translation(x, y), None
     size = [user_length(attributes.get(a, "100%"), i, element, view, name) for i, a in enumerate(("width", "height"))]
+    port = (x, y, max(size[0], 0.0), max(size[1], 0.0))
+    if box is None:
+        return translation(x, y), port
+    aspect = attributes.get("preserveAspectRatio", "xMidYMid").split() or ["xMidYMid"]
     scale = np.array([size[0] / box[2], size[1] / box[3]])
-    if attributes.get("preserveAspectRatio", "xMidYMid").split()[0] != "none":
-        scale[:] = scale.max() if "slice" in attributes.get("preserveAspectRatio", "") else scale.min()
-    shift = np.array([x, y]) + (np.array(size) - scale * box[2:]) / 2 - scale * box[:2]
-    return np.array([[scale[0], 0, shift[0]], [0, scale[1], shift[1]], [0, 0, 1.0]])
+    if aspect[0] != "none":
+        scale[:] = scale.max() if "slice" in aspect else scale.min()
+    spare = np.array(size) - scale * box[2:]
+    part = np.array([_PART.get(aspect[0][1:4].lower(), 0.5), _PART.get(aspect[0][5:8].lower(), 0.5)])
+    part = np.zeros(2) if aspect[0] == "none" else part
+    shift = np.array([x, y]) + spare * part - scale * box[:2]
+    return np.array([[scale[0], 0, shift[0]], [0, scale[1], shift[1]], [0, 0, 1.0]]), port
 
 
-def user_length(text: str, axis: int, element: ElementWrapper, view: tuple[float, float], name: str) -> float:
+_PART = {"min": 0.0, "mid": 0.5, "max": 1.0}
+
+
+def user_length(text: str, axis: int, element: Element, view: tuple[float, float], name: str) -> float:
     """`axis` 0: percentages are of the width, 1: of the height, 2: of the diagonal / √2."""
-    whole = (*view, float(np.hypot(*view) / np.sqrt(2.0)))[axis]
     try:
-        return length(text, whole)
+        return length(text, (*view, float(np.hypot(*view) / np.sqrt(2.0)))[axis])
     except ValueError as error:
-        raise SketchError(f"in {name}, {error}.", stroke=element.id or f"<{element.local_name}>", remedy=REDRAW) from None
+        raise at(element, name, error) from None
+
+
+def at(element: Element, name: str, error: Exception) -> SketchError:
+    """The error for an attribute of one element that can't be read."""
+    return SketchError(f"in {name}, {error}.", stroke=element.get("id") or f"<{local_name(element.tag)}>", remedy=REDRAW)
