@@ -30,13 +30,14 @@ def sketch_graph(sketch: Sketch, *, crown: str = "auto") -> SketchGraph:
         raise OptionError(f"crown={crown!r}; 'auto' or 'off' was expected.", remedy="Leave it out for 'auto'.")
     parts = sort_strokes(sketch)
     _check(sketch, parts)
-    cleaned = clean(parts.lines, under_crown=bool(parts.crowns))
+    cleaned = clean(parts.lines)
     height = extent(cleaned.lines)
     hanging = attach(cleaned.lines)
     limbs = limbs_of(cleaned.lines, hanging)
     table, rows = columns(limbs, height)
     ids = tuple(stroke.id for stroke in sketch.strokes)
     attachments, doubts = describe(cleaned, hanging, limbs, rows, table["xy"], ids, height)
+    attachments = (*attachments, *(_other_side(middle, other, attachments) for middle, other in parts.sides))
     roles = _with_dots(sketch, parts.roles, attachments)
     joined = {a.stroke for a in attachments}
     return SketchGraph(
@@ -68,6 +69,12 @@ def _with_dots(sketch: Sketch, roles: tuple[Role, ...], attachments: tuple[Attac
     known = {role.stroke for role in roles} | {a.stroke for a in attachments}
     dots = [Role(s.id, "dot", "too small to be a branch, or without any length") for s in sketch.strokes if s.id not in known]
     return (*roles, *dots)
+
+
+def _other_side(middle: Line, other: Line, attachments: tuple[Attachment, ...]) -> Attachment:
+    """The line of the report for a stroke that is one side of a limb: it hangs where the limb does."""
+    place = next((a.point for a in attachments if a.stroke == middle.id), tuple(middle.points[0].tolist()))
+    return Attachment(other.id, middle.id, place, 0.0, 0.0, (), "the other side of a limb drawn as an outline")
 
 
 def _apart(sketch: Sketch, role: Role) -> Attachment:

@@ -5,7 +5,7 @@ from jaxtyping import Int
 
 from sketchtree.axes import NULL
 from sketchtree.sketch.joining.attach import FORBIDDEN, Hanging
-from sketchtree.sketch.joining.cleaning import AGAIN_OVER, OTHER_SIDE, Cleaned
+from sketchtree.sketch.joining.cleaning import AGAIN_OVER, Cleaned
 from sketchtree.sketch.graph import Attachment
 from sketchtree.sketch.joining.joints import Limb
 from sketchtree.sketch.joining.lines import Line
@@ -34,7 +34,7 @@ def describe(
         attachments.append(Attachment(line.id, stroke_ids[owner], (x, y), 0.0, 0.0, (), why))
     rank = {stroke_id: k for k, stroke_id in enumerate(stroke_ids)}
     attachments.sort(key=lambda a: rank[a.stroke])
-    return tuple(attachments), _doubts(attachments, cleaned, stroke_ids, height)
+    return tuple(attachments), _doubts(attachments, cleaned, height)
 
 
 def _foot_rows(count: int, limbs: list[Limb], rows: Rows) -> Int[np.ndarray, " line"]:
@@ -65,7 +65,7 @@ def _reason(reason: str, gap: float, height: float) -> str:
     return f"{reason}, {'far off: the most likely of its neighbours' if far else 'nearest and at a likely angle'}"
 
 
-def _doubts(attachments: list[Attachment], cleaned: Cleaned, stroke_ids: tuple[str, ...], height: float) -> list[str]:
+def _doubts(attachments: list[Attachment], cleaned: Cleaned, height: float) -> list[str]:
     far = [a for a in attachments if a.parent is not None and a.gap > DOUBTFUL * height]
     warnings = [
         f"Stroke {a.stroke} starts {100 * a.gap / height:.0f} % of the drawing's height away from "
@@ -79,9 +79,6 @@ def _doubts(attachments: list[Attachment], cleaned: Cleaned, stroke_ids: tuple[s
     again = list(dict.fromkeys(line.id for line, _, why in cleaned.merged if why == AGAIN_OVER))
     if again:
         warnings.append(f"{len(again)} stroke(s) drawn over others were merged with them (strokes {_named(again)}).")
-    if any(why == OTHER_SIDE for *_, why in cleaned.merged):
-        side, owner, _ = next(entry for entry in cleaned.merged if entry[2] == OTHER_SIDE)
-        warnings.append(f"Strokes {stroke_ids[owner]} and {side.id} were taken for the two sides of one trunk.")
     return warnings
 
 

@@ -13,7 +13,6 @@ from jaxtyping import Float, Int
 
 from sketchtree.sketch.joining.lines import Line, angle_between, extent, turning
 from sketchtree.sketch.joining.tremor import STILL, without_tremor
-from sketchtree.sketch.roles.trunk_edges import trunk_of_edges
 
 DOT = 0.005  # of H: a smaller stroke is a dot
 INK = 0.0012  # of H: a stroke nowhere farther than this from another is part of it
@@ -23,7 +22,6 @@ REPEAT = (0.003, 0.06, 0.012)  # of H, of its length, of H: how far a repeated s
 SLANT = 0.15  # never farther than this part of its own length: a twig leaves its parent at 9° or more
 FOLD = 0.03  # of H: going back over a shorter piece is a tremor
 AGAIN_OVER = "drawn over that stroke, merged with it"
-OTHER_SIDE = "the other side of a trunk drawn as an outline"
 CUSP = np.radians(150)  # a sharper turn is a change of mind
 
 
@@ -36,9 +34,8 @@ class Cleaned:
     dots: tuple[str, ...]  # ids
 
 
-def clean(lines: list[Line], *, under_crown: bool = False) -> Cleaned:
-    """Drop dots, cut strokes that turn back on themselves, still the tremor, merge repeated ones and
-    the two sides of a trunk (`under_crown`: a crown was drawn, which makes that likelier)."""
+def clean(lines: list[Line]) -> Cleaned:
+    """Drop dots, cut strokes that turn back on themselves, still the tremor, merge repeated ones."""
     height = extent(lines)
     kept = [line for line in lines if float(np.ptp(line.points, axis=0).max()) >= DOT * height]
     kept_ids = {line.id for line in kept}
@@ -48,9 +45,7 @@ def clean(lines: list[Line], *, under_crown: bool = False) -> Cleaned:
     ordered = sorted((_upward(line) for line in unfolded), key=lambda line: _rank(line, height))
     owner = _owners(ordered, height)
     merged = [(line, ordered[o].row, AGAIN_OVER) for line, o in zip(ordered, owner, strict=True) if o >= 0]
-    own, sides = trunk_of_edges([line for line, o in zip(ordered, owner, strict=True) if o < 0], under_crown)
-    if sides and sides[1].row != sides[0].row:
-        merged.append((sides[1], sides[0].row, OTHER_SIDE))
+    own = [line for line, o in zip(ordered, owner, strict=True) if o < 0]
     return Cleaned(own, tuple(merged), dots)
 
 

@@ -25,6 +25,7 @@ from sketchtree.sketch.roles.measures import Measures
 from sketchtree.sketch.roles.named import role_in_names
 from sketchtree.sketch.roles.page import cuts_of, frames
 from sketchtree.sketch.roles.shadow import shadows
+from sketchtree.sketch.roles.trunk_edges import Trunks, trunks_of_edges
 from sketchtree.sketch.roles.wood import wood_lines
 from sketchtree.sketch.strokes import Sketch, StrokeKind
 
@@ -35,6 +36,7 @@ class Sorted:
 
     lines: list[Line]  # of the wood above the ground
     roots: list[Line]  # of the wood below it
+    sides: list[tuple[Line, Line]]  # (middle, the other side) of limbs that two strokes drew; the middle is in `lines`
     measured: bool  # the lines' widths are the limbs' own thickness; no pen set them
     crowns: tuple[Float[np.ndarray, "point 2"], ...]  # closed outlines, first point not repeated
     obstacles: tuple[Float[np.ndarray, "point 2"], ...]
@@ -61,6 +63,12 @@ class _Table:
             self.found[one.row] = one
             self.wood[one.row] = self.free[one.row] = False
 
+    def add_bark(self, trunks: Trunks) -> None:
+        """Strokes of which nothing is left but lines between the sides of a trunk."""
+        kept = {line.row for line in trunks.lines}
+        bark = {line.row for line in trunks.bark} - kept
+        self.take([Found(row, "hatching", "drawn between the two sides of a trunk", (("branch", 0.6),)) for row in sorted(bark)])
+
     def rows(self, role: str) -> list[int]:
         """The strokes known to be this."""
         return sorted(row for row, one in self.found.items() if one.role == role)
@@ -69,7 +77,7 @@ class _Table:
 def sort_strokes(sketch: Sketch) -> Sorted:
     """What every stroke of the sketch is. Neither order nor direction of the strokes matters."""
     if not sketch.strokes:
-        return Sorted([], [], False, (), (), (), (), (), ())
+        return Sorted([], [], [], False, (), (), (), (), (), ())
     table = _named(sketch)
     table.take(frames(table.m, table.free))
     table.take(ground_lines(table.m, table.free, table.wood))
@@ -79,7 +87,9 @@ def sort_strokes(sketch: Sketch) -> Sorted:
     _find_crowns(table)
     _find_leaves(table)
     wood = wood_lines(sketch.strokes, np.flatnonzero(table.wood).tolist(), table.legs)
-    lines = wood.lines
+    trunks = trunks_of_edges(wood.lines, table.outlines)
+    lines, sides = trunks.lines, [*wood.sides, *trunks.sides]
+    table.add_bark(trunks)
     stem_warnings = []
     if not lines and table.outlines:
         lines, stem_warnings = implied_stems(table.outlines, ground, *_owner(table))
@@ -88,14 +98,22 @@ def sort_strokes(sketch: Sketch) -> Sorted:
     return Sorted(
         lines=lines,
         roots=[],
+        sides=sides,
         measured=wood.measured,
         crowns=tuple(table.outlines),
         obstacles=tuple(outline(sketch.strokes[row].points) for row in table.rows("obstacle") if has_area(sketch.strokes[row])),
         ground=tuple(ground),
         roles=roles,
         cuts=cuts,
-        warnings=(*role_warnings(roles), *stem_warnings, *cut_warnings),
+        warnings=(*role_warnings(roles), *_side_warnings(wood.sides, "limb"), *_side_warnings(trunks.sides, "trunk"), *stem_warnings, *cut_warnings),
     )
+
+
+def _side_warnings(sides: list[tuple[Line, Line]], what: str) -> list[str]:
+    pairs = [f"{middle.id} and {other.id}" for middle, other in sides]
+    if len(pairs) > 2:
+        return [f"{len(pairs)} pairs of strokes ({', '.join(pairs[:3])}{', …' if len(pairs) > 3 else ''}) were taken for the two sides of one {what} each."]
+    return [f"Strokes {pair} were taken for the two sides of one {what}." for pair in pairs]
 
 
 def _named(sketch: Sketch) -> _Table:
