@@ -86,7 +86,7 @@ def _cut_line(points: Points, ring: Points, closed: bool, region: Area, slack: f
     near = region.buffer(slack, join_style="mitre") if slack > 0 else region
     if len(ring) == 1:
         return [(points, closed)] if shapely.intersects_xy(near, *ring[0]) else []
-    ring, number = _with_crossings(ring, near.boundary)
+    ring = _with_crossings(ring, near.boundary)
     middle = (ring[:-1] + ring[1:]) / 2
     kept = shapely.intersects_xy(near, middle[:, 0], middle[:, 1])
     if kept.all():
@@ -98,8 +98,8 @@ def _cut_line(points: Points, ring: Points, closed: bool, region: Area, slack: f
     return [(ring[first : last + 1], False) for first, last in zip(edges[::2], edges[1::2], strict=True)]
 
 
-def _with_crossings(ring: Points, border) -> tuple[Points, int]:
-    """The polyline with a point at every crossing of the border put in; and how many."""
+def _with_crossings(ring: Points, border) -> Points:
+    """The polyline with a point at every crossing of the border put in."""
     steps = shapely.linestrings(np.stack([ring[:-1], ring[1:]], 1))
     shapely.prepare(border)
     crossing = np.flatnonzero(shapely.intersects(border, steps))
@@ -110,4 +110,4 @@ def _with_crossings(ring: Points, border) -> tuple[Points, int]:
     new = (along > 0) & (along < whole)
     hits, step, along = hits[new], step[new], along[new]
     order = np.lexsort([along, step])
-    return np.insert(ring, step[order] + 1, hits[order], axis=0), len(order)
+    return np.insert(ring, step[order] + 1, hits[order], axis=0)

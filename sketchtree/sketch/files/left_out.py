@@ -2,11 +2,15 @@
 
 from collections import Counter
 
-_PLURAL = {"a hidden shape": "{} hidden shapes", "a text": "{} texts", "a picture": "{} pictures", "a shape outside its clip": "{} shapes outside their clips"}
-_PLURAL |= {
+_PLURAL = {
+    "a hidden shape": "{} hidden shapes",
+    "a text": "{} texts",
+    "a picture": "{} pictures",
+    "a shape outside its clip": "{} shapes outside their clips",
     "a shape without fill or stroke": "{} shapes without fill or stroke",
     "a clone of nothing": "{} clones of nothing",
     "an embedded page": "{} embedded pages",
+    "a spoilt record": "{} spoilt records",
 }
 
 

@@ -11,7 +11,7 @@ from sketchtree.sketch.files.document import INKSCAPE, SERIF, local_name
 from sketchtree.sketch.files.labels import is_automatic, meaning, plain_name
 from sketchtree.sketch.strokes import StrokeKind
 
-_LABEL, _SERIF = f"{{{INKSCAPE}}}label", f"{{{SERIF}}}id"
+LABEL, _SERIF = f"{{{INKSCAPE}}}label", f"{{{SERIF}}}id"
 
 
 class Naming(NamedTuple):
@@ -43,4 +43,4 @@ def _names(element: Element) -> tuple[tuple[str | None, ...], str | None, str | 
     title = None
     if len(element) and local_name(element[0].tag) == "title":
         title = (element[0].text or "").strip() or None
-    return (attributes.get(_LABEL), attributes.get(_SERIF), attributes.get("data-name"), title), attributes.get("id"), attributes.get("class")
+    return (attributes.get(LABEL), attributes.get(_SERIF), attributes.get("data-name"), title), attributes.get("id"), attributes.get("class")

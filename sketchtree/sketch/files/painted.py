@@ -20,11 +20,12 @@ from sketchtree.sketch.files.clips import Clips, rectangle
 from sketchtree.sketch.files.css import GEOMETRY, Cascade, Style
 from sketchtree.sketch.files.document import DEEPEST, XLINK, local_name, too_deep
 from sketchtree.sketch.files.left_out import LeftOut
-from sketchtree.sketch.files.names import Naming
+from sketchtree.sketch.files.names import LABEL, Naming
 from sketchtree.sketch.files.outlines import SHAPES, flatten, subpaths
 from sketchtree.sketch.files.paint import fraction, is_paint, luminance
 from sketchtree.sketch.files.path_data import Subpath
 from sketchtree.sketch.files.path_effects import Spine, spine
+from sketchtree.sketch.files.svg_record import STROKE, StrokeRecord, polyline, stroke_record
 from sketchtree.sketch.files.transforms import IDENTITY, Matrix, matrix_of, translation
 from sketchtree.sketch.files.viewport import Box, at, nested, page, user_length
 
@@ -50,6 +51,10 @@ class Shape:
     clip: Area | None  # where it shows; None: everywhere
     spine: Spine | None  # of a line thickened by an effect; widths already in root units
     matrix: Matrix  # from its own coordinates to the root's
+    group: str | None  # what the group around it is called
+    pen: str  # its line width as the style says it
+    record: StrokeRecord | None  # of a stroke that we wrote
+    drawn: tuple[np.ndarray, bool] | None  # (points, closed) of such a stroke, in root units, to the last bit; `paths` is then empty
 
 
 class _Scope(NamedTuple):
@@ -62,6 +67,7 @@ class _Scope(NamedTuple):
     uses: tuple[str, ...] = ()
     clip: Area | None = None
     ghost: bool = False  # geometry counts, paint does not: the shapes of a clip path
+    group: str | None = None  # the name of the group around
     given: Mapping[str, str] = MappingProxyType({})  # width and height of the `use` that draws this symbol
 
 
@@ -168,7 +174,8 @@ class Walk:
         if "clip-path" in style or "mask" in style:
             part = self.clips.region(element, style, matrix)
             clip = part if clip is None else clip if part is None else clip & part
-        inner = _Scope(matrix, style, naming, scope.depth + 1, scope.uses, clip, scope.ghost)
+        group = scope.group if tag in SHAPES or is_root else element.get(LABEL) or element.get("id")
+        inner = _Scope(matrix, style, naming, scope.depth + 1, scope.uses, clip, scope.ghost, group)
         if tag in SHAPES:
             self._shape(element, inner, style)
         elif tag == "use":
@@ -226,11 +233,44 @@ class Walk:
             knots = None if under.knots is None else under.knots * (1.0, scale)
             under = Spine(under.data, knots, None if under.width is None else under.width * scale)
         filled = width <= 0 and under is None
-        paths = [transformed(path, scope.matrix) for path in self._geometry(element, style, under)]
-        self._count(len(paths))
-        rule = style.get("clip-rule" if scope.ghost else "fill-rule", "nonzero")
-        shown = None if filled else under.width if under is not None else width
-        self._found.append(Shape(element, paths, scope.naming, shown, filled, rule, fill, stroke, scope.clip, under, scope.matrix))
+        record, drawn = self._own(element, style, scope)
+        paths = [] if drawn else [transformed(path, scope.matrix) for path in self._geometry(element, style, under)]
+        self._count(1 if drawn else len(paths))
+        self._found.append(
+            Shape(
+                element,
+                paths,
+                scope.naming,
+                width=None if filled else under.width if under is not None else width,
+                filled=filled,
+                rule=style.get("clip-rule" if scope.ghost else "fill-rule", "nonzero"),
+                fill=fill,
+                line=stroke,
+                clip=scope.clip,
+                spine=under,
+                matrix=scope.matrix,
+                group=scope.group,
+                pen=style.get("stroke-width", "1"),
+                record=record,
+                drawn=drawn,
+            )
+        )
+
+    def _own(self, element: Element, style: Style, scope: _Scope) -> tuple[StrokeRecord | None, tuple[np.ndarray, bool] | None]:
+        """(record, points) of a stroke that we wrote, as far as nobody has redrawn it."""
+        if scope.ghost or STROKE not in element.attrib:
+            return None, None
+        try:
+            record = stroke_record(element)
+        except ValueError:
+            self.left_out.add("a spoilt record")
+            return None, None
+        drawn = polyline(element.get("d", "")) if local_name(element.tag) == "path" and "d" not in style else None
+        if drawn is not None and scope.matrix is not IDENTITY:
+            drawn = drawn[0] @ scope.matrix[:2, :2].T + scope.matrix[:2, 2], drawn[1]
+        if drawn is not None and not np.isfinite(drawn[0]).all():
+            raise at(element, self.name, ValueError("a coordinate is not a finite number"))
+        return record, drawn
 
     def _paints(self, element: Element, style: Style) -> tuple[tuple[float, float] | None, tuple[float, float] | None]:
         """(luminance, opacity) of the line's and of the area's paint; None where there is none."""
@@ -282,7 +322,7 @@ def transformed(path: Subpath, matrix: Matrix) -> Subpath:
 
 def extent_of(paths: list[Subpath]) -> float:
     """The larger side of the bounding box of all control points."""
-    points = np.concatenate([p.start[None] for p in paths] + [p.cubics.reshape(-1, 2) for p in paths])
+    points = np.concatenate([np.zeros((0, 2))] + [p.start[None] for p in paths] + [p.cubics.reshape(-1, 2) for p in paths])
     finite = points[np.isfinite(points).all(1)]
     return float(np.ptp(finite, axis=0).max()) if len(finite) else 0.0
 

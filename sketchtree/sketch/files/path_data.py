@@ -15,7 +15,7 @@ from jaxtyping import Float
 
 _RUN = re.compile(r"([MmZzLlHhVvCcSsQqTtAa])([^MmZzLlHhVvCcSsQqTtAa]*)")
 _NUMBER = re.compile(r"[-+]?(?:\d+\.?\d*|\.\d+)(?:[eE][-+]?\d+)?")
-_ARC = re.compile(r"[\s,]*({0})[\s,]*({0})[\s,]*({0})[\s,]*([01])[\s,]*([01])[\s,]*({0})[\s,]*({0})".format(_NUMBER.pattern))
+_ARC = re.compile(r"[\s,]*".join(["", *[f"({_NUMBER.pattern})"] * 3, "([01])", "([01])", *[f"({_NUMBER.pattern})"] * 2]))
 _SIZE = {"M": 2, "L": 2, "H": 1, "V": 1, "C": 6, "S": 4, "Q": 4, "T": 2}
 _MISSING = "its path data can't be understood (a number is missing)"
 _NO_MOVE = "its path data do not begin with a move"
@@ -220,10 +220,10 @@ def _quadratic_steps(pen: _Pen, steps):
 
 
 def _smooth_quadratic_steps(pen: _Pen, steps):
-    arms, arm, here = [], pen._mirrored("QT"), pen.here
+    arms, arm = [], pen._mirrored("QT")
     for end in steps[:, 0]:
         arms.append(arm)
-        arm, here = 2 * end - arm, end
+        arm = 2 * end - arm
     return _quadratic_steps(pen, np.stack([np.array(arms), steps[:, 0]], 1))
 
 

@@ -1,10 +1,10 @@
 """Our own sketch file: strokes as points, with pressure and time where the pen gave them.
 
-    {"sketchtree": 1, "units": "px", "y": "down", "view_deg": 0,
-     "strokes": [{"id": "trunk", "kind": "branch", "points": [[x, y, pressure?, t_ms?], ...],
-                  "width": 3, "closed": false, "filled": false, "labelled": false}, ...]}
+    {"sketchtree": 1, "units": "px", "y": "down", "view_deg": 0, "page": [left, top, right, bottom],
+     "strokes": [{"id": "trunk", "kind": "branch", "points": [[x, y, pressure?, t_ms?], ...], "width": 3, "layer": "tree",
+                  "closed": false, "filled": false, "labelled": false, "wood": false}, ...]}
 
-A pen without pressure gives `[x, y, null, t_ms]`. Only `sketchtree` and every stroke's `points` are required. A kind
+`page` has the file's own y: its edges as a reader sees them. `wood`: the width is the limb's own thickness. A pen without pressure gives `[x, y, null, t_ms]`. Only `sketchtree` and every stroke's `points` are required. A kind
 that is written out counts as labelled unless `labelled` says otherwise. What is written reads back as the same sketch, bit for bit.
 """
 
@@ -14,37 +14,34 @@ from typing import Any
 import numpy as np
 
 from sketchtree.errors import SketchError
+from sketchtree.sketch.files.json_text import parse_json
+from sketchtree.sketch.files.limits import MAX_STROKES, check_strokes
 from sketchtree.sketch.strokes import Sketch, Stroke, StrokeKind
 
 VERSION = 1
 _REMEDY = "Compare it with the sketch JSON described in docs/formats.md."
 
 
-def read_sketch_json(data: bytes, name: str, *, max_strokes: int = 20_000) -> Sketch:
+def read_sketch_json(data: bytes, name: str, *, max_strokes: int = MAX_STROKES) -> Sketch:
     """A sketch from the bytes of a JSON file. Raises SketchError naming the stroke at fault."""
-    try:
-        document = json.loads(data)
-    except (ValueError, RecursionError) as error:
-        raise SketchError(
-            f"{name} is not one well-formed JSON document ({error}); it may be cut short.", remedy="Save the sketch again."
-        ) from None
+    document = parse_json(data, name)
     _check_head(document, name)
     rows = document["strokes"]
-    if len(rows) > max_strokes:
-        raise SketchError(
-            f"{name} holds {len(rows)} strokes, more than {max_strokes}.",
-            remedy="Draw fewer strokes, or raise the limit with --max-strokes.",
-        )
+    check_strokes(len(rows), name, max_strokes)
     up = document.get("y", "down") == "up"
     strokes = tuple(_stroke(row, k, name, up) for k, row in enumerate(rows))
     _check_ids(strokes, name)
-    units = document.get("units", "px")
-    return Sketch(strokes, name=name, units=units, view_deg=float(document.get("view_deg", 0.0)))
+    edges = document.get("page")
+    page = None if edges is None else _page([float(edge) for edge in edges], up)
+    return Sketch(strokes, name=name, units=document.get("units", "px"), view_deg=float(document.get("view_deg", 0.0)), page=page)
 
 
 def sketch_json(sketch: Sketch) -> str:
     """The text of a sketch file, y up, one stroke a line."""
-    head = {"sketchtree": VERSION, "units": sketch.units, "y": "up", "view_deg": sketch.view_deg}
+    head = {"sketchtree": VERSION, "units": sketch.units, "y": "up", "view_deg": float(sketch.view_deg)}
+    if sketch.page is not None:
+        left, bottom, right, top = (float(edge) for edge in sketch.page)
+        head["page"] = [left, top, right, bottom]
     rows = [json.dumps(_row(stroke)) for stroke in sketch.strokes]
     return json.dumps(head)[:-1] + ', "strokes": [\n ' + ",\n ".join(rows) + "\n]}\n"
 
@@ -70,6 +67,17 @@ def _check_head(document: Any, name: str) -> None:
         raise SketchError(f"{name} has 'view_deg': {document['view_deg']!r}; degrees were expected.", remedy=_REMEDY)
 
 
+    page = document.get("page")
+    if page is not None and not (isinstance(page, list) and len(page) == 4 and all(map(_is_number, page)) and np.isfinite(page).all()):
+        raise SketchError(f"{name} has 'page': {json.dumps(page)[:60]}; [left, top, right, bottom] was expected.", remedy=_REMEDY)
+
+
+def _page(edges: list[float], up: bool) -> tuple[float, float, float, float]:
+    """(left, bottom, right, top), y up, of the edges as the file has them."""
+    left, top, right, bottom = edges
+    return (left, bottom, right, top) if up else (left, 0.0 - bottom, right, 0.0 - top)
+
+
 def _stroke(row: Any, k: int, name: str, up: bool) -> Stroke:
     if not isinstance(row, dict):
         raise SketchError(f"in {name}, it is not an object.", stroke=k + 1, remedy=_REMEDY)
@@ -81,7 +89,10 @@ def _stroke(row: Any, k: int, name: str, up: bool) -> Stroke:
     width = row.get("width")
     if width is not None and not (_is_number(width) and width >= 0):
         raise SketchError(f"in {name}, its width is {width!r}; a number of at least 0 was expected.", stroke=stroke_id, remedy=_REMEDY)
-    flags = {flag: row.get(flag, flag == "labelled" and kind is not None) for flag in ("closed", "filled", "labelled")}
+    layer = row.get("layer")
+    if layer is not None and not isinstance(layer, str):
+        raise SketchError(f"in {name}, its layer is {layer!r}; a name was expected.", stroke=stroke_id, remedy=_REMEDY)
+    flags = {flag: row.get(flag, flag == "labelled" and kind is not None) for flag in ("closed", "filled", "labelled", "wood")}
     wrong = next((flag for flag, value in flags.items() if not isinstance(value, bool)), None)
     if wrong:
         raise SketchError(f"in {name}, its '{wrong}' is {flags[wrong]!r}; true or false was expected.", stroke=stroke_id, remedy=_REMEDY)
@@ -93,6 +104,7 @@ def _stroke(row: Any, k: int, name: str, up: bool) -> Stroke:
             width=None if width is None else float(width),
             pressure=columns[:, 2] if columns.shape[1] > 2 and not _without_pressure(columns) else None,
             time=columns[:, 3] if columns.shape[1] > 3 else None,
+            layer=layer,
             **flags,
         )
     except SketchError as error:
@@ -104,15 +116,8 @@ def _columns(points: Any, stroke_id: str, name: str) -> np.ndarray:
     if not isinstance(points, list) or not all(isinstance(point, list) for point in points):
         raise SketchError(f"in {name}, its points are not a list of [x, y] rows.", stroke=stroke_id, remedy=_REMEDY)
     size = len(points[0]) if points else 2
-    for k, point in enumerate(points):
-        numbers = [value for j, value in enumerate(point) if not (value is None and j == 2 and size == 4)]
-        if len(point) != size or not 2 <= size <= 4 or not all(map(_is_number, numbers)):
-            raise SketchError(
-                f"in {name}, point {k + 1} is {json.dumps(point)[:60]}; [x, y], [x, y, pressure] or "
-                "[x, y, pressure, t_ms] was expected, the same for all its points.",
-                stroke=stroke_id,
-                remedy=_REMEDY,
-            )
+    if not (2 <= size <= 4 and all(len(point) == size for point in points) and _all_numbers(points, size)):
+        raise _bad_point(points, size, stroke_id, name)
     columns = np.array(points, float).reshape(-1, size)
     if not np.isfinite(np.delete(columns, 2, axis=1) if _without_pressure(columns) else columns).all():
         raise SketchError(
@@ -121,6 +126,26 @@ def _columns(points: Any, stroke_id: str, name: str) -> np.ndarray:
             remedy="Export the drawing again, or delete that stroke.",
         )
     return columns
+
+
+def _all_numbers(points: list[list], size: int) -> bool:
+    """Whether every value is a number; a pressure, where a time follows, may be null."""
+    kinds = {type(value) for point in points for value in point}
+    if kinds <= {float}:
+        return True
+    return all(_is_number(value) or (value is None and j == 2 and size == 4) for point in points for j, value in enumerate(point))
+
+
+def _bad_point(points: list[list], size: int, stroke_id: str, name: str) -> SketchError:
+    """The error that names the first point that is not as it should be."""
+    good = (2 <= size <= 4 and len(point) == size and _all_numbers([point], size) for point in points)
+    k = next(k for k, fits in enumerate(good) if not fits)
+    return SketchError(
+        f"in {name}, point {k + 1} is {json.dumps(points[k])[:60]}; [x, y], [x, y, pressure] or "
+        "[x, y, pressure, t_ms] was expected, the same for all its points.",
+        stroke=stroke_id,
+        remedy=_REMEDY,
+    )
 
 
 def _without_pressure(columns: np.ndarray) -> bool:
@@ -142,9 +167,10 @@ def _row(stroke: Stroke) -> dict[str, Any]:
         columns.append(np.full((len(stroke.points), 1), None) if stroke.pressure is None else _column(stroke.pressure))
     if stroke.time is not None:
         columns.append(_column(stroke.time))
-    row = {"id": stroke.id, "kind": str(stroke.kind), "labelled": stroke.labelled, "points": np.hstack(columns).tolist()}
-    row |= {flag: True for flag in ("closed", "filled") if getattr(stroke, flag)}
-    return row | ({} if stroke.width is None else {"width": stroke.width})
+    row = {"id": stroke.id, "kind": str(stroke.kind), "labelled": bool(stroke.labelled), "points": np.hstack(columns).tolist()}
+    row |= {flag: True for flag in ("closed", "filled", "wood") if getattr(stroke, flag)}
+    row |= {} if stroke.layer is None else {"layer": stroke.layer}
+    return row | ({} if stroke.width is None else {"width": float(stroke.width)})
 
 
 def _column(values) -> np.ndarray:

@@ -4,7 +4,12 @@ The document is walked as a browser paints it (`painted`), curves become polylin
 viewBox is not mapped to the viewport, so that a point of the file keeps its numbers (y negated).
 """
 
+import dataclasses
+import math
+from typing import NamedTuple
+
 import numpy as np
+from jaxtyping import Float, Int
 
 from sketchtree.errors import SketchError
 from sketchtree.sketch.files.areas import inside
@@ -13,6 +18,7 @@ from sketchtree.sketch.files.ids import unique
 from sketchtree.sketch.files.limits import MAX_MB, MAX_STROKES
 from sketchtree.sketch.files.outlines import flatten
 from sketchtree.sketch.files.painted import Shape, Walk, extent_of
+from sketchtree.sketch.files.svg_record import restored, sketch_record
 from sketchtree.sketch.strokes import Sketch, Stroke, StrokeKind
 
 FLATNESS = 5e-4  # how far a flattened curve may lie from the true one, of the drawing's size
@@ -20,7 +26,7 @@ _PAGE = 0.9  # of the page's width and height, from which a painted rectangle is
 
 
 def read_svg(data: bytes, name: str, *, max_strokes: int = MAX_STROKES, max_mb: float = MAX_MB) -> Sketch:
-    """The strokes of an SVG file, in document order. Raises SketchError."""
+    """The strokes of an SVG file, in document order (in the sketch's own order for a file of ours). Raises SketchError."""
     root = parse_xml(data, name, max_mb=max_mb)
     if local_name(root.tag) != "svg":
         tag = root.tag.rpartition("}")[2]
@@ -29,47 +35,71 @@ def read_svg(data: bytes, name: str, *, max_strokes: int = MAX_STROKES, max_mb: 
         walk = Walk(root, name, max_strokes)
         strokes, warnings = _strokes(walk.shapes(), walk)
     x, y, width, height = walk.box
-    paper = (x, 0.0 - y - height, x + width, 0.0 - y) if walk.has_page else None
-    return Sketch(strokes, name=name, units="px", page=paper, warnings=walk.warnings() + warnings)
+    sketch = Sketch(strokes, name=name, page=(x, 0.0 - y - height, x + width, 0.0 - y) if walk.has_page else None)
+    try:
+        record = sketch_record(root)
+    except ValueError:
+        record = None
+        walk.left_out.add("a spoilt record")
+    if record is not None:
+        kept = record.page if root.get("viewBox") == record.view_box else sketch.page
+        sketch = dataclasses.replace(sketch, units=record.units, view_deg=record.view_deg, page=kept)
+    return dataclasses.replace(sketch, warnings=walk.warnings() + warnings)
 
 
 def _strokes(shapes: list[Shape], walk: Walk) -> tuple[tuple[Stroke, ...], tuple[str, ...]]:
     """Flatten every shape in one go, cut what is clipped, and name the strokes."""
-    lines = _flattened(shapes)
-    strokes: list[Stroke] = []
-    warnings: list[str] = []
-    used: set[str] = set()
-    cut = 0
-    for number, (shape, parts) in enumerate(zip(shapes, lines, strict=True), 1):
-        if shape.clip is not None:
-            whole = parts
-            parts = [(line, closed, press) for drawn in whole for line, closed, press in _clipped(shape, *drawn)]
-            if not parts and whole:
-                walk.left_out.add("a shape outside its clip")
-            cut += len(parts) > 0 and any(a is not b for (a, *_), (b, *_) in zip(parts, whole, strict=False)) or 0 < len(parts) != len(whole)
+    strokes: list[tuple[float, Stroke]] = []  # with the row each had in the sketch that was written
+    papers: list[str] = []
+    used = {shape.record.id for shape in shapes if _keeps_id(shape)}
+    cut = redrawn = 0
+    for number, (shape, whole) in enumerate(zip(shapes, _flattened(shapes), strict=True), 1):
+        parts = _shown(shape, whole)
+        if shape.clip is not None and not _same(parts, whole):
+            cut += bool(parts)
+            walk.left_out.add("a shape outside its clip", int(not parts))
         own = shape.element.get("id")
-        for k, (line, closed, press) in enumerate(parts):
-            if shape.filled and shape.naming.kind is None and _is_page(line, walk.view):
-                warnings.append(f"A filled shape over the whole page ({own or 'no id'}) was taken for the paper and left out.")
+        for k, part in enumerate(parts):
+            if shape.filled and shape.record is None and shape.naming.kind is None and _is_page(part.points, walk.view):
+                papers.append(own or "no id")
                 continue
-            stroke_id = unique((own or f"stroke-{number}") + (f"-{k + 1}" if k else ""), used)
-            strokes.append(_stroke(stroke_id, shape, line, closed, press, walk.name))
+            if k == 0 and _keeps_id(shape):
+                stroke_id = shape.record.id
+            else:
+                stroke_id = unique((own or f"stroke-{number}") + (f"-{k + 1}" if k else ""), used)
+            stroke = _stroke(stroke_id, shape, part, walk.name)
+            if shape.record is not None:
+                stroke, lost = restored(stroke, shape)
+                redrawn += lost
+            strokes.append((shape.record.row if shape.record else math.inf, stroke))
+    strokes.sort(key=lambda entry: entry[0])
+    warnings = [f"A filled shape over the whole page ({paper}) was taken for the paper and left out." for paper in papers]
     if cut:
         warnings.append(f"{cut} {'shape was' if cut == 1 else 'shapes were'} cut where a clip or mask hides the rest.")
-    return tuple(strokes), tuple(warnings)
+    if redrawn:
+        warnings.append(f"{redrawn} {'stroke has' if redrawn == 1 else 'strokes have'} lost pressure and time: other points were drawn since.")
+    return tuple(stroke for _, stroke in strokes), tuple(warnings)
 
 
-def _stroke(stroke_id: str, shape: Shape, line, closed: bool, press, name: str) -> Stroke:
+class _Part(NamedTuple):
+    """One polyline of a shape, y down."""
+
+    points: Float[np.ndarray, "point 2"]
+    closed: bool
+    pressure: Float[np.ndarray, " point"] | None = None
+
+
+def _stroke(stroke_id: str, shape: Shape, part: _Part, name: str) -> Stroke:
     kind = shape.naming.kind
     try:
         return Stroke(
             stroke_id,
-            line * (1.0, -1.0),
+            part.points * (1.0, -1.0),
             kind or StrokeKind.BRANCH,
             labelled=kind is not None,
-            closed=closed or shape.filled,
+            closed=part.closed or shape.filled,
             width=shape.width,
-            pressure=press,
+            pressure=part.pressure,
             filled=shape.filled,
             layer=shape.naming.layer,
         )
@@ -77,29 +107,32 @@ def _stroke(stroke_id: str, shape: Shape, line, closed: bool, press, name: str) 
         raise SketchError(f"in {name}, {error.message}", stroke=stroke_id, remedy=error.remedy) from None
 
 
-def _flattened(shapes: list[Shape]) -> list[list]:
-    """For every shape its polylines: (points (y down), closed, pressure or None)."""
+def _keeps_id(shape: Shape) -> bool:
+    return shape.record is not None and shape.element.get("id") == shape.record.as_id
+
+
+def _flattened(shapes: list[Shape]) -> list[list[_Part]]:
+    """For every shape its polylines, uncut."""
     paths = [path for shape in shapes for path in shape.paths]
-    if not paths:
-        return [[] for _ in shapes]
-    points, steps = flatten(np.concatenate([path.cubics for path in paths]), FLATNESS * extent_of(paths))
+    pieces = np.concatenate([np.zeros((0, 4, 2)), *(path.cubics for path in paths)])
+    points, steps = flatten(pieces, FLATNESS * extent_of(paths))
     first = np.r_[0, np.cumsum(steps)]
-    ends = np.r_[0, np.cumsum([len(path.cubics) for path in paths])]
+    ends = np.r_[0, np.cumsum([len(path.cubics) for path in paths])].astype(np.int64)
     found, k = [], 0
     for shape in shapes:
-        lines = []
+        parts = [] if shape.drawn is None else [_Part(*shape.drawn)]
         for path in shape.paths:
             line = np.concatenate([path.start[None], points[first[ends[k]] : first[ends[k + 1]]]])
             press = _pressure(shape, steps[ends[k] : ends[k + 1]])
             if path.closed and len(line) > 1 and (line[0] == line[-1]).all():
                 line, press = line[:-1], None if press is None else press[:-1]
-            lines.append((line, path.closed, press))
+            parts.append(_Part(line, path.closed, press))
             k += 1
-        found.append(lines)
+        found.append(parts)
     return found
 
 
-def _pressure(shape: Shape, steps) -> np.ndarray | None:
+def _pressure(shape: Shape, steps: Int[np.ndarray, " piece"]) -> Float[np.ndarray, " point"] | None:
     """The width of a thickened line at its points, of its greatest."""
     if shape.spine is None or shape.spine.knots is None:
         return None
@@ -109,11 +142,19 @@ def _pressure(shape: Shape, steps) -> np.ndarray | None:
     return np.interp(times, *shape.spine.knots.T) / shape.spine.width
 
 
-def _clipped(shape: Shape, line, closed: bool, press) -> list:
-    parts = inside(line, closed or shape.filled, shape.filled, shape.clip)
-    if len(parts) == 1 and parts[0][0] is line:
-        return [(line, closed, press)]
-    return [(part, whole, None) for part, whole in parts]
+def _shown(shape: Shape, whole: list[_Part]) -> list[_Part]:
+    """The parts of a shape that its clip shows; the very same ones where it shows all."""
+    if shape.clip is None:
+        return whole
+    found = []
+    for part in whole:
+        pieces = inside(part.points, part.closed or shape.filled, shape.filled, shape.clip)
+        found += [part] if len(pieces) == 1 and pieces[0][0] is part.points else [_Part(*piece) for piece in pieces]
+    return found
+
+
+def _same(parts: list[_Part], whole: list[_Part]) -> bool:
+    return len(parts) == len(whole) and all(a is b for a, b in zip(parts, whole, strict=True))
 
 
 def _is_page(line, view: tuple[float, float]) -> bool:
