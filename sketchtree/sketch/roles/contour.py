@@ -91,7 +91,7 @@ def _pairs(drawn: list, size: float) -> list[tuple[tuple[int, int], Float[np.nda
 
 def _of_way(rows: tuple[int, ...], way, drawn: list, size: float) -> Contour | None:
     """The crown that these strokes, end to end, draw with some part of them."""
-    if len(way) < 6 or np.ptp(way, axis=0).max() < LARGE * size:
+    if len(way) < 6 or not np.ptp(way, axis=0).max() > LARGE * size:
         return None
     ground = min(float(line[:, 1].min()) for line in drawn) + LEG * size
     others = [drawn[k] for k in range(len(drawn)) if k not in rows]
