@@ -1,6 +1,6 @@
 """Which painted areas are no wood? Green foliage, and the grey shadow under a brown tree.
 
-Areas are solid where a disc of SOLID of the picture fits in; thin green or grey lines stay lines. Solid green is
+Paint is even: an area that is rougher than EVEN is foliage in a photograph, and no paint. Areas are solid where a disc of SOLID of the picture fits in; thin green or grey lines stay lines. Solid green is
 foliage: its outline, limbs that lie over it included, is a crown. Solid grey is a shadow, in a picture whose wood is brown.
 """
 
@@ -11,6 +11,7 @@ from jaxtyping import Bool, Float, UInt8
 from PIL import Image
 from scipy.ndimage import binary_fill_holes, distance_transform_edt, gaussian_filter, label, zoom
 from skimage.measure import find_contours
+from skimage.morphology import convex_hull_image
 
 LOOK = 0.5  # megapixels at which colours are looked at
 GREEN = (65.0, 175.0)  # hue, degrees
@@ -20,6 +21,7 @@ GREYEST = 0.15  # greatest saturation of a grey
 SOLID = 0.012  # of the picture's larger side: radius of the disc that fits into an area
 FRINGE = 0.004  # of the same: how far the blended edge of an area reaches
 LARGE = 0.01  # of the picture: a smaller area is no crown
+EVEN = 0.035  # of full lightness: standard deviation of the tones within an area, from pixel to pixel
 WOOD = 0.003  # of the picture: less brown is no wood
 
 
@@ -43,6 +45,7 @@ def painted_areas(rgb: UInt8[np.ndarray, "row col 3"]) -> Painted | None:
     grey = np.zeros_like(green)
     if brown.mean() >= WOOD:
         grey = _solid((saturation <= GREYEST) & (light < 0.9), SOLID * side)
+    green, grey = (part if _is_even(rgb, part, factor) else np.zeros_like(part) for part in (green, grey))
     if green.mean() < LARGE and not grey.any():
         return None
     crowns = tuple((p + 0.0) * factor for p in _outlines(green, brown, side)) if green.mean() >= LARGE else ()
@@ -62,6 +65,16 @@ def _hues(rgb: UInt8[np.ndarray, "row col 3"]):
     return hue, (high - low) / np.maximum(high, np.float32(1e-6)), high
 
 
+def _is_even(rgb: UInt8[np.ndarray, "row col 3"], area: Bool[np.ndarray, "small_row small_col"], factor: int) -> bool:
+    """Whether neighbouring pixels of an area (seen `factor` times smaller) are of one tone."""
+    if not area.any():
+        return True
+    tone = rgb[::factor, :, 1].astype(np.int16)
+    inside = np.repeat(area[: len(tone)], factor, 1)[:, : tone.shape[1]]
+    step = np.abs(tone[:, 2:] - tone[:, :-2])[: len(inside)][inside[:, 2:] & inside[:, :-2]]
+    return float(np.median(step)) / (255 * 0.6745 * np.sqrt(2)) <= EVEN
+
+
 def _solid(mask: Bool[np.ndarray, "row col"], radius: float) -> Bool[np.ndarray, "row col"]:
     """The parts of a mask into which a disc fits, to where the disc reaches."""
     core = distance_transform_edt(np.pad(mask, 1))[1:-1, 1:-1] > radius
@@ -70,13 +83,21 @@ def _solid(mask: Bool[np.ndarray, "row col"], radius: float) -> Bool[np.ndarray,
     return mask & (distance_transform_edt(~core) <= 1.5 * radius)
 
 
+def _opened(mask: Bool[np.ndarray, "row col"], radius: float) -> Bool[np.ndarray, "row col"]:
+    """The union of all discs of a radius that fit into a mask."""
+    core = distance_transform_edt(np.pad(mask, 1))[1:-1, 1:-1] > radius
+    return distance_transform_edt(~core) <= radius if core.any() else core
+
+
 def _outlines(green, brown, side: int) -> list[Float[np.ndarray, "point 2"]]:
-    """The outlines of the foliage, what lies over it included, the largest first."""
+    """The outlines of the foliage, the wood that lies over it included, the largest first."""
     reach = SOLID * side
+    green = green | (brown & convex_hull_image(green))
     closed = distance_transform_edt(~np.pad(green, 2 * int(reach) + 2)) <= 2 * reach
     closed = distance_transform_edt(closed) > 2 * reach
     pad = 2 * int(reach) + 2
     closed = binary_fill_holes(closed[pad:-pad, pad:-pad])
+    closed = _opened(closed, 3 * reach)  # the trunk below is none of it
     labels, count = label(closed)
     found = []
     for k in range(1, count + 1):

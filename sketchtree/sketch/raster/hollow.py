@@ -4,7 +4,7 @@ The paper that the ink encloses falls into regions. With R the radius of the lar
 its border, a limb has P / 4R ≥ LIMB (a disc has π/2, a square 2). Crossing branches enclose slender regions too, but they
 end in a corner at the foot, and others stand beside them. What tells an outline is the trunk: a slender region low in the drawing,
 about as wide at its foot as further up, with nothing drawn near either side. From it the regions that touch it across one line
-are followed, as long as they are limbs and no wider. Outlines left open, at the foot or at a tip, are closed where
+are followed, as long as they are limbs and narrower. Outlines left open, at the foot or at a tip, are closed where
 two free ends lie side by side.
 """
 
@@ -15,7 +15,7 @@ from jaxtyping import Bool, Float, Int
 from scipy.ndimage import binary_dilation, distance_transform_edt, find_objects, label, maximum
 from skimage.draw import line as pixels_between
 
-from sketchtree.sketch.raster.crossing import heading
+from sketchtree.sketch.raster.crossing import arm
 from sketchtree.sketch.raster.tracing import Web
 
 LIMB = 3.2  # least P / 4R of a limb …
@@ -24,11 +24,13 @@ WIDE = 0.22  # of the drawing's height: a trunk is narrower
 HIGH = 0.15  # of the drawing's height: a trunk is longer
 FOOT = 0.35  # of the drawing's height: the trunk's lower end is lower
 FLAT = 0.55  # of the trunk's middle width: least width at its foot
+UPRIGHT = 1.2  # of its middle width: least height of a trunk
 LEVELS = (0.04, 0.5)  # of the trunk's height: where its foot is measured, and up to where it stands alone
 ALONE = 0.6  # least share of the rows of its lower half in which nothing stands within its own width of it
 THIN = 0.03  # of the drawing's height: a line wider than this is a limb, no outline's
 CAP = 0.18  # of the drawing's height: free ends side by side are no farther apart
 ASIDE = 0.5  # cosine: ends side by side point the same way, across the line between them
+NARROWER = 0.95  # a limb's greatest width, of that of the limb it grows from, at most
 ACROSS = 2.5  # pens: regions on both sides of a line are no farther apart
 
 
@@ -61,7 +63,7 @@ def filled_outlines(mask: Bool[np.ndarray, "row col"], web: Web, pen: float) -> 
         trunk[k] = _is_trunk(labels, boxes[k], k + 1, mask, pen)
     if not trunk.any():
         return None
-    taken = _follow(labels, trunk, limb & (slender >= LIMB) & (width <= width[trunk].max()), pen)
+    taken = _follow(labels, boxes, trunk, np.where(limb & (slender >= LIMB), width, np.inf), width, pen)
     inside = np.r_[False, taken][labels]
     return Filled(mask | inside | (caps & binary_dilation(inside, iterations=2)), inside)
 
@@ -75,7 +77,7 @@ def _is_trunk(labels, box, number: int, mask: Bool[np.ndarray, "row col"], pen: 
     width = inside.sum(1)
     middle = float(np.median(width))
     foot, half = max(1, round(LEVELS[0] * len(rows))), max(2, round(LEVELS[1] * len(rows)))
-    if width[foot] < FLAT * middle:
+    if width[foot] < FLAT * middle or len(rows) < UPRIGHT * middle:
         return False
     alone = 0
     for k in range(half):
@@ -103,7 +105,8 @@ def _caps(shape: tuple[int, int], web: Web, height: float, pen: float) -> Bool[n
     if len(ends) < 2:
         return caps
     place = np.array([web.place[node] for node, _ in ends])
-    out = np.array([-heading(web.edges[key], 0 if web.edges[key].a == node else 1, pen, 0.0) for node, key in ends])
+    arms = [arm(web.edges[key], 0 if web.edges[key].a == node else 1, pen, 0.0) for node, key in ends]
+    out = -np.array([(one.dx, one.dy) for one in arms])
     nearest = _side_by_side(place, out, CAP * height)
     for one, two in enumerate(nearest.tolist()):
         if two > one and nearest[two] == one:
@@ -125,15 +128,16 @@ def _side_by_side(place: Float[np.ndarray, "end 2"], out: Float[np.ndarray, "end
     return chosen
 
 
-def _follow(labels, trunk: Bool[np.ndarray, " region"], limb: Bool[np.ndarray, " region"], pen: float) -> Bool[np.ndarray, " region"]:
-    """The trunk and every limb that touches what is taken across one line."""
-    taken, open_ = trunk.copy(), limb & ~trunk
+def _follow(labels, boxes, trunk: Bool[np.ndarray, " region"], limb: Float[np.ndarray, " region"], width, pen: float):
+    """Mask of the trunk and of every limb (width, ∞ for others) that touches, across one line, something taken that is wider."""
+    taken, waiting = trunk.copy(), np.flatnonzero(trunk).tolist()
     reach = max(1, int(np.ceil(ACROSS * pen)))
-    while open_.any():
-        around = distance_transform_edt(~np.r_[False, taken][labels]) <= reach
-        new = np.isin(np.arange(1, len(taken) + 1), labels[around]) & open_
-        if not new.any():
-            break
-        taken |= new
-        open_ &= ~new
+    while waiting:
+        here = waiting.pop()
+        window = tuple(slice(max(side.start - reach, 0), side.stop + reach) for side in boxes[here])
+        near = distance_transform_edt(labels[window] != here + 1) <= reach
+        beside = np.setdiff1d(labels[window][near], (0, here + 1)) - 1
+        new = beside[(limb[beside] <= NARROWER * width[here]) & ~taken[beside]]
+        taken[new] = True
+        waiting += new.tolist()
     return taken

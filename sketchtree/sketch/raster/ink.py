@@ -22,7 +22,8 @@ COARSE = 1.2  # megapixels of the first look at a large picture …
 SMALL = 0.5  # … and of the look at a small one, enlarged
 MOST = 6.0  # megapixels looked at, at most
 FINE = 5.0  # pixels that a pen's line is wide at least, where the limits allow
-ENLARGED = 4.0  # times the picture is enlarged at most
+ENLARGED = 4.0  # times the picture is enlarged at most, and to ROOMY megapixels
+ROOMY = 2.5
 HIGH, LOW = 6.0, 3.5  # thresholds, in σ …
 HIGH_PART, LOW_PART = 0.5, 0.25  # … and of D
 EDGE = 0.45  # of the darkest d nearby
@@ -50,7 +51,7 @@ def find_ink(dark: Darkness) -> Ink | None:
     if ink is None:
         return None
     wanted = ink.scale * min(1.0, ink.pen / FINE)
-    finest = max(float(np.sqrt(pixels / MOST)), 1.0 / ENLARGED)
+    finest = max(float(np.sqrt(pixels / MOST)), min(1.0, float(np.sqrt(pixels / ROOMY))), 1.0 / ENLARGED)
     finer = max(wanted, finest)
     return _at(dark, finer) or ink if finer < 0.8 * ink.scale else ink
 
@@ -75,12 +76,12 @@ def _at(dark: Darkness, scale: float) -> Ink | None:
     mask = apply_hysteresis_threshold(np.where(strong, d, 0), min(low, high), high)
     if not mask.any():
         return None
-    return Ink(mask, d, scale, min(pen_width(mask), BROADEST * _extent(mask)), contrast, still)
+    return Ink(mask, d, scale, min(pen_width(mask), BROADEST * extent(mask)), contrast, still)
 
 
-def _extent(mask: Bool[np.ndarray, "row col"]) -> float:
-    """The larger side of what is drawn, pixels."""
-    return float(max(np.ptp(np.flatnonzero(mask.any(axis))) + 1 for axis in (0, 1)))
+def extent(mask: Bool[np.ndarray, "row col"]) -> float:
+    """The larger side of what is drawn, pixels; 0 for an empty mask."""
+    return float(max(np.ptp(np.flatnonzero(mask.any(axis))) + 1 for axis in (0, 1))) if mask.any() else 0.0
 
 
 def _resized(d: Float[np.ndarray, "row col"], scale: float) -> Float[np.ndarray, "row col"]:

@@ -13,7 +13,7 @@ from dataclasses import dataclass
 import numpy as np
 from jaxtyping import Bool, Float
 from PIL import Image
-from scipy.ndimage import gaussian_filter
+from scipy.ndimage import binary_dilation, gaussian_filter, label
 from scipy.sparse import coo_array
 from scipy.sparse.csgraph import connected_components
 
@@ -24,6 +24,7 @@ STEP = 0.14  # difference of log tone between neighbouring blocks that light alo
 DEEP = 0.3  # of the lightest paper: blocks darker than this are never paper
 SHARE = 0.25  # paper in several parts: each at least this part of the largest
 DARK = 0.5  # part of the page and of its edge that is dark in a drawing white on dark
+SIDE = 0.5  # part of a side of the picture along which it shows what lies around the page
 LAGS = (1, 2, 4)  # pixels over which the grain of the paper is measured
 
 
@@ -34,7 +35,7 @@ class Darkness:
     d: Float[np.ndarray, "row col"]  # 0 paper to 1 black
     grain: float  # standard deviation of d on bare paper
     inverted: bool  # drawn white on dark
-    paper: float  # part of the page's blocks that are paper
+    outside: bool  # the picture shows more than the page
 
 
 def darkness(grey: Float[np.ndarray, "row col"]) -> Darkness:
@@ -42,9 +43,13 @@ def darkness(grey: Float[np.ndarray, "row col"]) -> Darkness:
     inverted = _is_inverted(grey)
     if inverted:
         grey = np.float32(1.0) - grey
-    tone, is_paper = _paper(grey)
-    d = np.clip(np.float32(1.0) - grey / np.maximum(tone, np.float32(1e-3)), 0.0, 1.0)
-    return Darkness(d, _grain(grey / np.maximum(tone, np.float32(1e-3))), inverted, float(is_paper.mean()))
+    tone, outside = _paper(grey)
+    ratio = grey / np.maximum(tone, np.float32(1e-3))
+    grain = _grain(ratio if outside is None else ratio[~outside.any(1)] if not outside.any(1).all() else ratio)
+    d = np.clip(np.float32(1.0) - ratio, 0.0, 1.0)
+    if outside is not None:
+        d[outside] = 0.0
+    return Darkness(d, grain, inverted, outside is not None)
 
 
 def _is_inverted(grey: Float[np.ndarray, "row col"]) -> bool:
@@ -58,8 +63,8 @@ def _is_inverted(grey: Float[np.ndarray, "row col"]) -> bool:
     return bool(high - low > 0.1 and np.mean(seen < middle) > DARK and np.mean(edge < middle) > DARK)
 
 
-def _paper(grey: Float[np.ndarray, "row col"]) -> tuple[Float[np.ndarray, "row col"], Bool[np.ndarray, "block block"]]:
-    """(tone of the paper at every pixel, which blocks of the grid it was seen in)."""
+def _paper(grey: Float[np.ndarray, "row col"]) -> tuple[Float[np.ndarray, "row col"], Bool[np.ndarray, "row col"] | None]:
+    """(tone of the paper at every pixel, mask of what lies around the page or None)."""
     factor = max(1, int(np.sqrt(grey.size / (COARSE * 1e6))))
     seen = np.asarray(Image.fromarray(grey).reduce(factor)) if factor > 1 else grey
     side = max(1, -(-max(seen.shape) // GRID))
@@ -70,7 +75,19 @@ def _paper(grey: Float[np.ndarray, "row col"]) -> tuple[Float[np.ndarray, "row c
     is_paper = _linked(tone)
     filled = _filled(tone, is_paper)
     wide = Image.fromarray(filled).resize((cols * side * factor, rows * side * factor), Image.Resampling.BILINEAR)
-    return np.asarray(wide)[: grey.shape[0], : grey.shape[1]], is_paper
+    around = _around(is_paper)
+    mask = None
+    if around.any():
+        mask = np.repeat(np.repeat(around, side * factor, 0), side * factor, 1)[: grey.shape[0], : grey.shape[1]]
+    return np.asarray(wide)[: grey.shape[0], : grey.shape[1]], mask
+
+
+def _around(is_paper: Bool[np.ndarray, "block block"]) -> Bool[np.ndarray, "block block"]:
+    """The blocks of a table around the page: no paper, and along most of two sides of the picture at least."""
+    labels, count = label(~is_paper)
+    sides = np.stack([[np.mean(edge == k) for edge in (labels[0], labels[-1], labels[:, 0], labels[:, -1])] for k in range(1, count + 1)] or [[0] * 4])
+    table = np.r_[False, (sides >= SIDE).sum(1) >= 2][: count + 1]
+    return binary_dilation(table[labels], iterations=1) if table.any() else np.zeros_like(is_paper)
 
 
 def _linked(tone: Float[np.ndarray, "block block"]) -> Bool[np.ndarray, "block block"]:

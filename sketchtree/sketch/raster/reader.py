@@ -7,6 +7,7 @@ Points are in pixels of the file's picture, upright: x to the right from its lef
 that all y are negative and the middle of the top left pixel is (0.5, −0.5). `Sketch.page` is the picture's edge.
 """
 
+import dataclasses
 from collections.abc import Callable
 
 import numpy as np
@@ -18,9 +19,10 @@ from sketchtree.sketch.raster.crossing import link
 from sketchtree.sketch.raster.dots import Dotted, dotted_curves
 from sketchtree.sketch.raster.ends import bridged, drawn_on
 from sketchtree.sketch.raster.hollow import filled_outlines
-from sketchtree.sketch.raster.ink import Ink, find_ink
+from sketchtree.sketch.raster.ink import Ink, extent, find_ink
+from sketchtree.sketch.raster.judging import check_ink, check_lines, no_ink
 from sketchtree.sketch.raster.lines_of import Traced, whole_lines
-from sketchtree.sketch.raster.paper import Darkness, darkness
+from sketchtree.sketch.raster.paper import darkness
 from sketchtree.sketch.raster.picture import Picture, read_picture
 from sketchtree.sketch.raster.speckle import swept
 from sketchtree.sketch.raster.strokes_of import strokes_of
@@ -70,10 +72,11 @@ def _ink(picture: Picture, name: str) -> tuple[Ink, Painted | None]:
     painted = painted_areas(picture.rgb) if picture.rgb is not None else None
     dark = darkness(picture.grey)
     if painted is not None:
-        dark = Darkness(np.where(painted.ground, np.float32(0), dark.d), dark.grain, dark.inverted, dark.paper)
+        dark = dataclasses.replace(dark, d=np.where(painted.ground, np.float32(0), dark.d))
     ink = find_ink(dark)
     if ink is None:
-        raise SketchError(f"{name} shows nothing: the page is blank.", remedy="Draw the tree darker, or photograph it closer.")
+        raise no_ink(name)
+    check_ink(ink, name)
     return ink, painted
 
 
@@ -88,6 +91,7 @@ def _lines(ink: Ink, name: str) -> tuple[list[Traced], Bool[np.ndarray, "row col
         web = trace(*thinned(mask), ink.pen)
     lines = bridged(whole_lines(web, link(web, ink.pen), ink.pen), ink.pen)
     drawn_on(lines, mask, ink.pen)
+    check_lines(lines, len(dotted), clean.specks, extent(mask), name)
     notes = []
     if clean.specks:
         notes.append(f"{clean.specks:,} specks were left out as dust or grain of the paper.")
