@@ -44,12 +44,15 @@ def seeds(reader: str) -> list[bytes]:
 def mutant(reader: str, rng: np.random.Generator) -> bytes:
     """One file of a kind that a program would not write."""
     data = seeds(reader)[int(rng.integers(len(seeds(reader))))]
-    if rng.random() < 0.1:
+    if rng.random() < 0.04:
         return rng.bytes(int(rng.integers(0, 300)))
     ways: list[Callable[[bytes, np.random.Generator], bytes]] = [_by_bytes]
-    ways += {"svg": [_by_xml] * 3, "inkml": [_by_xml] * 3, "picture": [_by_chunk], "svgz": [_packed]}.get(reader, [_by_json] * 3)
+    ways += {"svg": [_by_xml] * 5, "inkml": [_by_xml] * 5, "picture": [_by_chunk], "svgz": [_packed] * 5}.get(reader, [_by_json] * 5)
     for _ in range(int(rng.integers(1, 4))):
-        data = ways[int(rng.integers(len(ways)))](data, rng)
+        try:
+            data = ways[int(rng.integers(len(ways)))](data, rng)
+        except RecursionError:  # nested deeper than it can be written out
+            break
     if reader in ("svg", "inkml", "json", "excalidraw", "ndjson") and rng.random() < 0.05:
         return data.decode("utf-8", "replace").encode(("utf-16", "utf-8-sig", "utf-16-le", "utf-32")[int(rng.integers(4))])
     return data
@@ -66,7 +69,7 @@ def _by_bytes(data: bytes, rng: np.random.Generator) -> bytes:
             found[at] ^= 1 << int(rng.integers(8))
         return bytes(found)
     if way == 1:
-        return data[:a] if rng.random() < 0.5 else data[a:]
+        return data[:a] if rng.random() < 0.8 else data[a:]
     if way == 2:
         return data[:a] + data[b:]
     if way == 3:
@@ -92,7 +95,7 @@ def _by_json(data: bytes, rng: np.random.Generator) -> bytes:
     except (ValueError, RecursionError):
         return _by_bytes(data, rng)
     holder, key = {"": document}, ""
-    while isinstance(value := holder[key], (list, dict)) and len(value) and (holder is not document and rng.random() < 0.8):
+    while isinstance(value := holder[key], (list, dict)) and len(value) and rng.random() < 0.85:
         holder = value
         key = int(rng.integers(len(value))) if isinstance(value, list) else list(value)[int(rng.integers(len(value)))]
     root = {"": document}
@@ -110,7 +113,7 @@ def _by_json(data: bytes, rng: np.random.Generator) -> bytes:
         holder[_KEYS[int(rng.integers(len(_KEYS)))]] = holder.get(key) if rng.random() < 0.5 else nonsense(rng)
     else:
         holder[key] = nonsense(rng)
-    return _text(lambda document: json.dumps(document).encode(), root[""], data)
+    return json.dumps(root[""]).encode()
 
 
 def nonsense(rng: np.random.Generator, depth: int = 3) -> object:
@@ -130,7 +133,7 @@ def nonsense(rng: np.random.Generator, depth: int = 3) -> object:
 def _by_xml(data: bytes, rng: np.random.Generator) -> bytes:
     try:
         root = ElementTree.fromstring(data)
-    except (ElementTree.ParseError, ValueError, LookupError):
+    except (ElementTree.ParseError, ValueError, LookupError, RecursionError):
         return _by_bytes(data, rng)
     elements = list(root.iter())
     element = elements[int(rng.integers(len(elements)))]
@@ -146,7 +149,7 @@ def _by_xml(data: bytes, rng: np.random.Generator) -> bytes:
         inner = element
         for _ in range(int(rng.integers(1, 300))):
             inner = ElementTree.SubElement(inner, space + _TAGS[int(rng.integers(len(_TAGS)))])
-        inner.extend(copy.deepcopy(e) for e in list(root)[:2])
+        inner.extend([copy.deepcopy(e) for e in list(root)[:2]])
     elif way == 3:
         element.text = _TEXTS[int(rng.integers(len(_TEXTS)))]
     elif way == 4:
@@ -155,15 +158,7 @@ def _by_xml(data: bytes, rng: np.random.Generator) -> bytes:
         for _ in range(int(rng.integers(1, 4))):
             keys = [*element.keys(), *_ATTRIBUTES]
             element.set(keys[int(rng.integers(len(keys)))], _TEXTS[int(rng.integers(len(_TEXTS)))])
-    return _text(ElementTree.tostring, root, data)
-
-
-def _text(write: Callable, document, data: bytes) -> bytes:
-    """The document written out; `data` where it is nested deeper than its writer goes."""
-    try:
-        return write(document)
-    except RecursionError:
-        return data
+    return ElementTree.tostring(root)
 
 
 def _by_chunk(data: bytes, rng: np.random.Generator) -> bytes:
