@@ -16,6 +16,7 @@ from sketchtree.sketch.files.areas import NOTHING, Area, area
 from sketchtree.sketch.files.css import Style
 from sketchtree.sketch.files.document import local_name
 from sketchtree.sketch.files.outlines import flatten
+from sketchtree.sketch.files.paint import brightness
 from sketchtree.sketch.files.path_data import Subpath
 from sketchtree.sketch.files.transforms import Matrix
 from sketchtree.sketch.files.viewport import Box, user_length
@@ -99,10 +100,10 @@ class Clips:
     def _layers(self, shape):
         """(area, luminance, opacity) of a shape's fill and of its line."""
         if shape.fill is not None:
-            yield self._visible(shape, _rings(shape.paths), shape.rule), *shape.fill
+            yield self._visible(shape, _rings(shape.paths), shape.rule), *brightness(shape.fill)
         if shape.line is not None:
             lines = [shapely.LineString(ring) for ring in _rings(shape.paths, closing=True) if len(ring) > 1]
-            yield self._visible(shape, None, "", shapely.union_all(lines).buffer((shape.width or 0.0) / 2)), *shape.line
+            yield self._visible(shape, None, "", shapely.union_all(lines).buffer((shape.width or 0.0) / 2)), *brightness(shape.line)
 
     @staticmethod
     def _visible(shape, rings, rule: str, whole: Area | None = None) -> Area:

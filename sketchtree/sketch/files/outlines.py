@@ -22,7 +22,7 @@ def subpaths(tag: str, attributes, view: tuple[float, float]) -> list[Subpath]:
     `view` is (width, height) of the viewBox, for percentages. Raises ValueError for data that make no sense.
     """
     found = _shape(tag, attributes, view)
-    if not all(np.isfinite(path.start).all() and np.isfinite(path.cubics).all() for path in found):
+    if not all(np.isfinite(path.cubics if len(path.cubics) else path.start).all() for path in found):
         raise ValueError("a coordinate is not a finite number")
     return found
 

@@ -1,26 +1,38 @@
 """Does a fill or a stroke show at all, and how bright is it? Colours are not read beyond that."""
 
 from functools import lru_cache
+from typing import NamedTuple
 
 from tinycss2.color3 import parse_color
 
 from sketchtree.sketch.files.css import Style
 
 
-def is_paint(paint: str, opacity: str, style: Style) -> bool:
-    """Whether a fill or stroke shows at all."""
+class Paint(NamedTuple):
+    """A paint that shows, as text."""
+
+    colour: str
+    opacity: str
+
+
+def seen(paint: str, opacity: str, style: Style) -> Paint | None:
+    """What a fill or stroke shows; None if nothing. `currentColor` becomes the colour it stands for."""
     if paint.lower() == "currentcolor":
         paint = style.get("color", "black")
-    return not _is_clear(paint) and fraction(opacity) > 0.0
+    return None if _is_clear(paint, opacity) else Paint(paint, opacity)
 
 
-def luminance(paint: str, style: Style) -> float:
-    """How bright a paint is, 0 black to 1 white (the weights of linear sRGB, as masks have it); a pattern or gradient counts as white."""
-    if paint.lower() == "currentcolor":
-        paint = style.get("color", "black")
-    return _luminance(paint)
+@lru_cache(maxsize=1024)
+def brightness(paint: Paint) -> tuple[float, float]:
+    """(luminance, opacity), 0 to 1: the weights of linear sRGB, as masks have them; a pattern or gradient counts as white."""
+    colour = parse_color(paint.colour.strip())
+    opacity = min(max(fraction(paint.opacity), 0.0), 1.0)
+    if not isinstance(colour, tuple):
+        return 1.0, opacity
+    return 0.2126 * colour[0] + 0.7152 * colour[1] + 0.0722 * colour[2], opacity * colour[3]
 
 
+@lru_cache(maxsize=1024)
 def fraction(text: str) -> float:
     """An opacity: a number or a percentage; 1 when it can't be read, as CSS has it."""
     try:
@@ -30,21 +42,13 @@ def fraction(text: str) -> float:
 
 
 @lru_cache(maxsize=1024)
-def _is_clear(paint: str) -> bool:
+def _is_clear(paint: str, opacity: str) -> bool:
     paint = paint.strip().lower()
     clear = paint.startswith(("rgba(", "hsla(", "rgb(", "hsl(")) and _alpha(paint) == 0.0
     clear |= paint.startswith("#") and len(paint) in (5, 9) and set(paint[(len(paint) - 1) // 4 * 3 + 1 :]) == {"0"}
-    return clear or paint in ("none", "transparent")
+    return clear or paint in ("none", "transparent") or fraction(opacity) <= 0.0
 
 
 def _alpha(paint: str) -> float:
     parts = paint[paint.index("(") + 1 :].rstrip(")").replace("/", " / ").replace(",", " ").split()
     return fraction(parts[-1]) if "/" in parts or len(parts) == 4 else 1.0
-
-
-@lru_cache(maxsize=1024)
-def _luminance(paint: str) -> float:
-    colour = parse_color(paint.strip())
-    if not isinstance(colour, tuple):
-        return 1.0
-    return 0.2126 * colour[0] + 0.7152 * colour[1] + 0.0722 * colour[2]

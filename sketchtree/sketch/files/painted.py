@@ -22,7 +22,7 @@ from sketchtree.sketch.files.document import DEEPEST, XLINK, local_name, too_dee
 from sketchtree.sketch.files.left_out import LeftOut
 from sketchtree.sketch.files.names import LABEL, Naming
 from sketchtree.sketch.files.outlines import SHAPES, flatten, subpaths
-from sketchtree.sketch.files.paint import fraction, is_paint, luminance
+from sketchtree.sketch.files.paint import Paint, fraction, seen
 from sketchtree.sketch.files.path_data import Subpath
 from sketchtree.sketch.files.path_effects import Spine, spine
 from sketchtree.sketch.files.svg_record import STROKE, StrokeRecord, polyline, stroke_record
@@ -46,8 +46,8 @@ class Shape:
     width: float | None  # line width; None for a shape that is only filled
     filled: bool  # painted as an area, without a line
     rule: str  # how its area is told from its outline: nonzero, evenodd
-    fill: tuple[float, float] | None  # (luminance, opacity) of the area's paint
-    line: tuple[float, float] | None  # … and of the line's
+    fill: Paint | None  # of the area
+    line: Paint | None  # … and of the line
     clip: Area | None  # where it shows; None: everywhere
     spine: Spine | None  # of a line thickened by an effect; widths already in root units
     matrix: Matrix  # from its own coordinates to the root's
@@ -216,7 +216,8 @@ class Walk:
             self._element(self.by_id[target[1:]], inner)
 
     def _shape(self, element: Element, scope: _Scope, style: Style) -> None:
-        stroke, fill = self._paints(element, style)
+        stroke = seen(style.get("stroke", "none"), style.get("stroke-opacity", "1"), style)
+        fill = None if local_name(element.tag) == "line" else seen(style.get("fill", "black"), style.get("fill-opacity", "1"), style)
         width = user_length(style.get("stroke-width", "1"), 2, element, self.view, self.name) if stroke else 0.0
         under = None if scope.ghost else spine(element, self.by_id)
         if style.get("visibility", "visible") != "visible":
@@ -272,13 +273,6 @@ class Walk:
             raise at(element, self.name, ValueError("a coordinate is not a finite number"))
         return record, drawn
 
-    def _paints(self, element: Element, style: Style) -> tuple[tuple[float, float] | None, tuple[float, float] | None]:
-        """(luminance, opacity) of the line's and of the area's paint; None where there is none."""
-        paint, opacity = style.get("stroke", "none"), style.get("stroke-opacity", "1")
-        stroke = (luminance(paint, style), fraction(opacity)) if is_paint(paint, opacity, style) else None
-        paint, opacity = style.get("fill", "black"), style.get("fill-opacity", "1")
-        fill = (luminance(paint, style), fraction(opacity)) if is_paint(paint, opacity, style) else None
-        return stroke, None if local_name(element.tag) == "line" else fill
 
     def _geometry(self, element: Element, style: Style, under: Spine | None) -> list[Subpath]:
         attributes = element.attrib

@@ -14,6 +14,7 @@ import numpy as np
 from jaxtyping import Float
 
 _RUN = re.compile(r"([MmZzLlHhVvCcSsQqTtAa])([^MmZzLlHhVvCcSsQqTtAa]*)")
+_DIGIT = re.compile(r"[0-9]")
 _NUMBER = re.compile(r"[-+]?(?:\d+\.?\d*|\.\d+)(?:[eE][-+]?\d+)?")
 _ARC = re.compile(r"[\s,]*".join(["", *[f"({_NUMBER.pattern})"] * 3, "([01])", "([01])", *[f"({_NUMBER.pattern})"] * 2]))
 _SIZE = {"M": 2, "L": 2, "H": 1, "V": 1, "C": 6, "S": 4, "Q": 4, "T": 2}
@@ -62,11 +63,12 @@ def lines(points: Float[np.ndarray, "point 2"], closed: bool) -> Subpath:
 def straight(points: Float[np.ndarray, "point 2"]) -> Cubics:
     """The pieces of a polyline that have any length."""
     a, b = points[:-1], points[1:]
-    moved = (a != b).any(1)
+    step = b - a
+    moved = (step[:, 0] != 0) | (step[:, 1] != 0)
     if not moved.all():
-        a, b = a[moved], b[moved]
+        a, b, step = a[moved], b[moved], step[moved]
     pieces = np.empty((len(a), 4, 2))
-    third = (b - a) / 3
+    third = step / 3
     pieces[:, 0], pieces[:, 1], pieces[:, 2], pieces[:, 3] = a, a + third, b - third, b
     return pieces
 
@@ -101,17 +103,13 @@ def _merged(data: str):
             while last < len(runs) and runs[last][0] == same:
                 last += 1
             parts = [arguments for _, arguments in runs[k:last]]
-            if not all(_has_digit(part) for part in parts):
+            if not all(map(_DIGIT.search, parts)):
                 raise ValueError(_MISSING)
             text = " ".join(parts)
         elif text.strip(" \t\r\n,"):
             raise ValueError(_STRANGE.format(text.strip()[:20]))
         yield command, text
         k = last
-
-
-def _has_digit(text: str) -> bool:
-    return any(character.isdigit() for character in text)
 
 
 def _arc_numbers(text: str) -> Float[np.ndarray, "arc 7"]:

@@ -31,6 +31,7 @@ _MOVES = frozenset({"translate", "rotate", "scale", "transform-origin"})
 _KEYWORD = {"left": "0%", "top": "0%", "center": "50%", "right": "100%", "bottom": "100%"}
 
 
+@lru_cache(maxsize=4096)
 def length(text: str, percent_of: float = 0.0) -> float:
     """A CSS or SVG length in user units (96 px an inch). Raises ValueError if it is none."""
     match = _NUMBER.fullmatch(text.strip())

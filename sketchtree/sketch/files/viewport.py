@@ -78,7 +78,7 @@ _PART = {"min": 0.0, "mid": 0.5, "max": 1.0}
 def user_length(text: str, axis: int, element: Element, view: tuple[float, float], name: str) -> float:
     """`axis` 0: percentages are of the width, 1: of the height, 2: of the diagonal / √2."""
     try:
-        return length(text, (*view, float(np.hypot(*view) / np.sqrt(2.0)))[axis])
+        return length(text) if "%" not in text else length(text, (*view, float(np.hypot(*view) / np.sqrt(2.0)))[axis])
     except ValueError as error:
         raise at(element, name, error) from None
 
