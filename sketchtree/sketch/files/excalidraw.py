@@ -10,6 +10,7 @@ so `Stroke.width` is its width at full pressure, or, drawn with a mouse, at MOUS
 
 import math
 from collections import Counter
+from collections.abc import Iterator
 from typing import Any
 
 import numpy as np
@@ -20,13 +21,13 @@ from sketchtree.sketch.files.excalidraw_shapes import BOXED, POINTED, drawn
 from sketchtree.sketch.files.ids import unique
 from sketchtree.sketch.files.json_text import AGAIN, is_number, parse_json
 from sketchtree.sketch.files.limits import MAX_STROKES, check_number, check_strokes
-from sketchtree.sketch.files.paint import is_paint
 from sketchtree.sketch.strokes import Sketch, Stroke, StrokeKind
 
 FREEDRAW = 4.25  # painted width of a freedraw at full pressure, of its strokeWidth
 THINNING = 0.6  # what no pressure takes from it
 MOUSE = 0.5  # the pressure of a pen that reports none
 FLATNESS = 5e-4  # how far a flattened curve may lie from the true one, of the drawing's size
+_UNKNOWN = "unknown element"
 _OTHERS = {"image": "picture", "text": "text", "embeddable": "web page", "iframe": "web page"}
 
 
@@ -62,8 +63,15 @@ def excalidraw_sketch(document: Any, name: str, *, max_strokes: int = MAX_STROKE
             strokes.append(_stroke(element, stroke_id, labels, tolerance))
         except ValueError as error:
             raise SketchError(f"in {name}, {error}.", stroke=stroke_id, remedy="Draw it again, or delete it.") from None
-    warnings += [f"{count} {what}{'s were' if count > 1 else ' was'} left out." for what, count in sorted(left_out.items())]
-    return Sketch(tuple(strokes), name=name, units="px", warnings=tuple(warnings))
+    return Sketch(tuple(strokes), name=name, units="px", warnings=(*warnings, *_said(left_out, elements)))
+
+
+def _said(left_out: Counter[str], elements: list[dict[str, Any]]) -> Iterator[str]:
+    """A line for every kind of thing that was left out."""
+    unknown = sorted({element["type"] for element in elements} - POINTED - BOXED - FRAMES - _OTHERS.keys())
+    for what, count in sorted(left_out.items()):
+        named = f" ({', '.join(unknown)[:60]})" if what == _UNKNOWN else ""
+        yield f"{count} {what}{'s' if count > 1 else ''}{named} {'were' if count > 1 else 'was'} left out."
 
 
 def _elements(document: dict[str, Any], name: str, number: int | None) -> tuple[list[dict[str, Any]], list[str]]:
@@ -89,7 +97,7 @@ def _is_shown(element: dict[str, Any], labels: Labels, left_out: Counter[str]) -
     if kind in FRAMES or (kind == "text" and _labels_something(element, labels)):
         return False
     if kind not in POINTED | BOXED:
-        left_out[_OTHERS.get(kind, f"element of the unknown type '{kind[:20]}'")] += 1
+        left_out[_OTHERS.get(kind, _UNKNOWN)] += 1
     elif element.get("opacity") == 0 or not (_has_outline(element) or _has_fill(element)):
         left_out["invisible element"] += 1
     elif labels.is_note(element):
@@ -105,11 +113,18 @@ def _labels_something(element: dict[str, Any], labels: Labels) -> bool:
 
 
 def _has_outline(element: dict[str, Any]) -> bool:
-    return is_paint(text_of(element.get("strokeColor", "#000")) or "none", "1", {}) and element.get("strokeWidth", 2) != 0
+    return _shows(element.get("strokeColor", "#000")) and element.get("strokeWidth", 2) != 0
 
 
 def _has_fill(element: dict[str, Any]) -> bool:
-    return is_paint(text_of(element.get("backgroundColor")) or "none", "1", {}) and element["type"] != "arrow"
+    return _shows(element.get("backgroundColor")) and element["type"] != "arrow"
+
+
+def _shows(colour: Any) -> bool:
+    """Whether a colour, as CSS writes it, can be seen."""
+    colour = text_of(colour).lower()
+    clear = colour.startswith("#") and len(colour) in (5, 9) and set(colour[-(len(colour) // 4) :]) == {"0"}
+    return not clear and colour not in ("", "none", "transparent")
 
 
 def _stroke(element: dict[str, Any], stroke_id: str, labels: Labels, tolerance: float) -> Stroke:

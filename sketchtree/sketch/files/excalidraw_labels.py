@@ -1,14 +1,14 @@
 """What does an Excalidraw drawing call its strokes? Labels from texts, groups and frames.
 
-In this order, the first that says crown, obstacle, branch or trunk: `customData.label` (or `name`), the element's id, the text
-inside it, a short text in its innermost group, in the groups around it, the name of its frame.
+The nearest that says something decides: `customData.label` (or `name`), the element's id, the text inside it, a short text
+in its innermost group, in the groups around it, the name of its frame.
 """
 
 from collections.abc import Iterable
 from dataclasses import dataclass
 from typing import Any
 
-from sketchtree.sketch.files.labels import kind_named
+from sketchtree.sketch.files.labels import kind_named, meaning
 from sketchtree.sketch.strokes import StrokeKind
 
 FEW_WORDS = 3  # a text of more is a note, not a label
@@ -57,9 +57,10 @@ class Labels:
         return kind_named(*self.names(element))
 
     def layer(self, element: dict[str, Any]) -> str | None:
-        """Name of the innermost named group or frame that one element lies in."""
-        named = [self.group[group] for group in groups_of(element) if self.group.get(group)]
-        return next(iter((*named, *filter(None, [self.layer_frame(element)]))), None)
+        """The nearest name that says something, else that of the innermost named group or frame."""
+        groups = [self.group.get(group, "") for group in groups_of(element)]
+        named = [name for name in (*groups, self.layer_frame(element)) if name]
+        return next((name for name in self.names(element) if meaning(name) is not None), next(iter(named), None))
 
     def layer_frame(self, element: dict[str, Any]) -> str:
         """Name of the frame of one element, "" for none."""

@@ -21,7 +21,7 @@ from sketchtree.sketch.files.ids import unique
 from sketchtree.sketch.files.inkml_channels import Channel, TraceFormat, forces, local, number, positions, times
 from sketchtree.sketch.files.inkml_context import Contexts, Setting, id_of
 from sketchtree.sketch.files.inkml_values import trace_values
-from sketchtree.sketch.files.labels import kind_named
+from sketchtree.sketch.files.labels import kind_named, meaning
 from sketchtree.sketch.files.limits import MAX_STROKES, check_strokes
 from sketchtree.sketch.strokes import Sketch, Stroke, StrokeKind
 
@@ -207,7 +207,7 @@ def _stroke(ink: Ink, stroke_id: str, walk: Walk, largest: float) -> Stroke:
             width=walk.contexts.width(ink.setting),
             pressure=forces(table, ink.form, largest),
             time=None if time is None else time + ink.setting.clock,
-            layer=ink.setting.layer,
+            layer=next((name for name in ink.names if meaning(name) is not None), ink.setting.layer),
         )
     except SketchError as error:
         raise SketchError(f"in {walk.name}, {error.message.split(': ', 1)[-1]}", stroke=stroke_id, remedy=error.remedy) from None

@@ -34,9 +34,13 @@ def is_number(value: Any) -> bool:
 
 def number_rows(rows: Any, size: int) -> Float[np.ndarray, "row {size}"] | None:
     """A list of lists as (row, size), what follows in each row left out; None if it is no such list of finite numbers."""
-    if not isinstance(rows, list) or not all(isinstance(row, list) and len(row) >= size for row in rows):
+    if not isinstance(rows, list) or not set(map(type, rows)) <= {list} or min(map(len, rows), default=size) < size:
         return None
     flat = [value for row in rows for value in row[:size]]
-    if not all(map(is_number, flat)):
+    if not set(map(type, flat)) <= {int, float}:
         return None
-    return np.array(flat, float).reshape(len(rows), size)
+    try:
+        table = np.array(flat, float).reshape(len(rows), size)
+    except OverflowError:
+        return None
+    return table if np.isfinite(table).all() else None

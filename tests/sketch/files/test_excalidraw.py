@@ -115,9 +115,9 @@ def test_pictures_texts_and_the_unknown_are_counted():
     note = TEXT | {"text": "my dearest oak tree"}
     sketch = read(LINE, {"type": "image", "id": "i"}, note, note, {"type": "hologram"}, {"type": "embeddable"})
     assert sketch.warnings == (
-        "1 element of the unknown type 'hologram' was left out.",
         "1 picture was left out.",
         "2 texts were left out.",
+        "1 unknown element (hologram) was left out.",
         "1 web page was left out.",
     )
 
