@@ -20,7 +20,7 @@ from sketchtree.version import __version__
 _HOMES = {
     "sketchtree.keys": ("root_key", "stage_key"),
     "sketchtree.sketch.strokes": ("Sketch", "Stroke", "StrokeKind"),
-    "sketchtree.sketch.formats": ("read_sketch", "write_sketch_json"),
+    "sketchtree.sketch.formats": ("read_sketch", "write_sketch", "write_sketch_json"),
     "sketchtree.sketch.graph": ("SketchGraph",),
     "sketchtree.sketch.reading": ("sketch_graph",),
     "sketchtree.parameters": ("TreeParameters", "LimbStatistics", "Habit"),
