@@ -8,7 +8,7 @@ from collections.abc import Iterable
 from dataclasses import dataclass
 from typing import Any
 
-from sketchtree.sketch.files.labels import kind_named, meaning
+from sketchtree.sketch.files.labels import is_automatic, kind_named, meaning
 from sketchtree.sketch.strokes import StrokeKind
 
 FEW_WORDS = 3  # a text of more is a note, not a label
@@ -59,7 +59,7 @@ class Labels:
     def layer(self, element: dict[str, Any]) -> str | None:
         """The nearest name that says something, else that of the innermost named group or frame."""
         groups = [self.group.get(group, "") for group in groups_of(element)]
-        named = [name for name in (*groups, self.layer_frame(element)) if name]
+        named = [name for name in (*groups, self.layer_frame(element)) if not is_automatic(name)]
         return next((name for name in self.names(element) if meaning(name) is not None), next(iter(named), None))
 
     def layer_frame(self, element: dict[str, Any]) -> str:

@@ -21,7 +21,7 @@ from sketchtree.sketch.files.ids import unique
 from sketchtree.sketch.files.inkml_channels import Channel, TraceFormat, forces, local, number, positions, times
 from sketchtree.sketch.files.inkml_context import Contexts, Setting, id_of
 from sketchtree.sketch.files.inkml_values import trace_values
-from sketchtree.sketch.files.labels import kind_named, meaning
+from sketchtree.sketch.files.labels import is_automatic, kind_named, meaning
 from sketchtree.sketch.files.limits import MAX_STROKES, check_strokes
 from sketchtree.sketch.strokes import Sketch, Stroke, StrokeKind
 
@@ -96,7 +96,8 @@ class Walk:
             self._trace(element, setting)
             return
         names = _names(element)
-        setting = dataclasses.replace(setting, names=(*names, *setting.names), layer=names[0] if names else setting.layer)
+        layer = next((name for name in names if not is_automatic(name)), setting.layer)
+        setting = dataclasses.replace(setting, names=(*names, *setting.names), layer=layer)
         target = self.contexts.find(element.get("traceDataRef")) if local(element) == "traceView" else None
         if target is not None and id(target) in self._defined:
             for part, span in _shown(element, target):
@@ -205,7 +206,7 @@ def _stroke(ink: Ink, stroke_id: str, walk: Walk, largest: float) -> Stroke:
             kind or StrokeKind.BRANCH,
             labelled=kind is not None,
             width=walk.contexts.width(ink.setting),
-            pressure=forces(table, ink.form, largest),
+            pressure=None if walk.contexts.ignores_force(ink.setting) else forces(table, ink.form, largest),
             time=None if time is None else time + ink.setting.clock,
             layer=next((name for name in ink.names if meaning(name) is not None), ink.setting.layer),
         )

@@ -118,12 +118,18 @@ class Contexts:
         per = None if along is None else per_metre(along)
         return value * METRES[units] * per if units in METRES and per else value
 
+    def ignores_force(self, setting: Setting) -> bool:
+        """Whether the brush draws as wide however hard the pen is pressed."""
+        value, _ = self._property(setting.brush, "ignorePressure")
+        return bool(value)
+
     def _property(self, brush: Element | None, name: str, depth: int = 0) -> tuple[float | None, str]:
         if brush is None or depth > DEEPEST:
             return None, ""
         for child in brush:
             if local(child) == "brushProperty" and (child.get("name") or "").strip() == name:
-                return number(child.get("value")), (child.get("units") or "").strip()
+                value = (child.get("value") or "").strip().lower()
+                return number({"true": "1", "false": "0"}.get(value, value)), (child.get("units") or "").strip()
         return self._property(self.find(brush.get("brushRef")), name, depth + 1)
 
 

@@ -90,7 +90,9 @@ def recognise(data: bytes) -> str | Unreadable | None:
     head = data[:HEAD].lstrip(_MARKS).replace(b"\0", b"")
     if head[:1] == b"<":
         return INKML if _root(head) == b"ink" else SVG
-    return _json(head) if head[:1] in (b"{", b"[") else None
+    if head[:1] in (b"{", b"["):
+        return Unreadable("a tldraw drawing", "Export it as SVG.") if b'"tldraw' in head else _json(head)
+    return Unreadable("an Excalidraw note of Obsidian", "Export it as .excalidraw or SVG.") if b"excalidraw-plugin" in head else None
 
 
 def _root(head: bytes) -> bytes:

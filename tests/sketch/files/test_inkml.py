@@ -96,6 +96,13 @@ def test_force_is_pressure_between_its_bounds():
     assert only(force + "<trace>1 2 100,1 3 200,1 4 999</trace>").pressure.tolist() == [0, 0.5, 1]
 
 
+@pytest.mark.parametrize(("ignored", "pressed"), [("1", False), ("true", False), ("0", True), ("false", True)])
+def test_a_brush_may_ignore_the_force(ignored, pressed):
+    brush = f'<context><brush><brushProperty name="ignorePressure" value="{ignored}"/></brush></context>'
+    stroke = only(FORMAT.format(X + Y + '<channel name="F" max="9"/>') + brush + "<trace>1 2 3,4 5 6</trace>")
+    assert (stroke.pressure is not None) == pressed
+
+
 def test_force_without_a_bound_is_a_part_of_the_largest_of_the_file():
     force = FORMAT.format(X + Y + '<channel name="F"/>')
     strokes = read(force + "<trace>1 2 50,1 3 100</trace><trace>1 2 200,1 3 200</trace>").strokes
@@ -214,6 +221,8 @@ def test_a_long_annotation_is_a_note_and_a_group_is_a_layer():
     stroke = only(f"<traceGroup><annotation>an oak with a wide crown</annotation>{TRACE}</traceGroup>")
     assert (stroke.kind, stroke.layer) == (StrokeKind.BRANCH, None)
     assert only(f"<traceGroup><annotation>Ink 1</annotation>{TRACE}</traceGroup>").layer == "Ink 1"
+    assert only(f'<traceGroup xml:id="group-7">{TRACE}</traceGroup>').layer is None
+    assert only(f"<traceGroup><annotation>Ink 1</annotation><trace><annotation>shadow</annotation>1 2,3 4</trace></traceGroup>").layer == "shadow"
 
 
 def test_what_is_defined_is_drawn_where_a_view_shows_it():

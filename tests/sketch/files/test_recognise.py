@@ -46,6 +46,8 @@ OTHERS = {
     b"\x1a\x45\xdf\xa3\x01": "a video",
     b"\xd0\xcf\x11\xe0\xa1\xb1\x1a\xe1": "an Office document",
     b"PK\x03\x04 damaged": "a packed archive",
+    b'{"tldrawFileFormatVersion": 1}': "a tldraw drawing",
+    b"---\n\nexcalidraw-plugin: parsed\n": "an Excalidraw note",
 }
 
 
