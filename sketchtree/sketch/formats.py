@@ -163,7 +163,11 @@ def _mislabelled(path: Path, what: str) -> str | None:
     said = READABLE.get(path.suffix.lower())
     if said is None or said == what or (path.suffix.lower() == ".json" and what in _ANY_JSON):
         return None
-    return f"{path.name} is named like a {said}, but it holds a {what}; it was read as that."
+    return f"{path.name} is named like {_a(said)}, but it holds {_a(what)}; it was read as that."
+
+
+def _a(what: str) -> str:
+    return ("an " if what.startswith(("SVG", "Excalidraw")) else "a ") + what
 
 
 def _with_warning(sketch: Sketch, warning: str) -> Sketch:

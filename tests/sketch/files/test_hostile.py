@@ -137,7 +137,7 @@ def test_a_mislabelled_file_is_read_by_what_it_holds_and_remarked_on(held, said,
 def test_a_drawing_named_like_a_picture_is_read_and_remarked_on(tmp_path):
     (tmp_path / "tree.png").write_text(TEXTS["t.svg"])
     assert read_sketch(tmp_path / "tree.png").warnings == (
-        "tree.png is named like a PNG picture, but it holds a SVG drawing; it was read as that.",
+        "tree.png is named like a PNG picture, but it holds an SVG drawing; it was read as that.",
     )
 
 
@@ -151,7 +151,7 @@ def test_a_picture_named_like_a_drawing_is_read_and_remarked_on(tmp_path):
     (tmp_path / "tree.svg").write_bytes((tmp_path / "tree.png").read_bytes())
     sketch, said = read_sketch(tmp_path / "tree.png"), read_sketch(tmp_path / "tree.svg")
     assert np.array_equal(sketch.strokes[0].points, said.strokes[0].points)
-    assert said.warnings[0] == "tree.svg is named like a SVG drawing, but it holds a PNG picture; it was read as that."
+    assert said.warnings[0] == "tree.svg is named like an SVG drawing, but it holds a PNG picture; it was read as that."
 
 
 @pytest.mark.parametrize("path", sorted(EXAMPLES.glob("*.svg"))[:2] + sorted(EXAMPLES.glob("*.json"))[:1], ids=lambda p: p.name)
