@@ -16,6 +16,7 @@ from sketchtree.errors import SketchError
 from sketchtree.sketch.files.limits import MAX_MB, inflate
 
 DEEPEST = 256  # nested elements
+MOST_ENTITIES = 500  # expat puts them in by recursion
 LARGEST_GROWTH = 2**20  # characters that all entity references of a file may add
 SVG = "http://www.w3.org/2000/svg"
 XLINK = "http://www.w3.org/1999/xlink"
@@ -139,6 +140,8 @@ class _Builder:
                 remedy="Save it as plain SVG, without a DOCTYPE that declares entities.",
             )
         self._entities.setdefault(entity, value)
+        if len(self._entities) > MOST_ENTITIES:
+            raise self._bomb(f"are more than {MOST_ENTITIES}")
 
     def _check_growth(self) -> None:
         """Refuse entities that refer to themselves, or that would swell the document."""
@@ -149,8 +152,8 @@ class _Builder:
 
     def _length(self, entity: str, lengths: dict[str, int], above: tuple[str, ...]) -> int:
         """How many characters an entity stands for once all inside it is put in."""
-        if entity in above or len(above) > 50:
-            raise self._bomb("refer to themselves" if entity in above else "refer to each other without end")
+        if entity in above:
+            raise self._bomb("refer to themselves")
         if entity not in lengths:
             value = self._entities[entity]
             inner = [name for name in _REFERENCE.findall(value) if name in self._entities]

@@ -1,7 +1,7 @@
 """What is an element called, and what does that make of the strokes inside it?
 
 Programs keep the name a person gave in different places: `inkscape:label`, `serif:id` (Affinity), `data-name`
-(Illustrator, Linearity), a `<title>`, the `id`, a class. The nearest name that says something decides.
+(Illustrator), `vectornator:layerName`, a `<title>`, the `id`, a class. The nearest name that says something decides.
 """
 
 from typing import NamedTuple
@@ -11,7 +11,7 @@ from sketchtree.sketch.files.document import INKSCAPE, SERIF, local_name
 from sketchtree.sketch.files.labels import is_automatic, meaning, plain_name
 from sketchtree.sketch.strokes import StrokeKind
 
-LABEL, _SERIF = f"{{{INKSCAPE}}}label", f"{{{SERIF}}}id"
+LABEL, _SERIF, _LINEARITY = f"{{{INKSCAPE}}}label", f"{{{SERIF}}}id", "{http://vectornator.io}layerName"
 
 
 class Naming(NamedTuple):
@@ -43,4 +43,5 @@ def _names(element: Element) -> tuple[tuple[str | None, ...], str | None, str | 
     title = None
     if len(element) and local_name(element[0].tag) == "title":
         title = (element[0].text or "").strip() or None
-    return (attributes.get(LABEL), attributes.get(_SERIF), attributes.get("data-name"), title), attributes.get("id"), attributes.get("class")
+    given = (attributes.get(LABEL), attributes.get(_SERIF), attributes.get(_LINEARITY), attributes.get("data-name"), title)
+    return given, attributes.get("id"), attributes.get("class")

@@ -227,13 +227,16 @@ class Walk:
             if local_name(element.tag) != "rect":  # programs put unpainted rectangles around drawings
                 self.left_out.add("a shape without fill or stroke")
             return
+        filled = width <= 0 and under is None
         scale = math.sqrt(abs(scope.matrix[0, 0] * scope.matrix[1, 1] - scope.matrix[0, 1] * scope.matrix[1, 0]))
         if style.get("vector-effect") != "non-scaling-stroke":
             width *= scale
         if under is not None:
             knots = None if under.knots is None else under.knots * (1.0, scale)
             under = Spine(under.data, knots, None if under.width is None else under.width * scale)
-        filled = width <= 0 and under is None
+        if scale == 0 and not scope.ghost:  # squeezed flat: nothing is painted
+            self._hide(element, scope)
+            return
         record, drawn = self._own(element, style, scope)
         paths = [] if drawn else [transformed(path, scope.matrix) for path in self._geometry(element, style, under)]
         self._count(1 if drawn else len(paths))
