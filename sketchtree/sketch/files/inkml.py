@@ -22,7 +22,7 @@ from sketchtree.sketch.files.inkml_channels import Channel, TraceFormat, forces,
 from sketchtree.sketch.files.inkml_context import Contexts, Setting, id_of
 from sketchtree.sketch.files.inkml_values import trace_values
 from sketchtree.sketch.files.labels import is_automatic, kind_named, meaning
-from sketchtree.sketch.files.limits import MAX_STROKES, check_strokes
+from sketchtree.sketch.files.limits import MAX_STROKES, check_points, check_strokes
 from sketchtree.sketch.strokes import Sketch, Stroke, StrokeKind
 
 DEEPEST = 256  # nested groups and views
@@ -51,9 +51,9 @@ def read_inkml(data: bytes, name: str, *, max_strokes: int = MAX_STROKES) -> Ske
     try:
         walk = Walk(root, name, max_strokes)
         walk.children(root, walk.contexts.start, 0)
+        walk.name_views()
     except ValueError as error:
         raise SketchError(f"in {name}, {error}.", remedy="Export the ink again.") from None
-    walk.name_views()
     largest = max((float(np.nanmax(force)) for ink in walk.found if len(force := _column(ink, "F"))), default=1.0)
     used: set[str] = set()
     strokes = tuple(_stroke(ink, unique(ink.id or f"stroke-{k}", used), walk, largest) for k, ink in enumerate(walk.found, 1))
@@ -74,7 +74,8 @@ class Walk:
         self._views: list[tuple[Element, tuple[str, ...]]] = []  # what a view shows, and its names
         self._left_out: Counter[str] = Counter()
         self._turned = any(local(e) == "canvasTransform" and len(e) for e in root.iter())
-        self._seen = 0
+        self._tables: dict[tuple[int, TraceFormat], np.ndarray] = {}
+        self._seen = self._points = 0
 
     def children(self, element: Element, setting: Setting, depth: int) -> None:
         """Every trace in an element, in the setting that holds there."""
@@ -88,9 +89,7 @@ class Walk:
                 self._one(child, setting, depth + 1)
 
     def _one(self, element: Element, setting: Setting, depth: int) -> None:
-        self._seen += 1
-        if depth > DEEPEST or self._seen > 10 * self.max_strokes + 100_000:
-            raise ValueError(f"groups and views are nested more than {DEEPEST} deep, or repeated too often")
+        self._count(depth)
         setting = self.contexts.entered(element, setting)
         if local(element) == "trace":
             self._trace(element, setting)
@@ -109,7 +108,14 @@ class Walk:
             self._views.append((target, setting.names))
         self.children(element, setting, depth)
 
+    def _count(self, depth: int = 0) -> None:
+        """One more element looked at. Raises ValueError for a file that would never end."""
+        self._seen += 1
+        if depth > DEEPEST or self._seen > 10 * self.max_strokes + 100_000:
+            raise ValueError(f"groups and views are nested more than {DEEPEST} deep, or repeated too often")
+
     def _trace(self, element: Element, setting: Setting, span: slice = slice(None)) -> None:
+        self._count()
         names = [*_names(element), *setting.names]
         brush = () if setting.brush is None else _names(setting.brush)
         if (element.get("type") or "").strip() == "penUp":
@@ -125,12 +131,15 @@ class Walk:
         """The values of a trace; points without a place left out."""
         text = (element.text or "") + "".join(child.tail or "" for child in element)
         form = setting.form or _unnamed(text)
+        if (id(element), form) in self._tables:
+            return self._tables[id(element), form]
         self._left_out["unnamed channel"] = max(self._left_out["unnamed channel"], 0 if setting.form else len(form.regular) - 2)
         try:
             table = trace_values(text, len(form.regular), len(form.intermittent))
         except ValueError as error:
             raise SketchError(f"in {self.name}, {error}.", stroke=id_of(element) or len(self.found) + 1, remedy=_REDRAW) from None
-        return table[~np.isnan(positions(table, form)).any(1)]
+        table = table[~np.isnan(positions(table, form)).any(1)]
+        return self._tables.setdefault((id(element), form), table)
 
     def _enter(self, element: Element, setting: Setting, names: list[str], table: Float[np.ndarray, "point channel"]) -> None:
         """A trace as a stroke of its own, or as the next piece of an earlier one."""
@@ -143,12 +152,15 @@ class Walk:
             ink = Ink(id_of(element), [table], setting, form, names, number(element.get("timeOffset")), number(element.get("duration")))
             self.found.append(ink)
             check_strokes(len(self.found), self.name, self.max_strokes)
+        self._points += len(table)
+        check_points(self._points, self.name)
         self._drawn[id(element)] = ink
 
     def name_views(self) -> None:
         """Give what is drawn the names of the views that show it; they lie closer than those of its groups."""
         for target, names in self._views:
             for trace in target.iter():
+                self._count()
                 if id(trace) in self._drawn:
                     self._drawn[id(trace)].names[0:0] = names
 

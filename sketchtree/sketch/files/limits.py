@@ -1,6 +1,8 @@
 """How large a file may be? Every reader's bounds on bytes and strokes, each with the option that lifts it.
 
-    packed or unpacked bytes ≤ max_mb · 10⁶        strokes ≤ max_strokes
+    packed or unpacked bytes ≤ max_mb · 10⁶        strokes ≤ max_strokes        points ≤ MAX_POINTS
+
+The last has no option: files name one another's parts, and a small file could show a large one without end.
 """
 
 import gzip
@@ -13,6 +15,7 @@ from sketchtree.errors import SketchError
 MAX_STROKES = 20_000
 MAX_MB = 100.0  # 10⁶ bytes, after unpacking
 MAX_MEGAPIXELS = 200.0  # 10⁶ pixels of a picture
+MAX_POINTS = 20_000_000  # of all strokes together
 
 
 def read_bytes(path: Path, *, max_mb: float = MAX_MB) -> bytes:
@@ -61,6 +64,15 @@ def check_strokes(count: int, name: str, max_strokes: int) -> None:
         raise SketchError(
             f"{name} holds {count} strokes, more than {max_strokes}.",
             remedy="Draw fewer strokes, or raise the limit with --max-strokes.",
+        )
+
+
+def check_points(count: int, name: str) -> None:
+    """Raise SketchError when the strokes of a file have more than MAX_POINTS points together."""
+    if count > MAX_POINTS:
+        raise SketchError(
+            f"{name} draws more than {MAX_POINTS // 10**6} million points.",
+            remedy="Simplify its lines, unlink its clones, or split it into several files.",
         )
 
 

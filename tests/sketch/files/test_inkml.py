@@ -279,6 +279,22 @@ def test_a_file_that_makes_no_sense_is_refused(body, message):
         read(body)
 
 
+def test_a_small_file_cannot_show_a_large_one_without_end():
+    group = '<traceGroup xml:id="g">' + "<trace>1 1,2 2</trace>" * 1000 + "</traceGroup>"
+    views = '<traceView traceDataRef="#g"/>' * 200
+    with pytest.raises(SketchError, match="nested more than 256 deep, or repeated too often"):
+        read(group + views, max_strokes=2000)
+    with pytest.raises(SketchError, match="more than 2000"):
+        read(f"<definitions>{group}</definitions>{views}", max_strokes=2000)
+    line = ",".join(["1 1"] * 20_000)
+    with pytest.raises(SketchError, match="t.inkml draws more than 20 million points. Simplify its lines"):
+        read(f'<definitions><trace xml:id="a">{line}</trace></definitions>' + '<traceView traceDataRef="#a"/>' * 1001)
+
+
+def test_ids_are_unique_and_missing_ones_are_numbered():
+    assert [s.id for s in read('<trace xml:id="a">1 1,2 2</trace>' * 2 + TRACE).strokes] == ["a", "a-2", "stroke-3"]
+
+
 def test_another_root_and_too_many_strokes_are_refused():
     with pytest.raises(SketchError, match="root is <html>, not <ink>"):
         read_inkml(b"<html/>", "t")
