@@ -5,6 +5,7 @@ straight over; a line that ends at a joint is drawn straight on to the middle of
 every pixel and smoothed by a Gaussian of SMOOTH of its width, its ends held.
 """
 
+import dataclasses
 from dataclasses import dataclass
 
 import numpy as np
@@ -13,6 +14,8 @@ from jaxtyping import Float
 from scipy.ndimage import gaussian_filter1d
 
 from sketchtree.sketch.raster.crossing import End, Links
+from sketchtree.sketch.raster.ink import Ink
+from sketchtree.sketch.raster.refining import centred
 from sketchtree.sketch.raster.tracing import Web
 
 SMOOTH = (0.35, 0.8)  # of the line's width, plus pixels
@@ -47,12 +50,12 @@ class Traced:
             self.points, self.width = np.vstack([self.points, more]), np.r_[self.width, np.full(len(more), self.width[-1])]
 
 
-def whole_lines(web: Web, links: Links, pen: float) -> list[Traced]:
+def whole_lines(web: Web, links: Links, ink: Ink) -> list[Traced]:
     """The lines of a web; those that end on another touch it exactly."""
     chains = _chains(web, links)
     lines = [_raw(web, chain, ring) for chain, ring in chains]
     through = _through(web, chains, links)
-    lines = [_smooth(line) for line in lines]
+    lines = [_smooth(_centred(_even(line), ink)) for line in lines]
     _touch(lines, through, web)
     return lines
 
@@ -114,15 +117,24 @@ def _through(web: Web, chains: list[tuple[list[End], bool]], links: Links) -> di
     return found
 
 
-def _smooth(line: Traced) -> Traced:
+def _even(line: Traced) -> Traced:
+    """The line with a point at every pixel of its length; a ring's first point is repeated at its end."""
     points = np.vstack([line.points, line.points[:1]]) if line.closed else line.points
     width = np.r_[line.width, line.width[:1]] if line.closed else line.width
     s = np.r_[0.0, np.cumsum(np.hypot(*np.diff(points, axis=0).T))]
-    if s[-1] < 2.0:
-        return line
     at = np.linspace(0.0, s[-1], max(3, int(np.ceil(s[-1])) + 1))
     points = np.stack([np.interp(at, s, points[:, k]) for k in (0, 1)], 1)
-    width = np.interp(at, s, width)
+    return Traced(points, np.interp(at, s, width), line.closed, line.joints)
+
+
+def _centred(line: Traced, ink: Ink) -> Traced:
+    return dataclasses.replace(line, points=centred(line.points, float(np.median(line.width)), line.closed, ink))
+
+
+def _smooth(line: Traced) -> Traced:
+    points, width = line.points, line.width
+    if len(points) < 4:
+        return line
     sigma = SMOOTH[0] * float(np.median(width)) + SMOOTH[1]
     mode = "wrap" if line.closed else "held"
     return Traced(_gauss(points, sigma, mode), np.maximum(_gauss(width[:, None], 2 * sigma, mode, False)[:, 0], 0.2), line.closed, line.joints)
@@ -182,6 +194,8 @@ def thinned_out(line: Traced, pen: float) -> Traced:
     between = np.unique(np.searchsorted(s, np.arange(0.0, s[-1], APART * pen)))
     keep[between[between < len(keep)]] = True
     keep[[0, -1]] = True
+    if line.closed and len(line.points) > 3 and (line.points[0] == line.points[-1]).all():
+        keep[-1] = False
     return Traced(line.points[keep], line.width[keep], line.closed, line.joints)
 
 

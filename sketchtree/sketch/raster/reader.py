@@ -89,7 +89,7 @@ def _lines(ink: Ink, name: str) -> tuple[list[Traced], Bool[np.ndarray, "row col
     mask = clean.mask if filled is None else filled.mask
     if filled is not None:
         web = trace(*thinned(mask), ink.pen)
-    lines = bridged(whole_lines(web, link(web, ink.pen), ink.pen), ink.pen)
+    lines = bridged(whole_lines(web, link(web, ink.pen), ink), ink.pen)
     drawn_on(lines, mask, ink.pen)
     check_lines(lines, len(dotted), clean.specks, extent(mask), name)
     notes = []

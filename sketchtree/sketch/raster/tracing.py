@@ -12,7 +12,7 @@ import numpy as np
 from jaxtyping import Bool, Float, Int
 
 SPUR = (0.5, 0.4)  # least reach of a side line out of the ink: half widths of the joint, plus pens
-TOUCH = 1.5  # pixels: joints no farther apart are one
+TOUCH = 2.3  # pixels: joints no farther apart are one
 
 _AROUND = np.array([(-1, 0), (0, 1), (1, 0), (0, -1), (-1, 1), (1, 1), (1, -1), (-1, -1)])
 
@@ -137,8 +137,9 @@ def _merge_joints(web: Web) -> None:
             node = group[node]
         return node
 
+    is_joint = {node for node in web.at if web.degree(node) > 2}
     for key, edge in list(web.edges.items()):
-        if edge.a != edge.b and edge.length <= TOUCH and min(web.degree(edge.a), web.degree(edge.b)) > 2:
+        if edge.a != edge.b and edge.length <= TOUCH and edge.a in is_joint and edge.b in is_joint:
             web.drop(key)
             one, two = sorted((find(edge.a), find(edge.b)))
             group[two] = one
