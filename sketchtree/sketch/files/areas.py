@@ -84,11 +84,13 @@ def _cut_area(points: Points, region: Area) -> list[tuple[Points, bool]]:
 def _cut_line(points: Points, ring: Points, closed: bool, region: Area, slack: float) -> list[tuple[Points, bool]]:
     """Runs of the line between its crossings of the region's border whose middles lie inside."""
     near = region.buffer(slack, join_style="mitre") if slack > 0 else region
+    if near.covers(shapely.LineString(ring) if len(ring) > 1 else shapely.Point(ring[0])):
+        return [(points, closed)]
     if len(ring) == 1:
-        return [(points, closed)] if shapely.intersects_xy(near, *ring[0]) else []
-    ring = _with_crossings(ring, near.boundary)
+        return []
+    ring = _with_crossings(ring, region.boundary)
     middle = (ring[:-1] + ring[1:]) / 2
-    kept = shapely.intersects_xy(near, middle[:, 0], middle[:, 1])
+    kept = shapely.intersects_xy(region, middle[:, 0], middle[:, 1])
     if kept.all():
         return [(points, closed)]
     if closed and kept[0] and kept[-1]:  # the seam lies inside: start at a gap instead
