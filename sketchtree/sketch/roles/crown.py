@@ -10,6 +10,7 @@ import numpy as np
 import shapely
 from jaxtyping import Bool, Float
 
+from sketchtree.sketch.roles.brush import slenderness
 from sketchtree.sketch.roles.found import Found
 from sketchtree.sketch.roles.measures import Measures
 from sketchtree.sketch.strokes import Stroke
@@ -22,15 +23,19 @@ SMALL = 0.1  # the same where several are crowns together …
 MOST = 12  # … no more than these: else they are leaves
 HIGH = 0.6  # of the drawing's height: a crown reaches above it (a shadow on the ground does not)
 NEAR = 0.1  # of the drawing's size: a tip this near to the outline counts as inside
+ON_GROUND = 0.08  # of its size: a dome's ends are this near to the ground line
 STANDS = 0.05  # of the drawing's height: a shape that comes this near to its foot stands on the ground
-SLIM = 2.0  # height over width from which such a shape is a trunk's outline
+SLIM = 2.2  # length over mean width from which such a shape is a trunk's outline
 
 
-def closed_crowns(m: Measures, free: Bool[np.ndarray, " stroke"], wood: Bool[np.ndarray, " stroke"]) -> list[Found]:
-    """The crowns among the strokes `free` to be one; `wood` are those whose tips they may hold."""
+def closed_crowns(
+    m: Measures, free: Bool[np.ndarray, " stroke"], wood: Bool[np.ndarray, " stroke"], ground: list[np.ndarray] | None = None
+) -> list[Found]:
+    """The crowns among the strokes `free` to be one; `wood` are those whose tips they may hold. A dome whose
+    both ends stand on a drawn `ground` line is closed by it."""
     low, high = m.drawing
     size = float((high - low).max())
-    rows = _outlines(m, free, size)
+    rows = _outlines(m, free, size, ground or [])
     if len(rows) == 0:
         return []
     regions = np.array([_region(m.strokes[row].points, NEAR * size) for row in rows], object)
@@ -65,9 +70,10 @@ def has_area(stroke: Stroke) -> bool:
     return len(outline(stroke.points)) >= 3 and shapely.convex_hull(shapely.MultiPoint(stroke.points)).area > 0
 
 
-def _outlines(m: Measures, free, size: float):
+def _outlines(m: Measures, free, size: float, ground: list[np.ndarray]):
     """Rows of the strokes that are outlines by their shape."""
-    rows = np.flatnonzero(free & (m.size >= SMALL * size) & (m.opening <= OPEN * m.size) & (np.diff(m.first_point) >= 4) & (m.area > 0))
+    nearly = (m.opening <= OPEN * m.size) | on_ground(m, ground)
+    rows = np.flatnonzero(free & (m.size >= SMALL * size) & nearly & (np.diff(m.first_point) >= 4) & (m.area > 0))
     if len(rows) == 0:
         return rows
     hull = shapely.convex_hull([shapely.MultiPoint(m.strokes[row].points) for row in rows])
@@ -77,8 +83,17 @@ def _outlines(m: Measures, free, size: float):
     side = m.high[rows] - m.low[rows]
     low, high = m.drawing
     stands = m.low[rows, 1] <= low[1] + STANDS * (high[1] - low[1])
-    trunk = stands & (side[:, 1] >= SLIM * side[:, 0]) & (m.high[rows, 1] < high[1])
+    slim = slenderness(m.area[rows], m.length[rows] + m.opening[rows]) >= SLIM
+    trunk = stands & slim & (side[:, 1] > side[:, 0]) & (m.high[rows, 1] < high[1])
     return rows[(compact >= ROUND) & (bulky | ~m.filled[rows]) & ~trunk]
+
+
+def on_ground(m: Measures, ground: list[np.ndarray]) -> Bool[np.ndarray, " stroke"]:
+    """Strokes of which both ends stand on a drawn ground line."""
+    if not ground:
+        return np.zeros(len(m), bool)
+    lines = shapely.union_all([shapely.LineString(points) for points in ground])
+    return (shapely.distance(shapely.points([m.first, m.last]), lines) <= ON_GROUND * m.size).all(0)
 
 
 def _region(points, near: float) -> shapely.Polygon:

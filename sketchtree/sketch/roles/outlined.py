@@ -5,6 +5,8 @@ the tip. All of them, once closed, enclose a slender shape (`brush`). What is wi
 as it was drawn: a limb that arches over, or a line gone over twice.
 """
 
+from dataclasses import dataclass
+
 import numpy as np
 import shapely
 from jaxtyping import Float, Int
@@ -19,38 +21,52 @@ HELD = 0.05  # of H: at the foot something else does
 NARROW = 0.12  # widest mean distance of the sides of an open outline, of its length
 PAIRED = 0.25  # the same of two lines that meet at the tip
 WIDE = 0.008  # of H: sides nearer to each other are one line drawn twice
-FEET = 0.4  # farthest the two feet lie apart, of the length
-LIKE = 0.6  # least ratio of the lengths of two sides
-LOOSE = 1.6  # widest opening of an outline at the foot, of its mean width
+FEET = 0.45  # farthest the two feet lie apart, of the length
+LIKE = 0.5  # least ratio of the lengths of two sides
+SHUT = 0.6  # an outline whose ends come this near, of its mean width, is as good as closed
+WITHIN = 0.9  # least part of a line inside the outline of a limb that makes it bark
+LOOSE = 2.5  # widest opening of an outline at the foot, of its mean width
 
 
-def limbs_of_outlines(lines: list[Line], closed: list[bool]) -> tuple[list[Line], list[tuple[Line, Line]]]:
-    """(the lines, those that outline a limb replaced by its middle; (middle, other side) where two lines drew one).
+@dataclass(frozen=True, eq=False)
+class Outlined:
+    """The lines of a drawing with the outlines of limbs replaced by their middle."""
 
-    `closed`: lines that the file closes, or that were drawn as closed.
-    """
+    lines: list[Line]
+    sides: list[tuple[Line, Line]]  # (middle, the other side) where two lines drew a limb
+    bark: list[Line]  # what was drawn inside an outline
+
+
+def limbs_of_outlines(lines: list[Line], closed: list[bool]) -> Outlined:
+    """The lines, those that outline a limb replaced by its middle. `closed`: lines that the file closes."""
     if not lines:
-        return lines, []
+        return Outlined(lines, [], [])
     height = extent(lines)
-    lines = _single_outlines(lines, closed, height)
-    return _pairs(lines, height)
+    lines, areas = _single_outlines(lines, closed, height)
+    inside = shapely.union_all(list(areas.values()))
+    bark = [k for k, line in enumerate(lines) if areas and k not in areas and line.shape.intersection(inside).length >= WITHIN * line.length]
+    kept, sides = _pairs([line for k, line in enumerate(lines) if k not in bark], height)
+    return Outlined(kept, sides, [lines[k] for k in bark])
 
 
-def _single_outlines(lines: list[Line], closed: list[bool], height: float) -> list[Line]:
-    """Lines that run out and back become their middle."""
+def _single_outlines(lines: list[Line], closed: list[bool], height: float) -> tuple[list[Line], dict[int, shapely.Geometry]]:
+    """(lines, those that run out and back replaced by their middle; of those that are closed, the area inside)."""
     length = np.array([line.length for line in lines])
     opening = np.array([np.hypot(*(line.points[0] - line.points[-1])) for line in lines])
     back = np.array(closed) | (opening <= 0.3 * length)
     rows = [k for k in np.flatnonzero(back) if len(lines[k].points) > 3 and lines[k].length > 4 * WIDE * height]
     if not rows:
-        return lines
+        return lines, {}
     found = middles(np.array([even_border(lines[k].points) for k in rows]))
-    result = list(lines)
+    result, areas = list(lines), {}
     for n, k in enumerate(rows):
-        limit = np.inf if closed[k] else NARROW
-        if _is_limb(found, n, limit, height) and (closed[k] or opening[k] <= LOOSE * found.width[n].mean()):
+        gap = opening[k] / max(float(found.width[n].mean()), 1e-300)
+        whole = closed[k] or gap <= SHUT
+        if _is_limb(found, n, np.inf if whole else NARROW, height) and (whole or gap <= LOOSE):
             result[k] = _middle_line(lines[k], found, n, height)
-    return result
+            if whole:
+                areas[int(k)] = shapely.make_valid(shapely.Polygon(lines[k].points)).buffer(WIDE * height)
+    return result, areas
 
 
 def _pairs(lines: list[Line], height: float) -> tuple[list[Line], list[tuple[Line, Line]]]:

@@ -6,6 +6,7 @@ All others are wood: their lines are what is joined to a tree. A rule needs seve
 stays a branch.
 """
 
+import dataclasses
 from dataclasses import dataclass, field
 
 import numpy as np
@@ -15,19 +16,19 @@ from jaxtyping import Bool, Float
 from sketchtree.sketch.graph import Cut, Role
 from sketchtree.sketch.joining.lines import Line
 from sketchtree.sketch.roles.contour import contour, lone_outline
-from sketchtree.sketch.roles.crown import closed_crowns, has_area, outline
+from sketchtree.sketch.roles.crown import closed_crowns, has_area, on_ground, outline
 from sketchtree.sketch.roles.found import Found, role_warnings
 from sketchtree.sketch.roles.ground import grass, ground_lines
 from sketchtree.sketch.roles.implied import implied_stems
-from sketchtree.sketch.roles.leaves import MASS, leaf_shapes, marks_inside, scribbles
-from sketchtree.sketch.roles.masses import border, bulk_and_trunk, mass
+from sketchtree.sketch.roles.leaves import leaf_shapes, marks_inside
 from sketchtree.sketch.roles.measures import Measures
 from sketchtree.sketch.roles.named import role_in_names
 from sketchtree.sketch.roles.page import cuts_of, frames
+from sketchtree.sketch.roles.scribble import Scribble, meaning, scribbles
 from sketchtree.sketch.roles.shadow import shadows
-from sketchtree.sketch.roles.trunk_edges import Trunks, trunks_of_edges
+from sketchtree.sketch.roles.trunk_edges import trunks_of_edges
 from sketchtree.sketch.roles.wood import wood_lines
-from sketchtree.sketch.strokes import Sketch, StrokeKind
+from sketchtree.sketch.strokes import Sketch, Stroke, StrokeKind
 
 
 @dataclass(frozen=True, eq=False)
@@ -63,11 +64,16 @@ class _Table:
             self.found[one.row] = one
             self.wood[one.row] = self.free[one.row] = False
 
-    def add_bark(self, trunks: Trunks) -> None:
-        """Strokes of which nothing is left but lines between the sides of a trunk."""
-        kept = {line.row for line in trunks.lines}
-        bark = {line.row for line in trunks.bark} - kept
-        self.take([Found(row, "hatching", "drawn between the two sides of a trunk", (("branch", 0.6),)) for row in sorted(bark)])
+    def crown_area(self, margin: float = 0.0) -> shapely.Geometry | None:
+        """The area of all crowns, this much wider; None where there is none."""
+        if not self.outlines:
+            return None
+        return shapely.union_all([shapely.make_valid(shapely.Polygon(points)).buffer(margin) for points in self.outlines])
+
+    def add_bark(self, bark: list[Line], lines: list[Line]) -> None:
+        """Strokes of which nothing is left but lines between the sides of a limb."""
+        rows = {line.row for line in bark} - {line.row for line in lines}
+        self.take([Found(row, "hatching", "drawn between the two sides of a limb", (("branch", 0.6),)) for row in sorted(rows)])
 
     def rows(self, role: str) -> list[int]:
         """The strokes known to be this."""
@@ -84,12 +90,12 @@ def sort_strokes(sketch: Sketch) -> Sorted:
     ground = [table.m.strokes[row].points for row in table.rows("ground")]
     table.take(grass(table.m, table.free, ground, table.wood))
     table.take(shadows(table.m, table.free, table.wood))
-    _find_crowns(table)
+    _find_crowns(table, ground)
     _find_leaves(table)
     wood = wood_lines(sketch.strokes, np.flatnonzero(table.wood).tolist(), table.legs)
     trunks = trunks_of_edges(wood.lines, table.outlines)
     lines, sides = trunks.lines, [*wood.sides, *trunks.sides]
-    table.add_bark(trunks)
+    table.add_bark([*wood.bark, *trunks.bark], lines)
     stem_warnings = []
     if not lines and table.outlines:
         lines, stem_warnings = implied_stems(table.outlines, ground, *_owner(table))
@@ -134,20 +140,36 @@ def _named(sketch: Sketch) -> _Table:
     return table
 
 
-def _find_crowns(table: _Table) -> None:
-    """The crowns by their shape, unless the file names one."""
-    if table.outlines:
-        return
+def _find_crowns(table: _Table, ground: list[np.ndarray]) -> None:
+    """The crowns by their shape, unless the file names one; and what the scribbles are."""
     m = table.m
-    closed = closed_crowns(m, table.free, table.wood)
-    table.take(closed)
-    table.outlines += [outline(m.strokes[one.row].points) for one in closed if one.role == "crown"]
-    if table.outlines:
-        return
-    rows = np.flatnonzero(table.wood)
-    around = contour([m.strokes[row] for row in rows])
+    wild = scribbles(m, table.free)
+    tame = table.wood.copy()
+    tame[wild] = False
+    if not table.outlines:
+        closed = closed_crowns(m, table.free & tame, tame, ground)
+        table.take(closed)
+        tame[[one.row for one in closed]] = False
+        table.outlines += [outline(m.strokes[one.row].points) for one in closed if one.role == "crown"]
+    if not table.outlines:
+        _find_contour(table, np.flatnonzero(tame))
+    if not table.outlines and (alone := lone_outline(_closed_by(ground, m, np.flatnonzero(tame)))) is not None:
+        table.outlines.append(outline(alone))
+        table.take([Found(int(row), "crown", "a closed outline without a trunk") for row in np.flatnonzero(tame)])
+    for row in wild.tolist():
+        _take_scribble(table, meaning(m, row, table.crown_area(), alone=not table.outlines and len(wild) == table.wood.sum()))
+
+
+def _closed_by(ground: list[np.ndarray], m: Measures, rows) -> list[Stroke]:
+    """These strokes, those with both ends on a ground line closed."""
+    standing = on_ground(m, ground)
+    return [dataclasses.replace(m.strokes[row], closed=True) if standing[row] else m.strokes[row] for row in rows]
+
+
+def _find_contour(table: _Table, rows) -> None:
+    """A crown that is one contour on its trunk."""
+    around = contour([table.m.strokes[row] for row in rows])
     if around is None:
-        _find_bush(table)
         return
     table.outlines.append(outline(around.outline))
     for k, legs in around.legs.items():
@@ -157,22 +179,15 @@ def _find_crowns(table: _Table) -> None:
             table.legs[row] = legs
 
 
-def _find_bush(table: _Table) -> None:
-    """A crown without any trunk, where nothing else is drawn."""
-    m, rows = table.m, np.flatnonzero(table.wood)
-    alone = lone_outline([m.strokes[row] for row in rows])
-    if alone is not None:
-        table.outlines.append(outline(alone))
-        table.take([Found(int(row), "crown", "a closed outline without a trunk") for row in rows])
-        return
-    wild = scribbles(m, table.free)
-    for row in wild[m.size[wild] >= MASS * float((m.drawing[1] - m.drawing[0]).max())] if len(wild) else ():
-        area = mass(m.strokes[row].points)
-        if area.is_empty:
-            continue
-        crown, _ = bulk_and_trunk(area)
-        table.outlines.append(border(crown or area))
-        table.take([Found(int(row), "crown", "a scribble of foliage")])
+def _take_scribble(table: _Table, scribble: Scribble) -> None:
+    if scribble.role == "crown":
+        table.outlines.append(scribble.outline)
+        table.take([Found(scribble.row, "crown", "a scribble of foliage")])
+    elif scribble.role == "leaves":
+        table.take([Found(scribble.row, "leaves", "a scribble of foliage", (("branch", 0.6),))])
+    if scribble.middle:
+        table.legs[scribble.row] = scribble.middle
+        table.wood[scribble.row] = table.free[scribble.row] = False
 
 
 def _owner(table: _Table) -> tuple[int, str]:
@@ -185,12 +200,13 @@ def _owner(table: _Table) -> tuple[int, str]:
 def _find_leaves(table: _Table) -> None:
     """Leaves, and marks inside the crowns."""
     rows = np.flatnonzero(table.wood)
-    if len(rows) < 2:
+    if len(rows) < 2 and not table.outlines:
+        return
+    if len(rows) == 0:
         return
     height = float(max(table.m.high[rows, 1].max() - table.m.low[rows, 1].min(), 0.0))
     if table.outlines:
-        crown = shapely.union_all([shapely.make_valid(shapely.Polygon(points)).buffer(0.02 * height) for points in table.outlines])
-        table.take(marks_inside(table.m, table.free, crown, table.wood, height))
+        table.take(marks_inside(table.m, table.free, table.crown_area(0.02 * height), table.wood, height))
     leaves = leaf_shapes(table.m, table.free, height)
     if len(leaves) < table.wood.sum():
         table.take(leaves)

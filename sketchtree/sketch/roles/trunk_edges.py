@@ -17,19 +17,24 @@ from jaxtyping import Float
 
 from sketchtree.sketch.joining.lines import Line, angle_between, extent
 
-ON_GROUND = 0.15  # of H: both feet within this of the lowest point
+ON_GROUND = (0.15, 0.2)  # of H: both feet within this of the lowest point; under a crown
 LIKE = 0.55  # least ratio of the lengths
 EVEN = {"crown": 4.0, "fronds": 3.0, "alone": 2.0}  # most by which the distance between them varies
 APART = {"crown": 0.6, "fronds": 0.35, "alone": 0.25}  # widest mean distance, of their length
 OVERLAP = 0.02  # of H: sides are farther apart than this
 ACROSS = 0.3  # of its height: a line that draws both sides is never farther than this from its turn between them
 STEEP = 0.7  # sine of the slope of a side
-FLARE, FLAT = 0.35, 0.5  # part of a side that may run out along the ground, and the sine of the slope that ends it
-MEETS = 0.015  # of H: pieces of one side meet end to end within this …
+FLARE, FLAT = 0.6, 0.5  # part of a side that may run out along the ground, and the sine of the slope that ends it
+SHORT = 0.3  # of the longest line on the ground: shorter ones are no sides
+STALLS = 0.3  # sine of the slope below which a side has stopped rising
+MANY = 12  # lines on the ground: among more none are sides
+PIECES = 4  # of one side
+MEETS = 0.02  # of H: pieces of one side meet end to end within this …
 BENDS = np.radians(60)  # … and bend no more there
 FRONDS, AROUND = 3, 0.25  # strokes that start at the tops, within this part of the sides' length
 BARE = (0.1, 0.8)  # the part of a side from which nothing else grows
 LOW = 0.4  # of a crown's height: between several lines only those are sides that end below
+IN_CROWN = 0.8  # least part of what goes on above a side that lies in the crown, to belong to it
 INSIDE = 0.02  # of H: what lies this far outside the sides still counts as bark between them
 
 
@@ -42,40 +47,80 @@ class Trunks:
     bark: list[Line]  # what was drawn between the sides
 
 
+@dataclass(frozen=True, eq=False)
+class _Side:
+    """What may be one side of a trunk."""
+
+    line: Line  # upward, from the ground to where it stops rising
+    rows: tuple[int, ...]  # the lines that drew it
+    rest: tuple[Line, ...]  # how they go on from there
+
+
 def trunks_of_edges(lines: list[Line], crowns: list[Float[np.ndarray, "point 2"]]) -> Trunks:
-    """The lines with the sides of every trunk replaced by their middle. `crowns`: outlines found so far."""
+    """The lines with the sides of a trunk replaced by their middle. `crowns`: outlines found so far."""
     if not lines:
         return Trunks(lines, [], [])
     height = extent(lines)
     lowest = min(float(line.points[:, 1].min()) for line in lines)
     upward = [line if line.points[0, 1] <= line.points[-1, 1] else line.reversed() for line in lines]
-    standing = [k for k, line in enumerate(upward) if line.points[0, 1] - lowest <= ON_GROUND * height and _rises(_unflared(line))]
-    if len(standing) == 1:
-        return _of_one_line(lines, lowest, height, bool(crowns))
-    several = len(standing) > 2
-    sides = {k: (upward[k], [k]) if several else _whole_side(k, upward, height) for k in standing}
-    for a, b in _pairs(standing, upward):
-        used = {*sides[a][1], *sides[b][1]}
-        rest = [line for k, line in enumerate(lines) if k not in used]
-        middle = _pair(sides[a][0], sides[b][0], rest, height, crowns, several=several)
-        if middle is None or set(sides[a][1]) & set(sides[b][1]):
+    ground = lowest + ON_GROUND[bool(crowns)] * height
+    near = [k for k, line in enumerate(upward) if line.points[:, 1].min() <= ground]
+    sides = {k: _side(upward[k], k, height, crowns) for k in near}
+    sides = {k: side for k, side in sides.items() if _rises(side.line) and side.line.points[0, 1] <= ground}
+    longest = max((side.line.length for side in sides.values()), default=0.0)
+    sides = {k: side for k, side in sides.items() if side.line.length >= SHORT * longest}
+    if len(sides) >= 2:
+        whole = {} if len(sides) > 2 else {k: _whole_side(k, upward, height, crowns) for k in sides}
+        found = _trunk_of(sides, lines, height, crowns) or (_trunk_of(whole, lines, height, crowns) if whole else None)
+        if found is not None:
+            return found
+    return _of_one_line(lines, near, height, bool(crowns)) if len(near) == 1 else Trunks(lines, [], [])
+
+
+def _trunk_of(sides: dict[int, _Side], lines: list[Line], height: float, crowns) -> Trunks | None:
+    """The lines with the first pair of sides that makes a trunk replaced; None if no pair does."""
+    several = len(sides) > 2
+    for a, b in _pairs(sides):
+        used = {*a.rows, *b.rows}
+        others = [line for k, line in enumerate(lines) if k not in used] + [*a.rest, *b.rest]
+        middle = _pair(a.line, b.line, others, height, crowns, several=several)
+        if middle is None or len(used) < len(a.rows) + len(b.rows):
             continue
-        trunk = _replaced(lines, used, middle, (sides[a][0], sides[b][0]), height)
-        if len(trunk.bark) >= len(standing) - 2:
+        trunk = _replaced(lines, used, middle, (a, b), height, crowns)
+        if len(trunk.bark) >= len(sides) - 2:
             return trunk
-    return _of_one_line(lines, lowest, height, bool(crowns)) if len(standing) == 0 else Trunks(lines, [], [])
+    return None
 
 
-def _pairs(standing: list[int], lines: list[Line]) -> list[tuple[int, int]]:
-    """Pairs of standing lines, those farthest apart first: what stands between is bark."""
-    order = sorted(standing, key=lambda k: (lines[k].points[0, 0], lines[k].points[-1, 0]))
-    spans = [(j - i, i) for i in range(len(order)) for j in range(i + 1, len(order))] if len(order) <= 12 else []
+def _side(line: Line, row: int, height: float, crowns) -> _Side:
+    """The part of an upward line that may be a trunk's side: without its flare, up to where it stops rising."""
+    line = _unflared(line)
+    s = np.linspace(0.0, line.length, 41)
+    x, y = line.at(s).T
+    window = min(max(int(np.ceil(40 * 0.1 * height / line.length)), 4), 40)
+    stalls = y[window:] - y[:-window] < STALLS * (s[window:] - s[:-window])
+    deep = np.zeros(41, bool)
+    for points in crowns:
+        (left, low), (right, high) = points.min(0), points.max(0)
+        deep |= (x >= left) & (x <= right) & (y > low + LOW * (high - low))
+    ends = np.flatnonzero(np.r_[stalls, np.zeros(window, bool)] | deep)
+    ends = ends[ends >= 4]
+    if len(ends) == 0:
+        return _Side(line, (row,), ())
+    top = float(s[ends[0]])
+    return _Side(line.cut(0.0, top), (row,), (line.cut(top, line.length),) if top < line.length else ())
+
+
+def _pairs(sides: dict[int, _Side]) -> list[tuple[_Side, _Side]]:
+    """Pairs of sides, those farthest apart first: what stands between is bark."""
+    order = sorted(sides.values(), key=lambda side: (side.line.points[0, 0], side.line.points[-1, 0]))
+    spans = [(j - i, i) for i in range(len(order)) for j in range(i + 1, len(order))] if len(order) <= MANY else []
     return [(order[i], order[i + span]) for span, i in sorted(spans, key=lambda pair: (-pair[0], pair[1]))]
 
 
 def _pair(a: Line, b: Line, rest: list[Line], height: float, crowns, *, several: bool) -> Line | None:
     """The middle of two sides; None if they are none."""
-    longer, shorter = sorted((_unflared(a), _unflared(b)), key=lambda line: -line.length)
+    longer, shorter = sorted((a, b), key=lambda line: -line.length)
     manner = "crown" if crowns else "fronds" if _carry_fronds(longer, shorter, rest, height) else "alone"
     if several and not (crowns and all(_ends_low(side, crowns) for side in (a, b))):
         return None
@@ -103,45 +148,47 @@ def _carry_fronds(a: Line, b: Line, rest: list[Line], height: float) -> bool:
     return bool(near.sum() >= FRONDS and closes)
 
 
-def _whole_side(k: int, lines: list[Line], height: float) -> tuple[Line, list[int]]:
-    """(a side with the pieces that carry it on from its top, which lines these are)."""
+def _whole_side(k: int, lines: list[Line], height: float, crowns) -> _Side:
+    """A side with the pieces that carry it on from its top."""
     side, used = lines[k], [k]
-    while len(used) < 4:
-        best, least = None, BENDS
-        for j, line in enumerate(lines):
-            if j in used or line.length < 2 * MEETS * height:
-                continue
-            for piece in (line, line.reversed()):
-                if np.hypot(*(piece.points[0] - side.points[-1])) <= MEETS * height:
-                    bend = float(angle_between(side.direction(side.length, 0.1 * side.length), piece.direction(0.0, 0.1 * piece.length)))
-                    best, least = ((j, piece), bend) if bend < least else (best, least)
-        if best is None or len([1 for j, line in enumerate(lines) if j not in used and _ends_near(line, side.points[-1], MEETS * height)]) > 1:
-            return side, used
-        used.append(best[0])
-        points = np.vstack([side.points, best[1].points[1:]])
-        side = Line(side.row, side.id, points, np.r_[side.width, best[1].width[1:]])
-    return side, used
+    while len(used) < PIECES:
+        near = [j for j, line in enumerate(lines) if j not in used and line.length > 2 * MEETS * height and _ends_near(line, side.points[-1], MEETS * height)]
+        if len(near) != 1:
+            break
+        piece = lines[near[0]]
+        piece = piece if np.hypot(*(piece.points[0] - side.points[-1])) <= np.hypot(*(piece.points[-1] - side.points[-1])) else piece.reversed()
+        if angle_between(side.direction(side.length, 0.1 * side.length), piece.direction(0.0, 0.1 * piece.length)) > BENDS:
+            break
+        used.append(near[0])
+        side = Line(side.row, side.id, np.vstack([side.points, piece.points[1:]]), np.r_[side.width, piece.width[1:]])
+    one = _side(side, k, height, crowns)
+    return _Side(one.line, tuple(used), one.rest)
 
 
 def _ends_near(line: Line, point, reach: float) -> bool:
     return bool(min(np.hypot(*(line.points[0] - point)), np.hypot(*(line.points[-1] - point))) <= reach)
 
 
-def _replaced(lines: list[Line], used: set[int], middle: Line, sides: tuple[Line, Line], height: float) -> Trunks:
-    """The lines with a trunk's sides replaced; what lies between them apart."""
-    between = shapely.make_valid(shapely.Polygon(np.vstack([sides[0].points, sides[1].points[::-1]]))).buffer(INSIDE * height)
-    rest = [line for k, line in enumerate(lines) if k not in used]
-    bark = [line for line in rest if line.shape.intersection(between).length >= 0.9 * line.length]
+def _replaced(lines: list[Line], used: set[int], middle: Line, sides: tuple[_Side, _Side], height: float, crowns) -> Trunks:
+    """The lines with a trunk's sides replaced; what lies between them apart, what goes on in the crown dropped."""
+    ring = np.vstack([sides[0].line.points, sides[1].line.points[::-1]])
+    between = shapely.make_valid(shapely.Polygon(ring)).buffer(INSIDE * height)
+    kept = [line for k, line in enumerate(lines) if k not in used]
+    bark = [line for line in kept if line.shape.intersection(between).length >= 0.9 * line.length]
+    crown = shapely.union_all([shapely.make_valid(shapely.Polygon(points)).buffer(INSIDE * height) for points in crowns])
+    rest = [line for side in sides for line in side.rest if line.length > 2 * INSIDE * height]
+    rest = [line for line in rest if line.shape.intersection(crown).length < IN_CROWN * line.length]
     others = [(middle, lines[k]) for k in sorted(used) if lines[k].row != middle.row]
-    return Trunks([line for line in rest if not any(line is b for b in bark)] + [middle], others, bark)
+    return Trunks([line for line in kept if not any(line is b for b in bark)] + rest + [middle], others, bark)
 
 
-def _of_one_line(lines: list[Line], lowest: float, height: float, under_crown: bool) -> Trunks:
+def _of_one_line(lines: list[Line], near: list[int], height: float, under_crown: bool) -> Trunks:
     """The same for a trunk whose two sides are one line, the only line on the ground."""
-    standing = [k for k, line in enumerate(lines) if line.points[:, 1].min() - lowest <= ON_GROUND * height]
-    sides = _sides(lines[standing[0]], under_crown) if len(standing) == 1 else None
+    sides = _sides(lines[near[0]], under_crown)
     middle = sides and _middle(*sorted(sides, key=lambda side: -side.length), height, "crown" if under_crown else "alone")
-    return _replaced(lines, {standing[0]}, middle, sides, height) if middle else Trunks(lines, [], [])
+    if not middle:
+        return Trunks(lines, [], [])
+    return _replaced(lines, {near[0]}, middle, tuple(_Side(side, (near[0],), ()) for side in sides), height, [])
 
 
 def _sides(line: Line, under_crown: bool) -> tuple[Line, Line] | None:
@@ -168,11 +215,12 @@ def _turn(points: Float[np.ndarray, "point 2"]) -> tuple[int, int] | None:
 
 
 def _unflared(line: Line) -> Line:
-    """An upward line without the part at its foot that runs along the ground."""
-    step = np.diff(line.points, axis=0)
+    """An upward line without the part at its foot that runs along the ground or hooks up from it."""
+    inner = line.along <= FLARE * line.length
+    lowest = int(np.argmin(np.where(inner, line.points[:, 1], np.inf)))
+    step = np.diff(line.points[lowest:], axis=0)
     flat = step[:, 1] < FLAT * np.hypot(step[:, 0], step[:, 1])
-    first = int(np.argmin(flat)) if not flat.all() else 0
-    s = line.along[first]
+    s = float(line.along[lowest + (0 if flat.all() else int(np.argmin(flat)))])
     return line.cut(s, line.length) if 0 < s <= FLARE * line.length else line
 
 

@@ -30,6 +30,7 @@ class Wood:
     lines: list[Line]
     measured: bool  # their widths are the limbs' own thickness; no pen set them
     sides: list[tuple[Line, Line]]  # (middle, the other side) of limbs that two lines drew
+    bark: list[Line]  # what was drawn inside the outline of a limb
 
 
 def wood_lines(strokes: tuple[Stroke, ...], rows: list[int], legs: dict[int, tuple[np.ndarray, ...]]) -> Wood:
@@ -39,12 +40,13 @@ def wood_lines(strokes: tuple[Stroke, ...], rows: list[int], legs: dict[int, tup
     lines += [line for row, parts in legs.items() for points in parts if (line := as_line(row, strokes[row].id, points, np.nan))]
     closed += [False] * (len(lines) - len(closed))
     plain = {id(line) for line in lines}
-    lines, sides = limbs_of_outlines(lines, closed)
+    outlined = limbs_of_outlines(lines, closed)
+    lines = outlined.lines
     by_pen = any(np.isfinite(line.width).any() for line in lines if id(line) in plain and not strokes[line.row].wood)
     painted, thin = _painted_lines(strokes, [row for row in rows if strokes[row].filled])
-    lines += painted
+    lines = lines + painted
     known = any(np.isfinite(line.width).any() for line in lines)
-    return Wood(lines, known and not by_pen and not thin, sides)
+    return Wood(lines, known and not by_pen and not thin, outlined.sides, outlined.bark)
 
 
 def _pen_lines(strokes: tuple[Stroke, ...], rows: list[int]) -> tuple[list[Line], list[bool]]:
