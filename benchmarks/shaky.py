@@ -15,7 +15,7 @@ H the drawn height, ℓ = 5 % H and j the jitter in % of H:
     reversed   one in two is drawn from its tip
     order      shuffled
 
-No pressure, no width, no time. `Wobbly` keeps the truth beside the strokes.
+`slips` scales the gap and the shares of overshot and retraced strokes: 0 is a careful hand. No pressure, no width, no time. `Wobbly` keeps the truth beside the strokes.
 """
 
 from dataclasses import dataclass
@@ -56,7 +56,7 @@ class Wobbly:
         return sum(len(node) for node in self.node)
 
 
-def wobbly(case: Case, jitter: float, *, moored: bool = True, rng: np.random.Generator) -> Wobbly:
+def wobbly(case: Case, jitter: float, *, moored: bool = True, slips: float = 1.0, rng: np.random.Generator) -> Wobbly:
     """`case` drawn by a careless hand; `jitter` is j, % of H."""
     graph = case.graph
     height = float(np.ptp(np.concatenate([graph.xy, graph.curve_points])[:, 1]))
@@ -73,12 +73,12 @@ def wobbly(case: Case, jitter: float, *, moored: bool = True, rng: np.random.Gen
                 noise = noise + noises[above][at] - noise[0]
             seats[limb] = _lengths(lines[above])[at]
         noises.append(noise)
-        drawn = exact + noise + (0 if above == NULL else _gap(len(exact), height, rng))
+        drawn = exact + noise + (0 if above == NULL else slips * _gap(len(exact), height, rng))
         lines.append(drawn)
         nodes.append(_lengths(drawn)[node[1:]])
     strokes, ids = [], []
     for limb, line in enumerate(lines):
-        own = [Stroke(f"s{limb}{'abc'[k]}", points) for k, points in enumerate(_as_drawn(line, graph.limb_parent[limb] == NULL, height, rng))]
+        own = [Stroke(f"s{limb}{'abc'[k]}", points) for k, points in enumerate(_as_drawn(line, graph.limb_parent[limb] == NULL, height, slips, rng))]
         strokes += own
         ids.append(tuple(stroke.id for stroke in own))
     shuffled = tuple(strokes[k] for k in rng.permutation(len(strokes)))
@@ -116,14 +116,14 @@ def _gap(count: int, height: float, rng) -> Float[np.ndarray, "point 2"]:
     return fade[:, None] * size * np.array([np.cos(angle), np.sin(angle)])
 
 
-def _as_drawn(line, trunk: bool, height: float, rng) -> list[Float[np.ndarray, "point 2"]]:
+def _as_drawn(line, trunk: bool, height: float, slips: float, rng) -> list[Float[np.ndarray, "point 2"]]:
     """The stroke(s) that draw a line."""
     points = line
-    if not trunk and rng.uniform() < OVERSHOT:
+    if not trunk and rng.uniform() < slips * OVERSHOT:
         back = line[0] - line[min(4, len(line) - 1)]
         past = line[0] + back / np.hypot(*back) * rng.uniform(*OVERSHOOT) * height
         points = np.vstack([past, line])
-    again = rng.uniform() < RETRACED
+    again = rng.uniform() < slips * RETRACED
     strokes = [points]
     if again:
         second = line + _noise(len(line), OFF * height, rng)

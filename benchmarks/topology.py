@@ -5,17 +5,16 @@
     python -m benchmarks.topology --record              write data/topology_record.json; the tests hold later versions to it
 
 Trees: the exemplars of the database and the measured trees, seen from any side, 2-3 orders, 10-60 strokes, drawn as
-`shaky.wobbly` says. A stroke of the truth is read rightly if both of these agree with the truth:
+`shaky.wobbly` says. Every true segment is sought where a stranger to the reader would: on the read curves, by its place.
 
-    report     every attachment of its strokes that leads to another line of the truth leads to its parent
-    walk       from the middle of every segment, found on the read curves, the way to the root runs along the stroke to
-               its foot and, MARGIN beyond the junction, along its parent, near where it truly starts
-
-    segments   share of true segments that are right (a wrong stroke costs all its segments)       the bar's figure
-    strokes    share of true strokes whose report is right, trunks left out
+    segments   share of true segments whose parent is on the true stroke: from the middle of a segment the read way to the
+               root stays on its stroke back to where the segment starts. The first segment of a stroke must go on
+               to the parent's line near the true junction, and every attachment reported of its strokes that leads
+               to another line of the truth must lead to that parent                                      the bar's figure
+    strokes    share of true strokes of which that first segment is right (segments within a stroke are easy)
     reversed   share of strokes whose tip was taken for the foot
     joined     share of strokes wrongly taken to carry another on from its tip
-    nearest    `strokes` of a baseline: the longest first, each to the nearest of those before it
+    nearest    share of strokes with the right parent by a baseline: longest first, each to the nearest before it
 """
 
 import argparse
@@ -41,7 +40,8 @@ JITTER = (0.0, 1.0, 2.0, 3.0, 5.0)  # j, % of H
 WAYS = {"moored": True, "adrift": False}
 MARGIN = 0.03  # of H: how far beyond a junction the way to the root is looked at
 NEAR = 0.01  # of H: nearer than this to a line is on it
-FIGURES = ("segments", "strokes", "walk", "reversed", "joined", "nearest")
+STEP = 0.002  # of H, between points on the read curves
+FIGURES = ("segments", "strokes", "reversed", "joined", "nearest")
 
 
 def trees(folder: Path | None = None) -> Iterator[tuple[str, object]]:
@@ -55,7 +55,7 @@ def trees(folder: Path | None = None) -> Iterator[tuple[str, object]]:
         yield path.stem, measured(path)
 
 
-def drawings(count: int, jitter: float, *, moored: bool = True, first_seed: int = 0, source=None) -> list[Wobbly]:
+def drawings(count: int, jitter: float, *, moored: bool = True, slips: float = 1.0, first_seed: int = 0, source=None) -> list[Wobbly]:
     """`count` drawings, the trees taken in turn; the same exact drawings for every jitter."""
     source = list(trees() if source is None else source)
     made = []
@@ -71,7 +71,7 @@ def drawings(count: int, jitter: float, *, moored: bool = True, first_seed: int 
             jitter=0.0,
         )
         case = draw(tree, hand, name=f"{name}_{turn}", family=name, rng=rng)
-        made.append(wobbly(case, jitter, moored=moored, rng=rng))
+        made.append(wobbly(case, jitter, moored=moored, slips=slips, rng=rng))
     return made
 
 
@@ -80,11 +80,11 @@ def score(drawn: Wobbly, graph: SketchGraph) -> dict[str, float]:
     reported = _reported(drawn, [(a.stroke, a.parent) for a in graph.attachments])
     walked = _walked(drawn, graph)
     inner = drawn.parent != NULL
-    right = np.concatenate([walk & ok for walk, ok in zip(walked, reported, strict=True)])
+    for walk, ok in zip(walked, reported, strict=True):
+        walk[0] &= ok
     return {
-        "segments": float(right.mean()),
-        "strokes": float(reported[inner].mean()),
-        "walk": float(np.concatenate(walked).mean()),
+        "segments": float(np.concatenate(walked).mean()),
+        "strokes": float(np.array([walk[0] for walk in walked])[inner].mean()),
         "reversed": float(_reversed(drawn, graph)[inner].mean()),
         "joined": float(_joined(drawn, graph)[inner].mean()),
         "nearest": float(_reported(drawn, nearest_first(drawn.sketch))[inner].mean()),
@@ -107,8 +107,8 @@ def _reported(drawn: Wobbly, pairs) -> np.ndarray:
 
 
 def _walked(drawn: Wobbly, graph: SketchGraph) -> list[np.ndarray]:
-    """Of every true stroke, of each of its segments: does the way to the root run along it and then its parent?"""
-    point, above, away = _rootward(graph, 0.002 * drawn.height)
+    """Of every true stroke, of each of its segments: does the way to the root keep to it, the first's lead to the parent?"""
+    point, above, away = _rootward(graph, STEP * drawn.height)
     tree = shapely.STRtree(shapely.points(point))
     lines = [shapely.LineString(line) for line in drawn.line]
     found = []
@@ -116,24 +116,30 @@ def _walked(drawn: Wobbly, graph: SketchGraph) -> list[np.ndarray]:
         up = int(drawn.parent[k])
         gap = 0.0 if up == NULL else line.interpolate(0.0).distance(lines[up])
         beyond = 0.0 if up == NULL else gap + min(MARGIN * drawn.height, drawn.s[k])
-        middle = 0.5 * (np.r_[0.0, drawn.node[k][:-1]] + drawn.node[k])
+        start = np.r_[0.0, drawn.node[k][:-1]]
+        middle = 0.5 * (start + drawn.node[k])
+        left = np.r_[middle[0] + beyond, (middle - start)[1:]]
+        kept = np.r_[beyond + min(MARGIN * drawn.height, 0.5 * middle[0]), np.zeros(len(left) - 1)]
         here = tree.nearest(shapely.line_interpolate_point(line, middle))
-        left, runs = middle + beyond, np.ones(len(middle), bool)
-        runs &= shapely.distance(shapely.points(point[here]), line) <= NEAR * drawn.height
+        runs = shapely.distance(shapely.points(point[here]), line) <= NEAR * drawn.height
         while (going := (left > 0) & (above[here] != NULL)).any():
             left[going] -= away[here[going]]
             here[going] = above[here[going]]
-            on = shapely.distance(shapely.points(point[here]), line) <= NEAR * drawn.height
-            runs &= on | ~going | (left < beyond + MARGIN * drawn.height)
-        if up == NULL:
-            runs &= np.hypot(*(point[here] - drawn.line[k][0]).T) <= MARGIN * drawn.height
-        else:
-            at = shapely.points(point[here])
-            seat = shapely.line_locate_point(lines[up], at)
-            runs &= shapely.distance(at, lines[up]) <= NEAR * drawn.height
-            runs &= np.abs(seat - drawn.s[k]) <= gap + 2 * MARGIN * drawn.height
+            runs &= ~going | (left < kept) | (shapely.distance(shapely.points(point[here]), line) <= NEAR * drawn.height)
+        off = np.abs(shapely.line_locate_point(line, shapely.points(point[here])) - start)
+        runs[1:] &= (off <= np.minimum(MARGIN * drawn.height, middle - start))[1:]
+        runs[0] &= _arrives(point[here[0]], k, drawn, lines, gap)
         found.append(runs)
     return found
+
+
+def _arrives(point, k: int, drawn: Wobbly, lines, gap: float) -> bool:
+    """Whether the way from stroke k's first segment ends where it should: on the parent near the junction, or at the foot of a stem."""
+    at, up = shapely.Point(point), int(drawn.parent[k])
+    if up == NULL:
+        return bool(np.hypot(*(point - drawn.line[k][0])) <= MARGIN * drawn.height)
+    near = at.distance(lines[up]) <= NEAR * drawn.height
+    return bool(near and abs(lines[up].project(at) - drawn.s[k]) <= gap + 2 * MARGIN * drawn.height)
 
 
 def _rootward(graph: SketchGraph, step: float):

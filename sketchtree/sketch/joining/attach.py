@@ -4,26 +4,34 @@ An attachment's cost depends on which end of the parent is its foot, and that on
 the arborescence is solved first with the kinder of both, then again with the directions it gave, until nothing
 changes; the cheapest consistent tree of all rounds is kept. The ground may feed every stroke:
 
-    cost of standing on the ground   4 + 50 |y − y_ground| / H + (1 − up) / 2     for strokes that rise from the ground
-                                     the same with 100 (y − y_lowest) / H, + FORBIDDEN   for all others
+    cost of standing on the ground   STANDING − TOWERS min(2 t, 1) + HANGS exp(−g / ε) + 50 |y − y_ground| / H + (1 − up) / 2
+                                     for strokes that rise from the ground; FORBIDDEN + 100 (y − y_lowest) / H + … for others
 
+    t    how far above its foot the stroke's other end is, of H: a low branch that hangs to the ground rises little
+    g    how far that other end is from any line: there it may hang; ε see `evidence`
     up   cosine between the stroke leaving that end and the vertical
 
-First only one stroke may stand on the ground (all are forbidden alike): its foot is y_ground. Then others may join it.
+First only one stroke may stand on the ground (all are forbidden alike): its foot is y_ground, and the gaps of that tree
+say how exactly the hand starts its strokes. Then others may join it.
 """
 
+from collections.abc import Callable
 from dataclasses import dataclass
 
 import numpy as np
-import shapely
 from jaxtyping import Bool, Float, Int
 
 from sketchtree.axes import NULL
 from sketchtree.sketch.joining.arborescence import arborescence
-from sketchtree.sketch.joining.candidates import MANY, REACH, Arcs, bridging_arcs, candidate_arcs
-from sketchtree.sketch.joining.lines import Line, extent, unit
+from sketchtree.sketch.joining.bundle import Bundle
+from sketchtree.sketch.joining.candidates import MANY, Arcs, bridging_arcs, candidate_arcs
+from sketchtree.sketch.joining.evidence import slip_of
+from sketchtree.sketch.joining.lines import Line
 
 FORBIDDEN = 1e4  # dearer than any tree of sensible attachments
+STANDING, TOWERS = 8.0, 5.0  # what a rising stroke pays to stand beside the stem; how much less if it is tall
+HANGS = 6.0  # and how much more if its upper end is on another stroke
+RISES = 0.06  # over how much of H a stroke's rise from the ground is taken
 GROUND = 0.04  # of H: a foot this near to the ground's height may stand on it
 ROUNDS, FEWER = (2, 4), (1, 2)  # at most, for the stem and for the rest; fewer in a drawing of more than MANY
 
@@ -36,31 +44,40 @@ class Hanging:
     end: Int[np.ndarray, " line"]  # its foot: 0 first, 1 last point
     s: Float[np.ndarray, " line"]  # length along the parent, from the parent's foot
     gap: Float[np.ndarray, " line"]  # sketch units
+    excess: Float[np.ndarray, " line"]  # what of the gap counts, part of H
     cost: Float[np.ndarray, " line"]
     alternatives: tuple[tuple[tuple[int, float], ...], ...]  # next best (line, cost)
 
 
-def attach(lines: list[Line]) -> Hanging:
-    """The least costly rooted tree (or several) over the lines."""
-    height = extent(lines)
+def attach(lines: list[Line], progress: Callable[[float], None] | None = None) -> Hanging:
+    """The least costly rooted tree (or several) over the lines. `progress` is told the share done, 0-1."""
+    bundle, told = Bundle.of(lines), progress or (lambda done: None)
     rounds = ROUNDS if len(lines) <= MANY else FEWER
-    arcs = candidate_arcs(lines, height)
-    rising, foot_y = _rising(lines, height)
+    rising, foot_y = _rising(bundle)
     lowest = float(foot_y.min())
-    alone = 100 * (foot_y - lowest) / height + 0.5 * (1 - rising) + _smallness(lines)[:, None]
-    solution = _solve(lines, arcs, alone + FORBIDDEN, rounds[0])
+    alone = 100 * (foot_y - lowest) / bundle.height + 0.5 * (1 - rising) + _smallness(bundle)[:, None]
+    root = bundle.ends[int(np.argmin(alone))]
+    arcs, slip = candidate_arcs(bundle, root)
+    told(0.5)
+    solution = _solve(bundle, arcs, slip, alone + FORBIDDEN, rounds[0])
+    slip = slip_of(solution.excess[solution.parent != NULL])
+    told(0.7)
     stem = int(np.argmin(np.where(solution.parent == NULL, solution.cost, np.inf)))
     ground = foot_y[stem, solution.end[stem]]
-    standing = 4 + 50 * np.abs(foot_y - ground) / height + 0.5 * (1 - rising)
-    allowed = (np.abs(foot_y - ground) <= GROUND * height) & (rising > 0.2)
+    tall = np.clip(2 * (foot_y[:, ::-1] - foot_y) / bundle.height, 0.0, 1.0)
+    hung = np.exp(-_nearest(bundle, arcs)[:, ::-1] / (slip * bundle.height))
+    standing = STANDING - TOWERS * tall + HANGS * hung + 50 * np.abs(foot_y - ground) / bundle.height + 0.5 * (1 - rising)
+    allowed = (np.abs(foot_y - ground) <= GROUND * bundle.height) & (rising > 0.2)
     standing = np.where(allowed, standing, alone + FORBIDDEN)
-    hanging = _solve(lines, arcs, standing, rounds[1], first=solution.end)
+    hanging = _solve(bundle, arcs, slip, standing, rounds[1], first=solution.end)
+    told(0.9)
     for _ in range(len(lines)):
         group = _floating(hanging)
         if group is None:
             break
-        arcs = arcs.joined(bridging_arcs(lines, group, height))
-        hanging = _solve(lines, arcs, standing, 2, first=hanging.end)
+        arcs = arcs.joined(bridging_arcs(bundle, group, root))
+        hanging = _solve(bundle, arcs, slip, standing, 2, first=hanging.end)
+    told(1.0)
     return hanging
 
 
@@ -77,12 +94,12 @@ def _floating(hanging: Hanging) -> Bool[np.ndarray, " line"] | None:
     return top == aloft[-1]
 
 
-def _solve(lines: list[Line], arcs: Arcs, standing: Float[np.ndarray, "line 2"], rounds: int, first=None) -> Hanging:
-    count = len(lines)
+def _solve(bundle: Bundle, arcs: Arcs, slip: float, standing: Float[np.ndarray, "line 2"], rounds: int, first=None) -> Hanging:
+    count = len(bundle)
     tail = np.r_[arcs.parent, np.full(2 * count, count)]
     head = np.r_[arcs.child, np.repeat(np.arange(count), 2)]
     end = np.r_[arcs.end, np.tile([0, 1], count)]
-    both = np.concatenate([arcs.cost, np.repeat(standing.reshape(-1, 1), 2, 1)])
+    both = np.concatenate([arcs.cost(slip), np.repeat(standing.reshape(-1, 1), 2, 1)])
     cost = both.min(1) if first is None else both[np.arange(len(both)), np.r_[first, 0][tail]]
     best, least = None, np.inf
     for _ in range(rounds):
@@ -93,17 +110,16 @@ def _solve(lines: list[Line], arcs: Arcs, standing: Float[np.ndarray, "line 2"],
         if total >= least - 1e-9:
             break
         best, least = (chosen, foot, cost), total
-    return _hanging(lines, arcs, tail, head, *best)
+    return _hanging(bundle, arcs, tail, head, *best)
 
 
-def _hanging(lines, arcs: Arcs, tail, head, chosen, foot, cost) -> Hanging:
-    count = len(lines)
+def _hanging(bundle: Bundle, arcs: Arcs, tail, head, chosen, foot, cost) -> Hanging:
+    count, length = len(bundle), bundle.length
     parent = np.where(tail[chosen] == count, NULL, tail[chosen])
-    length = np.array([line.length for line in lines])
-    s, gap = (np.r_[column, np.zeros(2 * count)][chosen] for column in (arcs.s, arcs.gap))
+    s, gap, excess = (np.r_[column, np.zeros(2 * count)][chosen] for column in (arcs.s, arcs.gap, arcs.excess))
     turned = (parent != NULL) & (foot[parent] == 1)
     s = np.where(turned, length[parent] - s, s)
-    return Hanging(parent, foot, s, gap, cost[chosen], _alternatives(tail, head, cost, chosen, count))
+    return Hanging(parent, foot, s, gap, excess, cost[chosen], _alternatives(tail, head, cost, chosen, count))
 
 
 def _alternatives(tail, head, cost, chosen, count: int) -> tuple:
@@ -123,18 +139,19 @@ def _alternatives(tail, head, cost, chosen, count: int) -> tuple:
     return tuple(rows)
 
 
-def _rising(lines: list[Line], height: float) -> tuple[Float[np.ndarray, "line 2"], Float[np.ndarray, "line 2"]]:
+def _rising(bundle: Bundle) -> tuple[Float[np.ndarray, "line 2"], Float[np.ndarray, "line 2"]]:
     """(cosine with the vertical of each line leaving each end, height of that end)."""
-    shapes, length = np.array([line.shape for line in lines], object), np.array([line.length for line in lines])
-    reach = np.minimum(2 * REACH * height, 0.5 * length)
-    inner = [shapely.get_coordinates(shapely.line_interpolate_point(shapes, s)) for s in (reach, length - reach)]
-    first = inner[0] - [line.points[0] for line in lines]
-    last = inner[1] - [line.points[-1] for line in lines]
-    y = np.array([[line.points[0, 1], line.points[-1, 1]] for line in lines])
-    return np.stack([unit(first)[:, 1], unit(last)[:, 1]], 1), y
+    reach = np.minimum(RISES * bundle.height, 0.5 * bundle.length)
+    return bundle.leaving(reach)[:, 1].reshape(-1, 2), bundle.ends[:, 1].reshape(-1, 2)
 
 
-def _smallness(lines: list[Line]) -> Float[np.ndarray, " line"]:
+def _nearest(bundle: Bundle, arcs: Arcs) -> Float[np.ndarray, "line 2"]:
+    """How far each end is from the nearest other line."""
+    gap = np.full(2 * len(bundle), np.inf)
+    np.minimum.at(gap, 2 * arcs.child + arcs.end, arcs.gap)
+    return gap.reshape(-1, 2)
+
+
+def _smallness(bundle: Bundle) -> Float[np.ndarray, " line"]:
     """0 for the longest line, towards 2 for the shortest: a trunk is seldom the smallest stroke."""
-    length = np.array([line.length for line in lines])
-    return 2 * (1 - length / length.max())
+    return 2 * (1 - bundle.length / bundle.length.max())

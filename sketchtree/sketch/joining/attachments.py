@@ -4,9 +4,9 @@ import numpy as np
 from jaxtyping import Int
 
 from sketchtree.axes import NULL
+from sketchtree.sketch.graph import Attachment
 from sketchtree.sketch.joining.attach import FORBIDDEN, Hanging
 from sketchtree.sketch.joining.cleaning import AGAIN_OVER, Cleaned
-from sketchtree.sketch.graph import Attachment
 from sketchtree.sketch.joining.joints import Limb
 from sketchtree.sketch.joining.lines import Line
 from sketchtree.sketch.joining.segments import Rows

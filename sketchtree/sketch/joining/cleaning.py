@@ -146,12 +146,11 @@ def _farthest(line: Line, shape: shapely.LineString) -> float:
     return float(shapely.distance(shapely.points(line.at(s)), shape).max())
 
 
-def as_line(row: int, stroke_id: str, points, width) -> Line | None:
-    """A line from the points of a stroke; None where they are all one point."""
+def as_line(row: int, stroke_id: str, points, width, begun: float = np.nan) -> Line | None:
+    """A line from the points of a stroke; None where they are all one point. `begun`: when it was begun, ms."""
     size = float(np.ptp(points, axis=0).max())
     mask = without_doubles(points, size) if size > 0 else np.zeros(1, bool)
     if mask.sum() < 2:
         return None
-    return Line(row, stroke_id, np.ascontiguousarray(points[mask]), np.broadcast_to(np.asarray(width, float), len(points))[mask].copy())
-
-
+    width = np.broadcast_to(np.asarray(width, float), len(points))[mask].copy()
+    return Line(row, stroke_id, np.ascontiguousarray(points[mask]), width, begun)

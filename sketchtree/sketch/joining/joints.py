@@ -14,7 +14,8 @@ from jaxtyping import Float, Int
 
 from sketchtree.axes import NULL
 from sketchtree.sketch.joining.attach import Hanging
-from sketchtree.sketch.joining.candidates import REACH, foot_reach
+from sketchtree.sketch.joining.candidates import foot_reach
+from sketchtree.sketch.joining.evidence import REACH
 from sketchtree.sketch.joining.lines import Line, angle_between, extent
 
 SLACK = 0.012  # of H: a wider gap between a foot and its junction is bridged, a narrower one closed

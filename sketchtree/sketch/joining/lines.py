@@ -17,6 +17,7 @@ class Line:
     id: str  # of its stroke
     points: Float[np.ndarray, "point 2"]  # sketch units, y up
     width: Float[np.ndarray, " point"]  # drawn width; NaN where it says nothing
+    begun: float = np.nan  # when its stroke was begun, ms; NaN where the file does not say
 
     @cached_property
     def along(self) -> Float[np.ndarray, " point"]:
