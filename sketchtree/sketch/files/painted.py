@@ -20,6 +20,7 @@ from sketchtree.sketch.files.clips import Clips, rectangle
 from sketchtree.sketch.files.css import GEOMETRY, Cascade, Style
 from sketchtree.sketch.files.document import DEEPEST, XLINK, local_name, too_deep
 from sketchtree.sketch.files.left_out import LeftOut
+from sketchtree.sketch.files.limits import check_points
 from sketchtree.sketch.files.names import LABEL, Naming
 from sketchtree.sketch.files.outlines import SHAPES, flatten, subpaths
 from sketchtree.sketch.files.paint import Paint, fraction, seen
@@ -88,7 +89,7 @@ class Walk:
         self.elsewhere: dict[str, int] = {}  # `use` of other files
         self._found: list[Shape] = []
         self._cloned = 0
-        self._strokes = 0
+        self._strokes = self._points = 0
         self._boxes: dict[Element, Box] = {}
 
     def shapes(self) -> list[Shape]:
@@ -192,7 +193,7 @@ class Walk:
                 clip = shown if clip is None else clip & shown
             scope = scope._replace(matrix=scope.matrix @ matrix, clip=clip)
         if tag == "switch":
-            first = next((child for child in element if isinstance(child.tag, str) and local_name(child.tag) and _fits(child)), None)
+            first = next((child for child in element if local_name(child.tag) in _PAINTED | _OTHER.keys() and _fits(child)), None)
             if first is not None:
                 self._element(first, scope)
             else:
@@ -239,7 +240,7 @@ class Walk:
             return
         record, drawn = self._own(element, style, scope)
         paths = [] if drawn else [transformed(path, scope.matrix) for path in self._geometry(element, style, under)]
-        self._count(1 if drawn else len(paths))
+        self._count(1 if drawn else len(paths), len(drawn[0]) if drawn else sum(len(path.cubics) for path in paths))
         self._found.append(
             Shape(
                 element,
@@ -292,8 +293,10 @@ class Walk:
         count = 1 if scope.uses else sum(local_name(part.tag) in SHAPES or local_name(part.tag) == "use" for part in element.iter())
         self.left_out.add("a hidden shape", count)
 
-    def _count(self, strokes: int) -> None:
+    def _count(self, strokes: int, points: int) -> None:
         self._strokes += strokes
+        self._points += points
+        check_points(self._points, self.name)
         if self._strokes > self.max_strokes:
             raise SketchError(
                 f"{self.name} holds more than {self.max_strokes} strokes.",
