@@ -15,7 +15,7 @@ from sketchtree.errors import SketchError
 MAX_STROKES = 20_000
 MAX_MB = 100.0  # 10⁶ bytes, after unpacking
 MAX_MEGAPIXELS = 200.0  # 10⁶ pixels of a picture
-MAX_POINTS = 20_000_000  # of all strokes together
+MAX_POINTS = 5_000_000  # of all strokes together
 
 
 def read_bytes(path: Path, *, max_mb: float = MAX_MB) -> bytes:

@@ -41,12 +41,18 @@ def uses(levels: int) -> str:
     return SVG.format(f'<defs><g id="g0">{PATH}</g>{groups}</defs><use href="#g{levels - 1}"/>')
 
 
+def clones(count: int) -> str:
+    far = "L1 0L0 1" * 50_000
+    return SVG.format(f'<defs><path id="a" d="M0 0{far}"/></defs><g fill="none" stroke="red">' + '<use href="#a"/>' * count + "</g>")
+
+
 REFUSED = {
     "laughs.svg": (laughs(), "declares XML entities"),
     "ink_laughs.inkml": (laughs().replace("<svg", "<ink").replace("</svg>", "</ink>").replace("svg [", "ink ["), "declares XML entities"),
     "fetch.svg": ('<!DOCTYPE svg [<!ENTITY a SYSTEM "file:///etc/passwd">]>' + SVG.format(f"<text>&a;</text>{PATH}"), "declares an entity of another file"),
     "parameter.svg": ('<!DOCTYPE svg [<!ENTITY % a SYSTEM "http://127.0.0.1/">%a;]>' + SVG.format(PATH), "declares a parameter entity"),
     "uses.svg": (uses(9), "nests its groups|holds more than"),
+    "clones.svg": (clones(100), "clones.svg draws more than 5 million points. Simplify its lines, unlink its clones"),
     "deep.svg": (SVG.format("<g>" * 100_000 + PATH + "</g>" * 100_000), "nests its groups"),
     "deep.json": ("[" * 100_000, "not one well-formed JSON document|nests its lists"),
     "deep_objects.json": ('{"sketchtree": 1, "strokes": ' + '{"a":' * 100_000, "not one well-formed JSON document|nests its lists"),
