@@ -15,7 +15,7 @@ from sketchtree.sketch.joining.cleaning import clean
 from sketchtree.sketch.joining.joints import Limb, limbs_of
 from sketchtree.sketch.joining.lines import Line, extent
 from sketchtree.sketch.joining.segments import columns
-from sketchtree.sketch.roles.sorting import Sorted, sort_strokes
+from sketchtree.sketch.roles.sorting import Part, Sorted, sort_strokes
 from sketchtree.sketch.strokes import Sketch
 
 
@@ -37,7 +37,7 @@ def sketch_graph(sketch: Sketch, *, crown: str = "auto") -> SketchGraph:
     table, rows = columns(limbs, height)
     ids = tuple(stroke.id for stroke in sketch.strokes)
     attachments, doubts = describe(cleaned, hanging, limbs, rows, table["xy"], ids, height)
-    attachments = (*attachments, *(_other_side(middle, other, attachments) for middle, other in parts.sides))
+    attachments = (*attachments, *(_as_part(sketch, part, attachments) for part in parts.parts))
     roles = _with_dots(sketch, parts.roles, attachments)
     joined = {a.stroke for a in attachments}
     return SketchGraph(
@@ -71,10 +71,11 @@ def _with_dots(sketch: Sketch, roles: tuple[Role, ...], attachments: tuple[Attac
     return (*roles, *dots)
 
 
-def _other_side(middle: Line, other: Line, attachments: tuple[Attachment, ...]) -> Attachment:
-    """The line of the report for a stroke that is one side of a limb: it hangs where the limb does."""
-    place = next((a.point for a in attachments if a.stroke == middle.id), tuple(middle.points[0].tolist()))
-    return Attachment(other.id, middle.id, place, 0.0, 0.0, (), "the other side of a limb drawn as an outline")
+def _as_part(sketch: Sketch, part: Part, attachments: tuple[Attachment, ...]) -> Attachment:
+    """The line of the report for a stroke that drew a limb together with another: it hangs where that limb does."""
+    owner = next((a.point for a in attachments if a.stroke == part.owner), None)
+    x, y = owner or next(s for s in sketch.strokes if s.id == part.stroke).points[0].tolist()
+    return Attachment(part.stroke, part.owner, (x, y), 0.0, 0.0, (), part.reason)
 
 
 def _apart(sketch: Sketch, role: Role) -> Attachment:

@@ -19,7 +19,8 @@ from jaxtyping import Bool, Float, Int
 STEPS = 96  # N
 SLENDER = 0.3  # greatest mean width of a stroke, of its length
 BULGE = 2.6  # greatest width of a stroke, of its middle width
-STRAY = 0.12  # greatest distance between the tenths of its width that lie highest and the middle line, of its length
+STRAY = 0.12  # or this part of its length, where that is more
+FOLLOWS = 0.82  # least length of the middle line and width together, of half the border: the middle of unlike halves cuts corners
 BATCH = 256  # shapes worked on at once
 
 
@@ -57,8 +58,9 @@ def _middles(borders) -> Middles:
     length = np.hypot(*np.moveaxis(np.diff(points, axis=1), -1, 0)).sum(1)
     inner = width[:, 2:-2]
     usual = np.median(inner, axis=1)
-    with np.errstate(divide="ignore", invalid="ignore"):
-        single = (inner.mean(1) <= SLENDER * length) & (inner.max(1) <= np.maximum(BULGE * usual, STRAY * length)) & (usual > 0)
+    around = np.hypot(*np.moveaxis(borders - np.roll(borders, 1, axis=1), -1, 0)).sum(1)
+    follows = length + width.mean(1) >= FOLLOWS * 0.5 * around
+    single = (inner.mean(1) <= SLENDER * length) & (inner.max(1) <= np.maximum(BULGE * usual, STRAY * length)) & (usual > 0) & follows
     return Middles(points, width, single)
 
 

@@ -1,7 +1,7 @@
 """Which lines are the sides of a limb rather than limbs? Limbs drawn by their outline become their middle line.
 
 Three ways to draw one: a closed thin outline; one line out and back again, open at the foot; two lines that meet at
-the tip. All of them, once closed, enclose a slender shape (`brush`). What is wider, or encloses next to nothing, stays
+the tip, where much of the drawing is drawn so. All of them, once closed, enclose a slender shape (`brush`). What is wider, or encloses next to nothing, stays
 as it was drawn: a limb that arches over, or a line gone over twice.
 """
 
@@ -22,6 +22,7 @@ NARROW = 0.12  # widest mean distance of the sides of an open outline, of its le
 PAIRED = 0.25  # the same of two lines that meet at the tip
 WIDE = 0.008  # of H: sides nearer to each other are one line drawn twice
 FEET = 0.45  # farthest the two feet lie apart, of the length
+HABIT = (2, 0.35)  # pairs, and their part of all that is drawn: two limbs' tips may meet by chance, but seldom everywhere
 LIKE = 0.5  # least ratio of the lengths of two sides
 SHUT = 0.6  # an outline whose ends come this near, of its mean width, is as good as closed
 WITHIN = 0.9  # least part of a line inside the outline of a limb that makes it bark
@@ -77,13 +78,15 @@ def _pairs(lines: list[Line], height: float) -> tuple[list[Line], list[tuple[Lin
     sides = [(lines[a].reversed() if ta else lines[a], lines[b].reversed() if tb else lines[b]) for (a, b), (ta, tb) in zip(rows, turned, strict=True)]
     found = middles(np.array([even_border(np.vstack([one.points, other.points[::-1]])) for one, other in sides]))
     used: set[int] = set()
-    made = []
+    made: list[tuple[Line, Line]] = []
     for n in np.argsort(found.width.mean(1), kind="stable"):
         a, b = rows[n]
         if not used & {a, b} and _is_limb(found, n, PAIRED, height):
             used |= {int(a), int(b)}
             longer, shorter = sorted(sides[n], key=lambda side: -side.length)
             made.append((_middle_line(longer, found, n, height), shorter))
+    if len(made) < HABIT[0] or sum(lines[k].length for k in used) < HABIT[1] * sum(line.length for line in lines):
+        return lines, []
     return [line for k, line in enumerate(lines) if k not in used] + [middle for middle, _ in made], made
 
 

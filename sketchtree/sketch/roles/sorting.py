@@ -31,13 +31,22 @@ from sketchtree.sketch.roles.wood import wood_lines
 from sketchtree.sketch.strokes import Sketch, Stroke, StrokeKind
 
 
+@dataclass(frozen=True)
+class Part:
+    """A stroke that is part of a limb which another drew, too."""
+
+    stroke: str  # its id
+    owner: str  # id of the other
+    reason: str
+
+
 @dataclass(frozen=True, eq=False)
 class Sorted:
     """The strokes of a sketch by what they are; sketch units, y up."""
 
     lines: list[Line]  # of the wood above the ground
     roots: list[Line]  # of the wood below it
-    sides: list[tuple[Line, Line]]  # (middle, the other side) of limbs that two strokes drew; the middle is in `lines`
+    parts: tuple[Part, ...]  # strokes that drew a limb together with another
     measured: bool  # the lines' widths are the limbs' own thickness; no pen set them
     crowns: tuple[Float[np.ndarray, "point 2"], ...]  # closed outlines, first point not repeated
     obstacles: tuple[Float[np.ndarray, "point 2"], ...]
@@ -83,7 +92,7 @@ class _Table:
 def sort_strokes(sketch: Sketch) -> Sorted:
     """What every stroke of the sketch is. Neither order nor direction of the strokes matters."""
     if not sketch.strokes:
-        return Sorted([], [], [], False, (), (), (), (), (), ())
+        return Sorted([], [], (), False, (), (), (), (), (), ())
     table = _named(sketch)
     table.take(frames(table.m, table.free))
     table.take(ground_lines(table.m, table.free, table.wood))
@@ -104,7 +113,7 @@ def sort_strokes(sketch: Sketch) -> Sorted:
     return Sorted(
         lines=lines,
         roots=[],
-        sides=sides,
+        parts=_parts(sketch, wood.holes, sides),
         measured=wood.measured,
         crowns=tuple(table.outlines),
         obstacles=tuple(outline(sketch.strokes[row].points) for row in table.rows("obstacle") if has_area(sketch.strokes[row])),
@@ -113,6 +122,12 @@ def sort_strokes(sketch: Sketch) -> Sorted:
         cuts=cuts,
         warnings=(*role_warnings(roles), *_side_warnings(wood.sides, "limb"), *_side_warnings(trunks.sides, "trunk"), *stem_warnings, *cut_warnings),
     )
+
+
+def _parts(sketch: Sketch, holes: list[tuple[int, int]], sides: list[tuple[Line, Line]]) -> tuple[Part, ...]:
+    """The strokes that drew a limb together with another."""
+    of_sides = [Part(other.id, middle.id, "the other side of a limb drawn as an outline") for middle, other in sides]
+    return (*of_sides, *(Part(sketch.strokes[hole].id, sketch.strokes[outer].id, "a hole in that painted shape") for hole, outer in holes))
 
 
 def _side_warnings(sides: list[tuple[Line, Line]], what: str) -> list[str]:

@@ -35,6 +35,7 @@ FRONDS, AROUND = 3, 0.25  # strokes that start at the tops, within this part of 
 BARE = (0.1, 0.8)  # the part of a side from which nothing else grows
 LOW = 0.4  # of a crown's height: between several lines only those are sides that end below
 IN_CROWN = 0.8  # least part of what goes on above a side that lies in the crown, to belong to it
+SPUR = 1.5  # what goes on above a side for less than this, of the trunk's width there, is its shoulder
 INSIDE = 0.02  # of H: what lies this far outside the sides still counts as bark between them
 
 
@@ -176,7 +177,7 @@ def _replaced(lines: list[Line], used: set[int], middle: Line, sides: tuple[_Sid
     kept = [line for k, line in enumerate(lines) if k not in used]
     bark = [line for line in kept if line.shape.intersection(between).length >= 0.9 * line.length]
     crown = shapely.union_all([shapely.make_valid(shapely.Polygon(points)).buffer(INSIDE * height) for points in crowns])
-    rest = [line for side in sides for line in side.rest if line.length > 2 * INSIDE * height]
+    rest = [line for side in sides for line in side.rest if line.length > max(2 * INSIDE * height, SPUR * float(middle.width[-1]))]
     rest = [line for line in rest if line.shape.intersection(crown).length < IN_CROWN * line.length]
     others = [(middle, lines[k]) for k in sorted(used) if lines[k].row != middle.row]
     return Trunks([line for line in kept if not any(line is b for b in bark)] + rest + [middle], others, bark)

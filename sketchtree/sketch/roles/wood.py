@@ -31,6 +31,7 @@ class Wood:
     measured: bool  # their widths are the limbs' own thickness; no pen set them
     sides: list[tuple[Line, Line]]  # (middle, the other side) of limbs that two lines drew
     bark: list[Line]  # what was drawn inside the outline of a limb
+    holes: list[tuple[int, int]]  # (row of a hole, row of the painted shape that it is in)
 
 
 def wood_lines(strokes: tuple[Stroke, ...], rows: list[int], legs: dict[int, tuple[np.ndarray, ...]]) -> Wood:
@@ -43,10 +44,11 @@ def wood_lines(strokes: tuple[Stroke, ...], rows: list[int], legs: dict[int, tup
     outlined = limbs_of_outlines(lines, closed)
     lines = outlined.lines
     by_pen = any(np.isfinite(line.width).any() for line in lines if id(line) in plain and not strokes[line.row].wood)
-    painted, thin = _painted_lines(strokes, [row for row in rows if strokes[row].filled])
+    shapes = _shapes(strokes, [row for row in rows if strokes[row].filled])
+    painted, thin = _painted_lines(strokes, shapes)
     lines = lines + painted
     known = any(np.isfinite(line.width).any() for line in lines)
-    return Wood(lines, known and not by_pen and not thin, outlined.sides, outlined.bark)
+    return Wood(lines, known and not by_pen and not thin, outlined.sides, outlined.bark, [(hole, outer) for outer, holes in shapes for hole in holes])
 
 
 def _pen_lines(strokes: tuple[Stroke, ...], rows: list[int]) -> tuple[list[Line], list[bool]]:
@@ -62,23 +64,26 @@ def _pen_lines(strokes: tuple[Stroke, ...], rows: list[int]) -> tuple[list[Line]
     return lines, closed
 
 
-def _painted_lines(strokes: tuple[Stroke, ...], rows: list[int]) -> tuple[list[Line], bool]:
+def _shapes(strokes: tuple[Stroke, ...], rows: list[int]) -> list[tuple[int, list[int]]]:
+    """(row of a painted shape, rows of its holes)."""
+    return [(rows[outer], [rows[hole] for hole in holes]) for outer, holes in with_holes([strokes[row] for row in rows])]
+
+
+def _painted_lines(strokes: tuple[Stroke, ...], shapes: list[tuple[int, list[int]]]) -> tuple[list[Line], bool]:
     """(lines down the middle of painted shapes, whether all of them are thin strokes of a brush)."""
-    shapes = with_holes([strokes[row] for row in rows])
     if not shapes:
         return [], False
-    whole = [rows[outer] for outer, holes in shapes if not holes and len(strokes[rows[outer]].points) > 3]
+    whole = [outer for outer, holes in shapes if not holes and len(strokes[outer].points) > 3]
     brushed = _brushed([strokes[row] for row in whole], whole, many=len(shapes) > MANY)
     lines = []
-    for outer, holes in shapes:
-        row = rows[outer]
+    for row, holes in shapes:
         if row in brushed:
             lines.append(brushed[row])
         elif not is_blob(strokes[row]):
-            lines += middle_lines(row, strokes[row], [strokes[rows[hole]] for hole in holes])
+            lines += middle_lines(row, strokes[row], [strokes[hole] for hole in holes])
     if len(brushed) < len(lines) or not lines:
         return lines, False
-    return _as_penned(lines, float(np.ptp(np.concatenate([strokes[row].points for row in rows]), axis=0).max()))
+    return _as_penned(lines, float(np.ptp(np.concatenate([strokes[row].points for row, _ in shapes]), axis=0).max()))
 
 
 def _brushed(strokes: list[Stroke], rows: list[int], *, many: bool) -> dict[int, Line]:
