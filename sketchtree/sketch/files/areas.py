@@ -48,7 +48,15 @@ def _winding(points: Points, a: Points, b: Points) -> Int[np.ndarray, " point"]:
 
 
 def inside(points: Points, closed: bool, filled: bool, region: Area) -> list[tuple[Points, bool]]:
-    """The parts (points, closed) of a stroke, or of a painted outline, that lie in a region; itself where all of it does."""
+    """The parts (points, closed) of a stroke, or of a painted outline, that lie in a region; itself where all of it does,
+    or where numbers are too coarse to tell."""
+    try:
+        return _inside(points, closed, filled, region)
+    except shapely.errors.GEOSException:
+        return [(points, closed)]
+
+
+def _inside(points: Points, closed: bool, filled: bool, region: Area) -> list[tuple[Points, bool]]:
     if region.is_empty:
         return []
     low, high = points.min(0), points.max(0)

@@ -61,7 +61,7 @@ class Clips:
         self._following.append(match[1])
         try:
             return build(node, element, matrix)
-        except ValueError as error:
+        except (ValueError, shapely.errors.GEOSException) as error:
             self._ignore(match[1], f"can't be worked out ({error})")
             return None
         finally:

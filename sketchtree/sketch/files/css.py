@@ -91,6 +91,16 @@ class Cascade:
         return _computed(own, inherited)
 
 
+def geometry(style: Style) -> dict[str, str]:
+    """What a style says of a shape's geometry, as attributes."""
+    found = {name: style[name] for name in GEOMETRY & style.keys()}
+    if "d" in found:
+        data = found.pop("d").strip()
+        if data.startswith("path(") and data.endswith(")"):
+            found["d"] = data[5:-1].strip(" \"'")
+    return found
+
+
 def _computed(own: dict[str, str], inherited: Style) -> Style:
     style = {name: value for name, value in inherited.items() if name in _INHERITED or name[:2] == "--"}
     variables = {name: value for name, value in own.items() if name[:2] == "--"}

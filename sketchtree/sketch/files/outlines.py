@@ -54,7 +54,8 @@ def flatten(cubics: Float[np.ndarray, "piece 4 2"], tolerance: float) -> tuple[F
         np.hypot(*(cubics[:, 0] - 2 * cubics[:, 1] + cubics[:, 2]).T),
         np.hypot(*(cubics[:, 1] - 2 * cubics[:, 2] + cubics[:, 3]).T),
     )
-    steps = np.clip(np.ceil(np.sqrt(0.75 * bend / max(tolerance, 1e-300)) - 1e-9), 1, 500).astype(np.int64)
+    wanted = np.nan_to_num(np.sqrt(0.75 * bend / max(tolerance, 1e-300)), nan=1.0)  # NaN: larger than a number can be
+    steps = np.clip(np.ceil(wanted - 1e-9), 1, 500).astype(np.int64)
     piece = np.repeat(np.arange(len(cubics)), steps)
     first = np.repeat(np.cumsum(steps) - steps, steps)
     t = ((np.arange(len(piece)) - first + 1) / steps[piece])[:, None]

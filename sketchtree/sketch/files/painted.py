@@ -4,10 +4,8 @@ Styles cascade (`css`), transforms nest (`transforms`), `use`, `switch` and nest
 (`clips`) are worked out; what is hidden, transparent or unpainted is left out and counted (`left_out`).
 """
 
-import math
 from collections.abc import Iterator, Mapping
 from contextlib import contextmanager
-from dataclasses import dataclass
 from types import MappingProxyType
 from typing import NamedTuple
 from xml.etree.ElementTree import Element
@@ -17,17 +15,18 @@ import numpy as np
 from sketchtree.errors import SketchError
 from sketchtree.sketch.files.areas import Area
 from sketchtree.sketch.files.clips import Clips, rectangle
-from sketchtree.sketch.files.css import GEOMETRY, Cascade, Style
+from sketchtree.sketch.files.css import GEOMETRY, Cascade, Style, geometry
 from sketchtree.sketch.files.document import DEEPEST, XLINK, local_name, too_deep
 from sketchtree.sketch.files.left_out import LeftOut
 from sketchtree.sketch.files.limits import check_points
 from sketchtree.sketch.files.names import LABEL, Naming
-from sketchtree.sketch.files.outlines import SHAPES, flatten, subpaths
+from sketchtree.sketch.files.outlines import SHAPES, subpaths
 from sketchtree.sketch.files.paint import Paint, fraction, seen
 from sketchtree.sketch.files.path_data import Subpath
 from sketchtree.sketch.files.path_effects import Spine, spine
+from sketchtree.sketch.files.shapes import Shape, bounds, transformed
 from sketchtree.sketch.files.svg_record import STROKE, StrokeRecord, polyline, stroke_record
-from sketchtree.sketch.files.transforms import IDENTITY, Matrix, matrix_of, translation
+from sketchtree.sketch.files.transforms import IDENTITY, Matrix, matrix_of, scale_of, translation
 from sketchtree.sketch.files.viewport import Box, at, nested, page, user_length
 
 _GROUPS = frozenset({"svg", "g", "a", "switch"})
@@ -35,27 +34,6 @@ _PAINTED = SHAPES | _GROUPS | {"use", "symbol"}
 _OTHER = {"text": "a text", "flowRoot": "a text", "image": "a picture", "foreignObject": "an embedded page"}
 _HREF = ("href", f"{{{XLINK}}}href")
 _MOST_CLONED = 50_000  # elements drawn through `use`, beyond two for every stroke allowed
-
-
-@dataclass(frozen=True, eq=False, slots=True)
-class Shape:
-    """One painted shape, its geometry in user units of the root (y down)."""
-
-    element: Element
-    paths: list[Subpath]
-    naming: Naming
-    width: float | None  # line width; None for a shape that is only filled
-    filled: bool  # painted as an area, without a line
-    rule: str  # how its area is told from its outline: nonzero, evenodd
-    fill: Paint | None  # of the area
-    line: Paint | None  # … and of the line
-    clip: Area | None  # where it shows; None: everywhere
-    spine: Spine | None  # of a line thickened by an effect; widths already in root units
-    matrix: Matrix  # from its own coordinates to the root's
-    group: str | None  # what the group around it is called
-    pen: str  # its line width as the style says it
-    record: StrokeRecord | None  # of a stroke that we wrote
-    drawn: tuple[np.ndarray, bool] | None  # (points, closed) of such a stroke, in root units, to the last bit; `paths` is then empty
 
 
 class _Scope(NamedTuple):
@@ -91,6 +69,7 @@ class Walk:
         self._cloned = 0
         self._strokes = self._points = 0
         self._boxes: dict[Element, Box] = {}
+        self._outlines: dict[Element, list[Subpath]] = {}
 
     def shapes(self) -> list[Shape]:
         """Every painted shape. Raises SketchError when there are more than `max_strokes` strokes."""
@@ -118,7 +97,7 @@ class Walk:
         if element not in self._boxes:
             self._boxes[element] = (0.0, 0.0, 0.0, 0.0)  # what it is to its own descendants, should they ask
             paths = [path for shape in self._apart(element, _Scope(depth=2, ghost=True), itself=True) for path in shape.paths]
-            self._boxes[element] = _bounds(paths)
+            self._boxes[element] = bounds(paths)
         return self._boxes[element]
 
     def matrix(self, element: Element, style: Style) -> Matrix:
@@ -217,40 +196,37 @@ class Walk:
             self._element(self.by_id[target[1:]], inner)
 
     def _shape(self, element: Element, scope: _Scope, style: Style) -> None:
-        stroke = seen(style.get("stroke", "none"), style.get("stroke-opacity", "1"), style)
-        fill = None if local_name(element.tag) == "line" else seen(style.get("fill", "black"), style.get("fill-opacity", "1"), style)
-        width = user_length(style.get("stroke-width", "1"), 2, element, self.view, self.name) if stroke else 0.0
+        line = seen(style.get("stroke", "none"), style.get("stroke-opacity", "1"), style)
+        fill = seen(style.get("fill", "black"), style.get("fill-opacity", "1"), style) if local_name(element.tag) != "line" else None
+        width = user_length(style.get("stroke-width", "1"), 2, element, self.view, self.name) if line else 0.0
+        scale = scale_of(scope.matrix)
+        if style.get("visibility", "visible") != "visible" or (scale == 0 and not scope.ghost):  # 0: squeezed flat
+            self._hide(element, scope)
+        elif scope.ghost or fill or width > 0:
+            self._put(element, scope, style, fill, line, width)
+        elif local_name(element.tag) != "rect":  # programs put unpainted rectangles around drawings
+            self.left_out.add("a shape without fill or stroke")
+
+    def _put(self, element: Element, scope: _Scope, style: Style, fill: Paint | None, line: Paint | None, width: float) -> None:
+        """Enter a shape that shows; `width` is that of its line in its own units, 0 if it has none."""
+        scale = 1.0 if style.get("vector-effect") == "non-scaling-stroke" else scale_of(scope.matrix)
         under = None if scope.ghost else spine(element, self.by_id)
-        if style.get("visibility", "visible") != "visible":
-            self._hide(element, scope)
-            return
-        if not (scope.ghost or fill or width > 0):
-            if local_name(element.tag) != "rect":  # programs put unpainted rectangles around drawings
-                self.left_out.add("a shape without fill or stroke")
-            return
-        filled = width <= 0 and under is None
-        scale = math.sqrt(abs(scope.matrix[0, 0] * scope.matrix[1, 1] - scope.matrix[0, 1] * scope.matrix[1, 0]))
-        if style.get("vector-effect") != "non-scaling-stroke":
-            width *= scale
-        if under is not None:
-            knots = None if under.knots is None else under.knots * (1.0, scale)
-            under = Spine(under.data, knots, None if under.width is None else under.width * scale)
-        if scale == 0 and not scope.ghost:  # squeezed flat: nothing is painted
-            self._hide(element, scope)
-            return
         record, drawn = self._own(element, style, scope)
-        paths = [] if drawn else [transformed(path, scope.matrix) for path in self._geometry(element, style, under)]
+        paths = [] if drawn else self._geometry(element, style, under, scope.matrix)
         self._count(1 if drawn else len(paths), len(drawn[0]) if drawn else sum(len(path.cubics) for path in paths))
+        filled = width <= 0 and under is None
+        if under is not None:
+            under = under.scaled(scale_of(scope.matrix))
         self._found.append(
             Shape(
                 element,
                 paths,
                 scope.naming,
-                width=None if filled else under.width if under is not None else width,
+                width=None if filled else under.width if under is not None else width * scale,
                 filled=filled,
                 rule=style.get("clip-rule" if scope.ghost else "fill-rule", "nonzero"),
                 fill=fill,
-                line=stroke,
+                line=line,
                 clip=scope.clip,
                 spine=under,
                 matrix=scope.matrix,
@@ -277,15 +253,14 @@ class Walk:
             raise at(element, self.name, ValueError("a coordinate is not a finite number"))
         return record, drawn
 
-
-    def _geometry(self, element: Element, style: Style, under: Spine | None) -> list[Subpath]:
+    def _geometry(self, element: Element, style: Style, under: Spine | None, matrix: Matrix) -> list[Subpath]:
         attributes = element.attrib
         if under is not None:
             attributes = {"d": under.data}
         elif style.keys() & GEOMETRY:
-            attributes = {**attributes, **_styled(style)}
+            attributes = {**attributes, **geometry(style)}
         try:
-            return subpaths(local_name(element.tag), attributes, self.view)
+            return transformed(subpaths(local_name(element.tag), attributes, self.view), matrix)
         except ValueError as error:
             raise at(element, self.name, error) from None
 
@@ -312,43 +287,9 @@ class Walk:
 _MOVES = frozenset({"transform", "translate", "rotate", "scale"})
 
 
-def transformed(path: Subpath, matrix: Matrix) -> Subpath:
-    """The same geometry after a transform."""
-    if matrix is IDENTITY:
-        return path
-    linear, shift = matrix[:2, :2].T, matrix[:2, 2]
-    return Subpath(path.start @ linear + shift, path.cubics @ linear + shift, path.closed)
-
-
-def extent_of(paths: list[Subpath]) -> float:
-    """The larger side of the bounding box of all control points."""
-    points = np.concatenate([np.zeros((0, 2))] + [p.start[None] for p in paths] + [p.cubics.reshape(-1, 2) for p in paths])
-    finite = points[np.isfinite(points).all(1)]
-    return float(np.ptp(finite, axis=0).max()) if len(finite) else 0.0
-
-
-def _bounds(paths: list[Subpath]) -> Box:
-    if not paths:
-        return 0.0, 0.0, 0.0, 0.0
-    tolerance = 1e-3 * extent_of(paths)
-    corners = np.concatenate([np.concatenate([p.start[None], flatten(p.cubics, tolerance)[0]]) for p in paths])
-    low, high = corners.min(0), corners.max(0)
-    return float(low[0]), float(low[1]), float(high[0] - low[0]), float(high[1] - low[1])
-
-
 def _fits(element: Element) -> bool:
     """Whether an element is for us: no extension of some program, and in English if in any language."""
     if element.get("requiredExtensions", "").strip():
         return False
     languages = element.get("systemLanguage")
     return languages is None or any(part.strip().lower().split("-")[0] == "en" for part in languages.split(","))
-
-
-def _styled(style: Style) -> dict[str, str]:
-    """Geometry that style sheets set, as attributes."""
-    found = {name: style[name] for name in GEOMETRY & style.keys()}
-    if "d" in found:
-        data = found.pop("d").strip()
-        if data.startswith("path(") and data.endswith(")"):
-            found["d"] = data[5:-1].strip(" \"'")
-    return found

@@ -27,6 +27,11 @@ class Spine(NamedTuple):
     knots: Float[np.ndarray, "knot 2"] | None  # (pieces done, width there), user units; None: one width
     width: float | None  # the greatest width, user units
 
+    def scaled(self, scale: float) -> "Spine":
+        """The same with widths in other units."""
+        knots = None if self.knots is None else self.knots * (1.0, scale)
+        return Spine(self.data, knots, None if self.width is None else self.width * scale)
+
 
 def spine(element: Element, by_id: Mapping[str, Element]) -> Spine | None:
     """The line under a path that a stroke effect has thickened; None for any other path."""

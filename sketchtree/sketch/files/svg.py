@@ -17,7 +17,8 @@ from sketchtree.sketch.files.document import local_name, parse_xml
 from sketchtree.sketch.files.ids import unique
 from sketchtree.sketch.files.limits import MAX_MB, MAX_STROKES
 from sketchtree.sketch.files.outlines import flatten
-from sketchtree.sketch.files.painted import Shape, Walk, extent_of
+from sketchtree.sketch.files.painted import Walk
+from sketchtree.sketch.files.shapes import Shape, extent_of
 from sketchtree.sketch.files.svg_record import restored, sketch_record
 from sketchtree.sketch.strokes import Sketch, Stroke, StrokeKind
 

@@ -11,7 +11,6 @@ count as long as there are as many of them as points. The points are always thos
 
 import dataclasses
 import json
-import math
 import sys
 from typing import Any, NamedTuple
 from xml.etree.ElementTree import Element
@@ -20,6 +19,7 @@ import numpy as np
 from jaxtyping import Float
 
 from sketchtree.sketch.files.path_data import numbers_of
+from sketchtree.sketch.files.transforms import scale_of
 from sketchtree.sketch.strokes import Sketch, Stroke, StrokeKind
 
 NAMESPACE = "urn:sketchtree"  # a name, not a place
@@ -119,7 +119,7 @@ def restored(stroke: Stroke, shape) -> tuple[Stroke, bool]:
     if shape.group == record.as_group:
         kept |= {"kind": record.kind, "labelled": record.labelled, "layer": record.layer}
     if shape.pen == record.as_pen:
-        scale = math.sqrt(abs(shape.matrix[0, 0] * shape.matrix[1, 1] - shape.matrix[0, 1] * shape.matrix[1, 0]))
+        scale = scale_of(shape.matrix)
         kept |= {"width": None if record.width is None else record.width * scale, "wood": record.wood}
     columns = {"pressure": record.pressure, "time": record.time}
     fitting = {name: values for name, values in columns.items() if values is not None and len(values) == len(stroke.points)}

@@ -128,6 +128,11 @@ def _skew(name: str, arguments) -> Matrix:
     return np.array([[1, x, 0], [y, 1, 0], [0, 0, 1]])
 
 
+def scale_of(matrix: Matrix) -> float:
+    """How much larger a matrix makes things: the square root of what it does to an area."""
+    return math.sqrt(abs(matrix[0, 0] * matrix[1, 1] - matrix[0, 1] * matrix[1, 0]))
+
+
 def translation(x: float, y: float) -> Matrix:
     """A shift."""
     return np.array([[1, 0, x], [0, 1, y], [0, 0, 1.0]])
