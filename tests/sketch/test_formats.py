@@ -7,6 +7,7 @@ from hands import EXAMPLES, SHARED
 
 from sketchtree.errors import SketchError
 from sketchtree.sketch.formats import READABLE, check_sketch, read_sketch, write_sketch, write_sketch_json
+from sketchtree.sketch.reading import sketch_graph
 from sketchtree.sketch.strokes import Sketch, Stroke, StrokeKind
 
 SVG = '<svg xmlns="http://www.w3.org/2000/svg" viewBox="0 0 9 9">{}</svg>'
@@ -189,3 +190,10 @@ def test_a_sketch_out_of_reach_is_refused():
 def test_a_two_point_stroke_under_a_css_transform_lies_where_a_browser_paints_it():
     stroke = read_sketch(SHARED / "sketches/svg/rp_blossomTree1.svg").strokes[0]
     assert stroke.points == pytest.approx(np.array([[127, -209.9995], [127.07358, -199.00004]]))
+
+
+def test_a_stroke_far_from_all_others_is_named():
+    strokes = (Stroke("a", [[0, 0], [0, 5]]), Stroke("b", [[0, 3], [3, 6]]), Stroke("far", [[0, 1e9], [0, 1e9 + 3]]))
+    with pytest.raises(SketchError, match="Stroke far: it lies so far from the others that all strokes are dots.*Delete it, or move it back") as error:
+        sketch_graph(Sketch(strokes))
+    assert error.value.stroke == "far"

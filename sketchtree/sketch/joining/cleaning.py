@@ -11,6 +11,7 @@ import numpy as np
 import shapely
 from jaxtyping import Float, Int
 
+from sketchtree.errors import SketchError
 from sketchtree.sketch.joining.lines import Line, angle_between, extent, turning
 from sketchtree.sketch.joining.tremor import STILL, without_tremor
 
@@ -38,6 +39,8 @@ def clean(lines: list[Line]) -> Cleaned:
     """Drop dots, cut strokes that turn back on themselves, still the tremor, merge repeated ones."""
     height = extent(lines)
     kept = [line for line in lines if float(np.ptp(line.points, axis=0).max()) >= DOT * height]
+    if not kept:
+        raise _far_apart(lines)
     kept_ids = {line.id for line in kept}
     dots = tuple(line.id for line in lines if line.id not in kept_ids)
     unfolded = [part for line, turn in zip(kept, turning(kept), strict=True) for part in (_unfold(line, height) if turn > CUSP else [line])]
@@ -47,6 +50,17 @@ def clean(lines: list[Line]) -> Cleaned:
     merged = [(line, ordered[o].row, AGAIN_OVER) for line, o in zip(ordered, owner, strict=True) if o >= 0]
     own = [line for line, o in zip(ordered, owner, strict=True) if o < 0]
     return Cleaned(own, tuple(merged), dots)
+
+
+def _far_apart(lines: list[Line]) -> SketchError:
+    """The error for strokes that are all dots beside how far apart they lie; it names the one farthest out."""
+    middles = np.array([(line.points.min(0) + line.points.max(0)) / 2 for line in lines])
+    farthest = lines[int(np.argmax(np.abs(middles - np.median(middles, axis=0)).max(1)))]
+    return SketchError(
+        "it lies so far from the others that all strokes are dots beside that distance.",
+        stroke=farthest.id,
+        remedy="Delete it, or move it back to the drawing.",
+    )
 
 
 def without_doubles(points: Float[np.ndarray, "point 2"], size: float) -> Float[np.ndarray, " point"]:
