@@ -36,6 +36,16 @@ def area(rings: list[Points], rule: str = "nonzero") -> Area:
     return shapely.union_all(faces[turns % 2 == 1 if rule == "evenodd" else turns != 0])
 
 
+def both(a: Area | None, b: Area | None) -> Area | None:
+    """What lies in both areas (None: everywhere); the first alone where numbers are too coarse to tell."""
+    if a is None or b is None:
+        return b if a is None else a
+    try:
+        return shapely.intersection(a, b)
+    except shapely.errors.GEOSException:
+        return a
+
+
 def _winding(points: Points, a: Points, b: Points) -> Int[np.ndarray, " point"]:
     """How often the edges a → b run around each point."""
     turns = np.zeros(len(points), np.int64)

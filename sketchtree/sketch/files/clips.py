@@ -12,7 +12,7 @@ from xml.etree.ElementTree import Element
 import numpy as np
 import shapely
 
-from sketchtree.sketch.files.areas import NOTHING, Area, area
+from sketchtree.sketch.files.areas import NOTHING, Area, area, both
 from sketchtree.sketch.files.css import Style
 from sketchtree.sketch.files.document import local_name
 from sketchtree.sketch.files.outlines import flatten
@@ -43,8 +43,7 @@ class Clips:
             if value == "none":
                 continue
             part = self._followed(value, build, element, matrix)
-            if part is not None:
-                found = part if found is None else found & part
+            found = both(found, part)
         return found
 
     def _followed(self, value: str, build: Callable, element: Element, matrix: Matrix) -> Area | None:
@@ -79,7 +78,7 @@ class Clips:
         parts = [self._visible(shape, _rings(shape.paths), shape.rule) for shape in self.walk.ghosts(node, inner)]
         whole = shapely.union_all(parts) if parts else NOTHING
         own = self.region(node, {"clip-path": style.get("clip-path", "none")}, matrix)
-        return whole if own is None else whole & own
+        return both(whole, own)
 
     def _mask(self, node: Element, element: Element, matrix: Matrix) -> Area | None:
         if local_name(node.tag) != "mask":
@@ -94,7 +93,7 @@ class Clips:
                 shown = shown | part if bright >= DARK else shown if by_alpha or alpha < 0.5 else shown - part
         if node.get("maskUnits") == "userSpaceOnUse":
             sides = [user_length(node.get(a, d), i % 2, node, self.walk.view, self.walk.name) for i, (a, d) in enumerate(_SIDES)]
-            shown = shown & _rectangle(tuple(sides), matrix)
+            shown = both(shown, rectangle(tuple(sides), matrix))
         return shown
 
     def _layers(self, shape):
@@ -108,7 +107,7 @@ class Clips:
     @staticmethod
     def _visible(shape, rings, rule: str, whole: Area | None = None) -> Area:
         whole = area(rings, rule) if whole is None else whole
-        return whole if shape.clip is None else whole & shape.clip
+        return both(whole, shape.clip)
 
     def _units(self, units: str, element: Element, matrix: Matrix) -> Matrix:
         if units != "objectBoundingBox":
@@ -132,10 +131,9 @@ def _rings(paths: list[Subpath], closing: bool = False) -> list[np.ndarray]:
     return found
 
 
-def _rectangle(box: Box, matrix: Matrix) -> Area:
+def rectangle(box: Box, matrix: Matrix) -> Area | None:
+    """A rectangle (x, y, width, height) after a transform; None, everywhere, where numbers are too large."""
     x, y, width, height = box
     corners = np.array([[x, y], [x + width, y], [x + width, y + height], [x, y + height]])
-    return shapely.Polygon(corners @ matrix[:2, :2].T + matrix[:2, 2])
-
-
-rectangle = _rectangle
+    corners = corners @ matrix[:2, :2].T + matrix[:2, 2]
+    return shapely.Polygon(corners) if np.isfinite(corners).all() else None

@@ -13,7 +13,7 @@ from xml.etree.ElementTree import Element
 import numpy as np
 
 from sketchtree.errors import SketchError
-from sketchtree.sketch.files.areas import Area
+from sketchtree.sketch.files.areas import Area, both
 from sketchtree.sketch.files.clips import Clips, rectangle
 from sketchtree.sketch.files.css import GEOMETRY, Cascade, Style, geometry
 from sketchtree.sketch.files.document import DEEPEST, XLINK, local_name, too_deep
@@ -152,8 +152,7 @@ class Walk:
         matrix = scope.matrix if own is IDENTITY else scope.matrix @ own
         clip = scope.clip
         if "clip-path" in style or "mask" in style:
-            part = self.clips.region(element, style, matrix)
-            clip = part if clip is None else clip if part is None else clip & part
+            clip = both(clip, self.clips.region(element, style, matrix))
         group = scope.group if tag in SHAPES or is_root else element.get(LABEL) or element.get("id")
         inner = _Scope(matrix, style, naming, scope.depth + 1, scope.uses, clip, scope.ghost, group)
         if tag in SHAPES:
@@ -168,8 +167,7 @@ class Walk:
             matrix, port = nested(element, self.view, self.name, given)
             clip = scope.clip
             if port is not None and scope.style.get("overflow", "hidden") not in ("visible", "auto"):
-                shown = rectangle(port, scope.matrix)
-                clip = shown if clip is None else clip & shown
+                clip = both(clip, rectangle(port, scope.matrix))
             scope = scope._replace(matrix=scope.matrix @ matrix, clip=clip)
         if tag == "switch":
             first = next((child for child in element if local_name(child.tag) in _PAINTED | _OTHER.keys() and _fits(child)), None)

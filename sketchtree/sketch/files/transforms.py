@@ -35,9 +35,9 @@ _KEYWORD = {"left": "0%", "top": "0%", "center": "50%", "right": "100%", "bottom
 def length(text: str, percent_of: float = 0.0) -> float:
     """A CSS or SVG length in user units (96 px an inch). Raises ValueError if it is none."""
     match = _NUMBER.fullmatch(text.strip())
-    if match is None:
+    value, unit = (float(match[1]), match[2].lower()) if match else (math.inf, "")
+    if not math.isfinite(value):
         raise ValueError(f"'{text[:40]}' is not a length")
-    value, unit = float(match[1]), match[2].lower()
     if unit == "%":
         return value / 100 * percent_of
     if unit not in _LENGTH:

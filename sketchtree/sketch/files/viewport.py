@@ -23,8 +23,8 @@ def page(root: Element, name: str) -> tuple[Box, bool]:
     try:
         width, height = length(size[0], 300.0), length(size[1], 150.0)
     except ValueError:
-        width, height = 300.0, 150.0
-    if min(width, height) <= 0 or not np.isfinite([width, height]).all():
+        return (0.0, 0.0, 300.0, 150.0), False
+    if min(width, height) <= 0:
         raise SketchError(
             f"{name} has a page of no size ({size[0][:20]} × {size[1][:20]}).",
             remedy="Set the page's width and height, and export it again.",

@@ -5,9 +5,10 @@ import pytest
 from sketchtree.sketch.files.css import Cascade
 
 PATH = '<path id="p" class="a b" data-x="1" {}/>'
+BARE = PATH.format("")
 
 
-def styled(sheet, body=PATH.format(""), inherited=None):
+def styled(sheet, body=BARE, inherited=None):
     """(computed style of #p, warnings), the styles of its ancestors inherited in turn."""
     root = ElementTree.fromstring(f"<svg><style>{sheet}</style>{body}</svg>")
     cascade = Cascade(root)
@@ -28,7 +29,7 @@ def _chain(element, wanted):
     return []
 
 
-def width(sheet, body=PATH.format("")):
+def width(sheet, body=BARE):
     return styled(sheet, body)[0].get("stroke-width")
 
 

@@ -112,6 +112,7 @@ def test_a_nested_svg_is_fitted_as_it_asks(aspect, first):
         ('width="1in" height="2in"', (0.0, -192.0, 96.0, 0.0)),
         ('width="100%" height="100%"', None),
         ('width="10"', None),
+        ('width="1e999" height="wide"', None),
         ("", None),
     ],
 )
@@ -119,7 +120,7 @@ def test_the_page_is_what_the_file_says(head, page):
     assert sketch_of(BARE, head=head).page == page
 
 
-@pytest.mark.parametrize("size", ['width="0" height="9"', 'width="9" height="-1"', 'width="1e999" height="9"'])
+@pytest.mark.parametrize("size", ['width="0" height="9"', 'width="9" height="-1"'])
 def test_a_page_of_no_size_is_refused(size):
     with pytest.raises(SketchError, match="t.svg has a page of no size .*Set the page's width and height"):
         sketch_of(BARE, head=size)

@@ -2,8 +2,8 @@ import numpy as np
 import pytest
 
 from sketchtree.errors import SketchError
-from sketchtree.sketch.strokes import StrokeKind
 from sketchtree.sketch.files.svg import read_svg
+from sketchtree.sketch.strokes import StrokeKind
 
 LINE = '<path {} d="M1 2L3 4" stroke="black" fill="none"/>'
 
