@@ -140,7 +140,10 @@ def _read(data: bytes, what: str, name: str, max_strokes: int, max_megapixels: f
 
         return read_raster(data, name, max_strokes=max_strokes, max_megapixels=max_megapixels, progress=progress)
     reader = {SVG: read_svg, SKETCH: read_sketch_json, INKML: read_inkml}[what]
-    return reader(data, name, max_strokes=max_strokes)
+    try:
+        return reader(data, name, max_strokes=max_strokes)
+    except RecursionError:  # brackets without end in a style, say
+        raise SketchError(f"{name} nests its parts too deep to be read.", remedy="Ungroup the drawing, and export it again.") from None
 
 
 def _numbered(path: Path) -> tuple[Path, int | None]:

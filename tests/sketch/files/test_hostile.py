@@ -54,6 +54,8 @@ REFUSED = {
     "uses.svg": (uses(9), "nests its groups|holds more than"),
     "clones.svg": (clones(100), "clones.svg draws more than 5 million points. Simplify its lines, unlink its clones"),
     "deep.svg": (SVG.format("<g>" * 100_000 + PATH + "</g>" * 100_000), "nests its groups"),
+    "deep_style.svg": (SVG.format(PATH.replace("<path", '<path style="stroke:' + "(" * 5000 + '"')), "nests its parts too deep to be read"),
+    "wide.json": (SKETCH.replace('"trunk",', '"trunk", "width": 1e999,'), "its width is inf; a number of at least 0 was expected"),
     "deep.json": ("[" * 100_000, "not one well-formed JSON document|nests its lists"),
     "deep_objects.json": ('{"sketchtree": 1, "strokes": ' + '{"a":' * 100_000, "not one well-formed JSON document|nests its lists"),
     "deep.excalidraw": ('{"type": "excalidraw", "elements": ' + "[" * 100_000 + "]" * 100_000 + "}", "nests its lists or objects too deep|list 'elements'"),
