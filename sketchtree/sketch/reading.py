@@ -3,23 +3,31 @@
     strokes → what each is → clean lines → what each grows from → limbs → nodes and segments
 """
 
+import dataclasses
+from collections.abc import Callable
+from dataclasses import dataclass
+
 import numpy as np
 from jaxtyping import Int
 
+from sketchtree.axes import NULL
 from sketchtree.errors import OptionError, SketchError
 from sketchtree.limb_ids import stroke_limb_id
 from sketchtree.sketch.graph import Attachment, Role, SketchGraph
-from sketchtree.sketch.joining.attach import attach
+from sketchtree.sketch.joining.attach import Hanging, attach
 from sketchtree.sketch.joining.attachments import describe
-from sketchtree.sketch.joining.cleaning import clean
+from sketchtree.sketch.joining.cleaning import Cleaned, clean
 from sketchtree.sketch.joining.joints import Limb, limbs_of
 from sketchtree.sketch.joining.lines import Line, extent
-from sketchtree.sketch.joining.segments import columns
+from sketchtree.sketch.joining.segments import Rows, columns
+from sketchtree.sketch.joining.underground import with_roots
 from sketchtree.sketch.roles.sorting import Part, Sorted, sort_strokes
 from sketchtree.sketch.strokes import Sketch
 
+Progress = Callable[[float], None]  # told how much is done, 0 to 1
 
-def sketch_graph(sketch: Sketch, *, crown: str = "auto") -> SketchGraph:
+
+def sketch_graph(sketch: Sketch, *, crown: str = "auto", progress: Progress | None = None) -> SketchGraph:
     """The rooted segment tree(s) that a sketch shows, in the sketch's units, y up.
 
     `crown` "auto": outlines known by label or by shape bound the tree; "off": they are left out.
@@ -30,20 +38,24 @@ def sketch_graph(sketch: Sketch, *, crown: str = "auto") -> SketchGraph:
         raise OptionError(f"crown={crown!r}; 'auto' or 'off' was expected.", remedy="Leave it out for 'auto'.")
     parts = sort_strokes(sketch)
     _check(sketch, parts)
-    cleaned = clean(parts.lines)
-    height = extent(cleaned.lines)
-    hanging = attach(cleaned.lines)
-    limbs = limbs_of(cleaned.lines, hanging)
-    table, rows = columns(limbs, height)
+    tree = _grown(parts.lines, _from(progress, 0.1, 0.9))
+    table, lines, limbs = tree.table, tree.cleaned.lines, tree.limbs
     ids = tuple(stroke.id for stroke in sketch.strokes)
-    attachments, doubts = describe(cleaned, hanging, limbs, rows, table["xy"], ids, height)
-    attachments = (*attachments, *(_as_part(sketch, part, attachments) for part in parts.parts))
+    attachments, doubts = _described(tree, ids)
+    if parts.roots:
+        roots = _grown([_turned(line) for line in parts.roots], None)
+        table = with_roots(table, roots.table, len(limbs))
+        attachments += _described_roots(roots, table, ids)
+        lines, limbs = [*lines, *roots.cleaned.lines], [*limbs, *_renumbered(roots.limbs, len(lines))]
+    attachments += tuple(_as_part(sketch, part, attachments) for part in parts.parts)
     roles = _with_dots(sketch, parts.roles, attachments)
     joined = {a.stroke for a in attachments}
+    if progress:
+        progress(1.0)
     return SketchGraph(
         **table,
         width_is_wood=parts.measured and bool(np.isfinite(table["width"]).any()),
-        limb_id=_limb_ids(limbs, cleaned.lines),
+        limb_id=_limb_ids(limbs, lines),
         stroke_ids=ids,
         crown=parts.crowns if crown == "auto" else (),
         obstacles=parts.obstacles,
@@ -53,6 +65,64 @@ def sketch_graph(sketch: Sketch, *, crown: str = "auto") -> SketchGraph:
         cuts=parts.cuts,
         warnings=(*sketch.warnings, *parts.warnings, *doubts),
     )
+
+
+@dataclass(frozen=True, eq=False)
+class _Grown:
+    """Lines joined to a tree, and all that is known of how."""
+
+    cleaned: Cleaned
+    hanging: Hanging
+    limbs: list[Limb]
+    table: dict[str, np.ndarray]
+    rows: Rows
+    height: float
+
+
+def _grown(lines: list[Line], progress: Progress | None) -> _Grown:
+    """Clean lines, what each grows from, limbs, nodes and segments."""
+    cleaned = clean(lines)
+    height = extent(cleaned.lines)
+    hanging = attach(cleaned.lines, progress)
+    limbs = limbs_of(cleaned.lines, hanging)
+    table, rows = columns(limbs, height)
+    return _Grown(cleaned, hanging, limbs, table, rows, height)
+
+
+def _described(tree: _Grown, ids: tuple[str, ...]) -> tuple[tuple[Attachment, ...], list[str]]:
+    return describe(tree.cleaned, tree.hanging, tree.limbs, tree.rows, tree.table["xy"], ids, tree.height)
+
+
+def _described_roots(roots: _Grown, table: dict[str, np.ndarray], ids: tuple[str, ...]) -> tuple[Attachment, ...]:
+    """The lines of the report for roots, which were read upside down: those from a stem's foot hang on that stem."""
+    bases = np.flatnonzero(table["parent"] == NULL)
+    found = []
+    for a in _described(roots, ids)[0]:
+        point = np.array([a.point[0], -a.point[1]])
+        if a.parent is not None:
+            found.append(dataclasses.replace(a, point=tuple(point.tolist()), reason=f"a root; {a.reason}"))
+            continue
+        gaps = np.hypot(*(table["xy"][bases] - point).T)
+        base = bases[np.argmin(gaps)]
+        stem = ids[table["stroke"][base]]
+        place = tuple(table["xy"][base].tolist())
+        found.append(dataclasses.replace(a, parent=stem, point=place, gap=float(gaps.min()), reason="a root: it starts at the foot of that stem"))
+    return tuple(found)
+
+
+def _turned(line: Line) -> Line:
+    """A line upside down."""
+    return dataclasses.replace(line, points=line.points * (1.0, -1.0))
+
+
+def _renumbered(limbs: list[Limb], offset: int) -> list[Limb]:
+    """Limbs whose lines stand that much later in the list of lines."""
+    return [dataclasses.replace(limb, lines=[k + offset for k in limb.lines]) for limb in limbs]
+
+
+def _from(progress: Progress | None, low: float, high: float) -> Progress | None:
+    """Progress of a step that takes from `low` to `high` of the whole."""
+    return None if progress is None else lambda done: progress(low + (high - low) * done)
 
 
 def _check(sketch: Sketch, parts: Sorted) -> None:

@@ -80,14 +80,15 @@ def grass(m: Measures, free: Bool[np.ndarray, " stroke"], lines: list[np.ndarray
     return found
 
 
-def level_at(lines: list[np.ndarray], x: float) -> float:
-    """Height of the ground at `x`: of the line below or above, else of the nearest end."""
-    best, nearest = 0.0, np.inf
+def level_at(lines: list[np.ndarray], x: Float[np.ndarray, " place"]) -> Float[np.ndarray, " place"]:
+    """Height of the ground at each `x`: of the line below or above, else of the nearest end."""
+    x = np.asarray(x, float)
+    best, nearest = np.zeros(x.shape), np.full(x.shape, np.inf)
     for line in lines:
         line = line[np.argsort(line[:, 0], kind="stable")]
-        off = max(line[0, 0] - x, x - line[-1, 0], 0.0)
-        if off < nearest:
-            best, nearest = float(np.interp(x, line[:, 0], line[:, 1])), off
+        off = np.maximum(np.maximum(line[0, 0] - x, x - line[-1, 0]), 0.0)
+        best = np.where(off < nearest, np.interp(x, line[:, 0], line[:, 1]), best)
+        nearest = np.minimum(off, nearest)
     return best
 
 
@@ -121,7 +122,7 @@ def _stood_on(m: Measures, row: int, standing: Stems, height: float) -> str:
     """Why this level line is the ground; "" if it need not be."""
     line = m.strokes[row].points
     shape = shapely.LineString(line)
-    at = np.array([level_at([line], x) for x in standing.foot[:, 0]]) if len(standing.row) else np.zeros(0)
+    at = level_at([line], standing.foot[:, 0])
     rising = standing.top - at >= RISES * height
     over = (standing.foot[:, 0] >= m.low[row, 0] - AT_FOOT * height) & (standing.foot[:, 0] <= m.high[row, 0] + AT_FOOT * height)
     near = shapely.distance(shapely.points(standing.foot), shape) <= AT_FOOT * height if len(at) else np.zeros(0, bool)

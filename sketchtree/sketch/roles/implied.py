@@ -21,7 +21,7 @@ def implied_stems(
     for points in sorted(outlines, key=lambda points: tuple(points.min(0))):
         x = float(shapely.make_valid(shapely.Polygon(points)).centroid.x)
         bottom, top = float(points[:, 1].min()), float(points[:, 1].max())
-        foot = min(bottom, level_at(ground, x)) if ground else bottom
+        foot = min(bottom, float(level_at(ground, x))) if ground else bottom
         stem = np.array([[x, foot], [x, foot + STEM * (top - foot)]])
         lines.append(Line(row, stroke_id, stem, np.full(2, np.nan)))
     many = "stems were put" if len(lines) > 1 else "one stem was put"

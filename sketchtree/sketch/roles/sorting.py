@@ -17,13 +17,14 @@ from sketchtree.sketch.graph import Cut, Role
 from sketchtree.sketch.joining.lines import Line
 from sketchtree.sketch.roles.contour import contour, lone_outline
 from sketchtree.sketch.roles.crown import closed_crowns, has_area, on_ground, outline
-from sketchtree.sketch.roles.found import Found, role_warnings
+from sketchtree.sketch.roles.found import NAMED, Found, role_warnings
 from sketchtree.sketch.roles.ground import grass, ground_lines
 from sketchtree.sketch.roles.implied import implied_stems
 from sketchtree.sketch.roles.leaves import leaf_shapes, marks_inside
 from sketchtree.sketch.roles.measures import Measures
 from sketchtree.sketch.roles.named import role_in_names
 from sketchtree.sketch.roles.page import cuts_of, frames
+from sketchtree.sketch.roles.roots import Rooted, roots_apart
 from sketchtree.sketch.roles.scribble import Scribble, meaning, scribbles
 from sketchtree.sketch.roles.shadow import shadows
 from sketchtree.sketch.roles.trunk_edges import trunks_of_edges
@@ -66,6 +67,7 @@ class _Table:
     found: dict[int, Found] = field(default_factory=dict)
     outlines: list[np.ndarray] = field(default_factory=list)  # of crowns
     legs: dict[int, tuple[np.ndarray, ...]] = field(default_factory=dict)  # wood in strokes that drew a crown too
+    named_roots: set[int] = field(default_factory=set)
 
     def take(self, found: list[Found]) -> None:
         """These strokes are known now."""
@@ -108,11 +110,12 @@ def sort_strokes(sketch: Sketch) -> Sorted:
     stem_warnings = []
     if not lines and table.outlines:
         lines, stem_warnings = implied_stems(table.outlines, ground, *_owner(table))
-    cuts, cut_warnings = cuts_of(lines, sketch.page)
+    rooted = roots_apart(lines, ground, table.named_roots)
+    cuts, cut_warnings = cuts_of([*rooted.above, *rooted.below], sketch.page)
     roles = tuple(table.found[row].named(sketch.strokes[row].id) for row in sorted(table.found))
     return Sorted(
-        lines=lines,
-        roots=[],
+        lines=rooted.above,
+        roots=rooted.below,
         parts=_parts(sketch, wood.holes, sides),
         measured=wood.measured,
         crowns=tuple(table.outlines),
@@ -120,7 +123,7 @@ def sort_strokes(sketch: Sketch) -> Sorted:
         ground=tuple(ground),
         roles=roles,
         cuts=cuts,
-        warnings=(*role_warnings(roles), *_side_warnings(wood.sides, "limb"), *_side_warnings(trunks.sides, "trunk"), *stem_warnings, *cut_warnings),
+        warnings=(*role_warnings(roles), *_side_warnings(wood.sides, "limb"), *_side_warnings(trunks.sides, "trunk"), *stem_warnings, *_root_warnings(rooted), *cut_warnings),
     )
 
 
@@ -128,6 +131,14 @@ def _parts(sketch: Sketch, holes: list[tuple[int, int]], sides: list[tuple[Line,
     """The strokes that drew a limb together with another."""
     of_sides = [Part(other.id, middle.id, "the other side of a limb drawn as an outline") for middle, other in sides]
     return (*of_sides, *(Part(sketch.strokes[hole].id, sketch.strokes[outer].id, "a hole in that painted shape") for hole, outer in holes))
+
+
+def _root_warnings(rooted: Rooted) -> list[str]:
+    names = list(dict.fromkeys(line.id for line in rooted.below))
+    if not rooted.found:
+        return []
+    named = f"{', '.join(names[:NAMED])}{', …' if len(names) > NAMED else ''}"
+    return [f"What runs on below the ground was taken for roots (stroke{'s' if len(names) > 1 else ''} {named})."]
 
 
 def _side_warnings(sides: list[tuple[Line, Line]], what: str) -> list[str]:
@@ -150,7 +161,10 @@ def _named(sketch: Sketch) -> _Table:
             table.take([Found(row, str(stroke.kind), reason if known else f"{reason}, but it encloses nothing: left out")])
             if known and stroke.kind == StrokeKind.CROWN:
                 table.outlines.append(outline(stroke.points))
-        elif not stroke.labelled and (role := role_in_names(stroke)) and role != "root":
+        elif (role := role_in_names(stroke)) == "root":
+            table.named_roots.add(row)
+            table.free[row] = False
+        elif role and not stroke.labelled:
             table.take([Found(row, role, "named so")])
     return table
 

@@ -57,7 +57,8 @@ def _pen_lines(strokes: tuple[Stroke, ...], rows: list[int]) -> tuple[list[Line]
     lines, closed = [], []
     for row, width in zip(rows, widths, strict=True):
         stroke = strokes[row]
-        line = as_line(row, stroke.id, stroke.points, width)
+        begun = np.nan if stroke.time is None else float(stroke.time[0])
+        line = as_line(row, stroke.id, stroke.points, width, begun)
         if line is not None:
             lines.append(line)
             closed.append(stroke.closed)
