@@ -210,7 +210,7 @@ class Walk:
         scale = 1.0 if style.get("vector-effect") == "non-scaling-stroke" else scale_of(scope.matrix)
         under = None if scope.ghost else spine(element, self.by_id)
         record, drawn = self._own(element, style, scope)
-        paths = [] if drawn else self._geometry(element, style, under, scope.matrix)
+        paths = [] if drawn else self._geometry(element, style, under, scope)
         self._count(1 if drawn else len(paths), len(drawn[0]) if drawn else sum(len(path.cubics) for path in paths))
         filled = width <= 0 and under is None
         if under is not None:
@@ -251,14 +251,19 @@ class Walk:
             raise at(element, self.name, ValueError("a coordinate is not a finite number"))
         return record, drawn
 
-    def _geometry(self, element: Element, style: Style, under: Spine | None, matrix: Matrix) -> list[Subpath]:
+    def _geometry(self, element: Element, style: Style, under: Spine | None, scope: _Scope) -> list[Subpath]:
+        """The outline of a shape where it lies; that of a clone is worked out once."""
         attributes = element.attrib
         if under is not None:
             attributes = {"d": under.data}
         elif style.keys() & GEOMETRY:
             attributes = {**attributes, **geometry(style)}
         try:
-            return transformed(subpaths(local_name(element.tag), attributes, self.view), matrix)
+            if not scope.uses or attributes is not element.attrib:
+                return transformed(subpaths(local_name(element.tag), attributes, self.view), scope.matrix)
+            if element not in self._outlines:
+                self._outlines[element] = subpaths(local_name(element.tag), attributes, self.view)
+            return transformed(self._outlines[element], scope.matrix)
         except ValueError as error:
             raise at(element, self.name, error) from None
 
