@@ -14,7 +14,7 @@ from PIL import Image, ImageDraw
 from scipy.ndimage import gaussian_filter
 
 from sketchtree.sketch.graph import SketchGraph
-from sketchtree.sketch.strokes import Sketch, StrokeKind
+from sketchtree.sketch.strokes import Sketch, Stroke, StrokeKind
 
 FINER = 3  # times as large as asked, before averaging
 MARGIN = 0.06  # of the drawing's size, around it
@@ -110,15 +110,21 @@ class Likeness:
     crowns: tuple[int, int]  # drawn, read
 
 
-def likeness(truth: SketchGraph, read: SketchGraph, scale: float, corner) -> Likeness:
-    """Compare the graph of a drawing with that of its picture (`scale`, `corner` as `drawn` gave them)."""
+def likeness(strokes: tuple[Sketch, Sketch], graphs: tuple[SketchGraph, SketchGraph], scale: float, corner) -> Likeness:
+    """Compare a drawing with what was read from its picture, stroke for stroke and as graphs, the drawing first
+    (`scale`, `corner` as `drawn` gave them)."""
+    truth, read = graphs
     h = truth.height * scale
-    true_curves = [_placed(truth.curve(k), scale, corner) for k in np.flatnonzero(~truth.is_base)]
-    read_curves = [read.curve(k) for k in np.flatnonzero(~read.is_base)]
+    true_curves = [_placed(_ring(stroke), scale, corner) for stroke in strokes[0].strokes]
+    read_curves = [_ring(stroke) for stroke in strokes[1].strokes]
     found = _share_near(true_curves, read_curves, NEAR * h)
     extra = 1.0 - _share_near(read_curves, true_curves, NEAR * h)
     ways = _ways(truth, read, scale, corner, h)
     return Likeness(found, extra, ways, (len(truth.limb_id), len(read.limb_id)), (len(truth.crown), len(read.crown)))
+
+
+def _ring(stroke: Stroke):
+    return np.vstack([stroke.points, stroke.points[:1]]) if stroke.closed else stroke.points
 
 
 def _placed(points, scale: float, corner):
@@ -126,9 +132,11 @@ def _placed(points, scale: float, corner):
 
 
 def _share_near(curves, others, reach: float) -> float:
-    lines = shapely.union_all([shapely.LineString(c) for c in others])
+    lines = shapely.union_all([shapely.LineString(c) for c in others if len(c) > 1])
     total = near = 0.0
     for curve in curves:
+        if len(curve) < 2:
+            continue
         line = shapely.LineString(curve)
         n = max(2, int(line.length))
         at = shapely.line_interpolate_point(line, (np.arange(n) + 0.5) / n, normalized=True)

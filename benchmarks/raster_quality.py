@@ -4,8 +4,8 @@
 
 One line a medium, means over the drawings:
 
-    found   share of the drawn length within 1 % H of something read
-    extra   share of the read length farther than that from anything drawn
+    found   share of the drawn strokes' length within 1 % H of a stroke that was read
+    extra   share of the length of those farther than that from any that was drawn
     ways    share of the limbs whose way to the ground passes their junction and goes on along their parent
 """
 
@@ -27,8 +27,8 @@ def compare(path: Path, medium: Medium, size: int, pen: float, *, taper: bool = 
     """Read a drawing from its file and from a picture of it."""
     sketch = read_sketch(path)
     cover, scale, corner = drawn(sketch, size, pen, taper=taper)
-    read = sketch_graph(read_raster(on_medium(cover, medium), f"{path.stem}.{medium.name}"))
-    return likeness(sketch_graph(sketch), read, scale, corner)
+    read = read_raster(on_medium(cover, medium), f"{path.stem}.{medium.name}")
+    return likeness((sketch, read), (sketch_graph(sketch), sketch_graph(read)), scale, corner)
 
 
 def main() -> None:

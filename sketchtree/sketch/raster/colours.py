@@ -7,11 +7,14 @@ foliage: its outline, limbs that lie over it included, is a crown. Solid grey is
 from dataclasses import dataclass
 
 import numpy as np
+import shapely
 from jaxtyping import Bool, Float, UInt8
 from PIL import Image
 from scipy.ndimage import binary_fill_holes, distance_transform_edt, gaussian_filter, label, zoom
 from skimage.measure import find_contours
 from skimage.morphology import convex_hull_image
+
+from sketchtree.sketch.raster.lines_of import Traced
 
 LOOK = 0.5  # megapixels at which colours are looked at
 GREEN = (65.0, 175.0)  # hue, degrees
@@ -22,6 +25,8 @@ SOLID = 0.012  # of the picture's larger side: radius of the disc that fits into
 FRINGE = 0.004  # of the same: how far the blended edge of an area reaches
 LARGE = 0.01  # of the picture: a smaller area is no crown
 EVEN = 0.035  # of full lightness: standard deviation of the tones within an area, from pixel to pixel
+EDGE = 0.03  # of the foliage's size: a line that keeps as near to its outline …
+ALONG = 0.8  # … over so much of its length is its edge
 WOOD = 0.003  # of the picture: less brown is no wood
 
 
@@ -63,6 +68,19 @@ def _hues(rgb: UInt8[np.ndarray, "row col 3"]):
     span = np.maximum(high - low, np.float32(1e-6))
     hue = np.where(high == r, (g - b) / span % 6, np.where(high == g, (b - r) / span + 2, (r - g) / span + 4)) * 60.0
     return hue, (high - low) / np.maximum(high, np.float32(1e-6)), high
+
+
+def without_edges(lines: list[Traced], outlines: list[Float[np.ndarray, "point 2"]], pen: float) -> list[Traced]:
+    """The lines without those that only draw the edge of the foliage (all in pixels of the ink)."""
+    edges = shapely.union_all([shapely.LinearRing(outline) for outline in outlines])
+    size = max(float(np.ptp(outline, axis=0).max()) for outline in outlines)
+    reach = max(EDGE * size, 2 * pen)
+    kept = []
+    for line in lines:
+        along = float(np.mean(shapely.distance(edges, shapely.points(line.points)) <= reach))
+        if along < ALONG or line.length < 2 * reach:
+            kept.append(line)
+    return kept or lines
 
 
 def _is_even(rgb: UInt8[np.ndarray, "row col 3"], area: Bool[np.ndarray, "small_row small_col"], factor: int) -> bool:

@@ -41,15 +41,16 @@ def _through(mask: Bool[np.ndarray, "row col"], start, direction, most: float) -
     return float(steps[np.argmin(ink)]) if not ink.all() else float(most)
 
 
-def bridged(lines: list[Traced], pen: float) -> list[Traced]:
-    """Join the lines whose free ends point at each other across a gap."""
+def bridged(lines: list[Traced], pen: float, *, dashes: bool = True) -> list[Traced]:
+    """Join the lines whose free ends point at each other across a gap; `dashes`: those of short lines in a row as well."""
     ends = [(k, side) for k, line in enumerate(lines) if not line.closed for side in (0, 1) if line.joints[side] < 0]
     if len(ends) < 2:
         return lines
     place = np.array([lines[k].points[0 if side == 0 else -1] for k, side in ends])
     out = np.array([end_direction(lines[k], side) for k, side in ends])
     length = np.array([lines[k].length for k, _ in ends])
-    reach = np.where(length <= DASHES * pen, np.maximum(GAP * pen, DASH * length), GAP * pen)
+    dash = np.array([dashes and lines[k].joints == (-1, -1) for k, _ in ends]) & (length <= DASHES * pen)
+    reach = np.where(dash, np.maximum(GAP * pen, DASH * length), GAP * pen)
     pairs = cKDTree(place).query_pairs(float(reach.max()), output_type="ndarray")
     if len(pairs) == 0:
         return lines
@@ -93,4 +94,4 @@ def _joined(lines: list[Traced], ends: list[tuple[int, int]], mate: dict[int, in
 def _chained(chain: list[Traced], ring: bool) -> Traced:
     points, width = np.concatenate([c.points for c in chain]), np.concatenate([c.width for c in chain])
     joints = (-1, -1) if ring else (chain[0].joints[0], chain[-1].joints[1])
-    return Traced(points, width, ring, joints)
+    return Traced(points, width, ring, joints, frozenset().union(*(c.passes for c in chain)))

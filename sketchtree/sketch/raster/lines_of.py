@@ -32,6 +32,7 @@ class Traced:
     width: Float[np.ndarray, " point"]
     closed: bool = False
     joints: tuple[int, int] = (-1, -1)  # the joints that its first and last point end in; -1 for a free end
+    passes: frozenset[int] = frozenset()  # the joints it goes on through
 
     @property
     def length(self) -> float:
@@ -40,7 +41,7 @@ class Traced:
 
     def reversed(self) -> "Traced":
         """The same line drawn the other way."""
-        return Traced(self.points[::-1], self.width[::-1], self.closed, self.joints[::-1])
+        return dataclasses.replace(self, points=self.points[::-1], width=self.width[::-1], joints=self.joints[::-1])
 
     def grow(self, side: int, more: Float[np.ndarray, "point 2"]) -> None:
         """Lengthen it by points beyond its first (0) or last (1) one, nearest first."""
@@ -55,6 +56,9 @@ def whole_lines(web: Web, links: Links, ink: Ink) -> list[Traced]:
     chains = _chains(web, links)
     lines = [_raw(web, chain, ring) for chain, ring in chains]
     through = _through(web, chains, links)
+    for node, hosts in through.items():
+        for k in hosts:
+            lines[k].passes |= {node}
     lines = [_smooth(_centred(_even(line), ink)) for line in lines]
     _touch(lines, through, web)
     return lines
@@ -124,7 +128,7 @@ def _even(line: Traced) -> Traced:
     s = np.r_[0.0, np.cumsum(np.hypot(*np.diff(points, axis=0).T))]
     at = np.linspace(0.0, s[-1], max(3, int(np.ceil(s[-1])) + 1))
     points = np.stack([np.interp(at, s, points[:, k]) for k in (0, 1)], 1)
-    return Traced(points, np.interp(at, s, width), line.closed, line.joints)
+    return dataclasses.replace(line, points=points, width=np.interp(at, s, width))
 
 
 def _centred(line: Traced, ink: Ink) -> Traced:
@@ -137,7 +141,8 @@ def _smooth(line: Traced) -> Traced:
         return line
     sigma = SMOOTH[0] * float(np.median(width)) + SMOOTH[1]
     mode = "wrap" if line.closed else "held"
-    return Traced(_gauss(points, sigma, mode), np.maximum(_gauss(width[:, None], 2 * sigma, mode, False)[:, 0], 0.2), line.closed, line.joints)
+    width = np.maximum(_gauss(width[:, None], 2 * sigma, mode, False)[:, 0], 0.2)
+    return dataclasses.replace(line, points=_gauss(points, sigma, mode), width=width)
 
 
 def _gauss(values: Float[np.ndarray, "point column"], sigma: float, mode: str, odd: bool = True) -> Float[np.ndarray, "point column"]:
@@ -196,7 +201,7 @@ def thinned_out(line: Traced, pen: float) -> Traced:
     keep[[0, -1]] = True
     if line.closed and len(line.points) > 3 and (line.points[0] == line.points[-1]).all():
         keep[-1] = False
-    return Traced(line.points[keep], line.width[keep], line.closed, line.joints)
+    return dataclasses.replace(line, points=line.points[keep], width=line.width[keep])
 
 
 def _bending(points: Float[np.ndarray, "point 2"], tolerance: float) -> np.ndarray:

@@ -9,15 +9,17 @@ that all y are negative and the middle of the top left pixel is (0.5, −0.5). `
 
 import dataclasses
 from collections.abc import Callable
+from dataclasses import dataclass
 
 import numpy as np
-from jaxtyping import Bool
+from jaxtyping import Bool, Float
 
 from sketchtree.errors import SketchError
-from sketchtree.sketch.raster.colours import Painted, painted_areas
+from sketchtree.sketch.raster.colours import Painted, painted_areas, without_edges
 from sketchtree.sketch.raster.crossing import link
 from sketchtree.sketch.raster.dots import Dotted, dotted_curves
 from sketchtree.sketch.raster.ends import bridged, drawn_on
+from sketchtree.sketch.raster.foliage import without_foliage
 from sketchtree.sketch.raster.hollow import filled_outlines
 from sketchtree.sketch.raster.ink import Ink, extent, find_ink
 from sketchtree.sketch.raster.judging import check_ink, check_lines, no_ink
@@ -31,6 +33,17 @@ from sketchtree.sketch.raster.tracing import trace
 from sketchtree.sketch.strokes import Sketch
 
 LARGEST = 200.0  # megapixels read at most, unless told otherwise
+
+
+@dataclass(frozen=True, eq=False)
+class Read:
+    """What the ink of a picture shows. Pixels of the ink, (x, y), y DOWN."""
+
+    lines: list[Traced]
+    dotted: list[Dotted]
+    crowns: list[Float[np.ndarray, "point 2"]]  # outlines of foliage
+    filled: Bool[np.ndarray, "row col"] | None  # paper within limbs drawn by their outlines
+    warnings: list[str]
 
 
 def read_raster(
@@ -51,14 +64,20 @@ def read_raster(
     tell(0.2)
     ink, painted = _ink(picture, name)
     tell(0.5)
-    lines, filled, dotted, notes = _lines(ink, name)
+    read = _lines(ink, name)
+    notes = read.warnings
     tell(0.9)
-    if len(lines) > max_strokes:
+    if len(read.lines) > max_strokes:
         raise SketchError(
-            f"{name} holds {len(lines):,} lines; at most {max_strokes:,} are read.", remedy="Simplify it, or raise `max_strokes`."
+            f"{name} holds {len(read.lines):,} lines; at most {max_strokes:,} are read.", remedy="Simplify it, or raise `max_strokes`."
         )
-    crowns = [outline * picture.scale for outline in painted.crowns] if painted else []
-    strokes = strokes_of(lines, dotted, crowns, filled, ink, ink.scale * picture.scale)
+    scale = ink.scale * picture.scale
+    crowns = [outline * scale for outline in read.crowns]
+    lines = read.lines
+    if painted is not None and painted.crowns:
+        crowns += [outline * picture.scale for outline in painted.crowns]
+        lines = without_edges(lines, [outline / ink.scale for outline in painted.crowns], ink.pen)
+    strokes = strokes_of(lines, read.dotted, crowns, read.filled, ink, scale)
     if painted and painted.shadow:
         notes.append("A grey area under the tree was taken for its shadow and left out.")
     width, height = picture.size
@@ -80,8 +99,8 @@ def _ink(picture: Picture, name: str) -> tuple[Ink, Painted | None]:
     return ink, painted
 
 
-def _lines(ink: Ink, name: str) -> tuple[list[Traced], Bool[np.ndarray, "row col"] | None, list[Dotted], list[str]]:
-    """(whole lines, ink and filled paper where limbs were outlines, dotted curves, warnings)."""
+def _lines(ink: Ink, name: str) -> Read:
+    """What the ink shows."""
     dotted, mask = dotted_curves(ink.mask, thinned(ink.mask)[1])
     clean = swept(mask, ink.pen)
     web = trace(*thinned(clean.mask), ink.pen)
@@ -90,11 +109,17 @@ def _lines(ink: Ink, name: str) -> tuple[list[Traced], Bool[np.ndarray, "row col
     if filled is not None:
         web = trace(*thinned(mask), ink.pen)
     lines = bridged(whole_lines(web, link(web, ink.pen), ink), ink.pen)
-    drawn_on(lines, mask, ink.pen)
     check_lines(lines, len(dotted), clean.specks, extent(mask), name)
+    foliage = without_foliage(lines, ink.pen)
+    drawn_on(foliage.wood, mask, ink.pen)
     notes = []
+    if foliage.leaves:
+        what = "its outline was taken for the crown" if foliage.crowns else "it was left out"
+        notes.append(f"{foliage.leaves:,} small lines were taken for foliage: {what}.")
+    if foliage.hatching:
+        notes.append(f"{foliage.hatching:,} short parallel lines were taken for hatching and left out.")
     if clean.specks:
         notes.append(f"{clean.specks:,} specks were left out as dust or grain of the paper.")
     if clean.edges:
         notes.append("A dark edge of the picture was left out.")
-    return lines, None if filled is None else filled.inside, dotted, notes
+    return Read(foliage.wood, dotted, foliage.crowns, None if filled is None else filled.inside, notes)

@@ -3,7 +3,8 @@
 Pixels are neighbours if they share a side, or a corner without a common neighbour on either side of it; so a plain
 line has two neighbours everywhere. Pixels with one neighbour are ends, with three or more are joints, and the pixels
 between are an edge. Joints that touch each other are one. A spur, an edge with a free end, is only the
-border's roughness or a limb's corner unless it reaches out of the ink around its joint by SPUR of its half width and the pen's width.
+border's roughness unless it reaches out of the ink around its joint by SPUR of its half width and the pen's width. Where a limb
+ends bluntly its middle line forks into the two corners: a fork that reaches out by less than CORNER goes.
 """
 
 from dataclasses import dataclass, field
@@ -12,6 +13,7 @@ import numpy as np
 from jaxtyping import Bool, Float, Int
 
 SPUR = (0.5, 0.4)  # least reach of a side line out of the ink: half widths of the joint, plus pens
+CORNER = 1.8  # half widths of the limb
 TOUCH = 2.3  # pixels: joints no farther apart are one
 
 _AROUND = np.array([(-1, 0), (0, 1), (1, 0), (0, -1), (-1, 1), (1, 1), (1, -1), (-1, -1)])
@@ -75,6 +77,7 @@ def trace(skeleton: Bool[np.ndarray, "row col"], half: Float[np.ndarray, "row co
     web = _web(skeleton, half)
     _merge_joints(web)
     _prune(web, pen)
+    _cut_corners(web)
     return web
 
 
@@ -189,6 +192,19 @@ def _prune(web: Web, pen: float) -> None:
     for node in list(web.at):
         if node in web.at and web.degree(node) == 2:
             _dissolve(web, node)
+
+
+def _cut_corners(web: Web) -> None:
+    """Take away both lines of a fork into the corners of a blunt end."""
+    for node in sorted(web.at):
+        if node not in web.at or web.degree(node) != 3 or len(set(web.at[node])) < 3:
+            continue
+        limb = max(web.at[node], key=lambda key: web.edges[key].length)
+        corners = [key for key in web.at[node] if key != limb]
+        if web.edges[limb].length > 2 * web.half[node] and all(_reach(web, node, key) < CORNER * web.half[node] for key in corners):
+            for key in corners:
+                end = web.drop(key).other(node)
+                del web.at[end], web.place[end], web.half[end]
 
 
 def _reach(web: Web, node: int, key: int) -> float:

@@ -1,0 +1,207 @@
+"""Which lines are leaves or hatching rather than wood? Scribbles, loops, blades, and rows of short parallel strokes.
+
+    curl       turning of a line over its length, radians per H. Limbs bend, scribbles and loops whirl: curl ≥ CURL
+    blade      a short line that is widest well away from its foot: the ink of a leaf
+    texture    length of such lines per area, smoothed over SPREAD; foliage is where it is at least DENSE
+
+Limbs that leaves had cut are joined again; what then lies in foliage and is no long, nearly straight line is left out with it. Foliage high in the drawing is a crown: its outline,
+or the hull of its clumps. Short lines of one direction side by side, both ends free and away from longer lines, are hatching.
+"""
+
+import dataclasses
+from dataclasses import dataclass
+
+import numpy as np
+import shapely
+from jaxtyping import Bool, Float
+from scipy.ndimage import binary_closing, binary_fill_holes, gaussian_filter
+from scipy.sparse import coo_array
+from scipy.sparse.csgraph import connected_components
+from scipy.spatial import ConvexHull, cKDTree
+from skimage.measure import find_contours
+
+from sketchtree.sketch.raster.ends import bridged
+from sketchtree.sketch.raster.lines_of import Traced
+
+CURL = 30.0  # radians per H
+WHIRL = 2.2  # radians: a line that turns less in all is no scribble
+RING = 0.3  # of H: length of a closed line, below which it is a leaf
+BLADE = 1.6  # times as wide as at its foot
+BLADE_LONG = (2.0, 9.0)  # of its greatest width: length of a blade
+STEM = 0.2  # of a blade's length: its foot
+GRID = 128  # cells along H
+MARGIN = 8  # cells around the drawing
+SPREAD = 0.022  # of H
+DENSE = 9.0  # H of line in an area of H²
+FEWEST = 10  # lines that whirl or are blades: fewer are no foliage
+LIMB = (0.1, 14.0)  # of H, radians per H: a line so long and no curlier is wood wherever it lies
+WITHIN = 0.6  # share of a line that lies in foliage, if it is foliage
+CROWN = 0.03  # of H²: least area of a crown
+HIGH = 0.6  # of the drawing's height: a crown reaches above it
+FULL = 0.55  # least share of the hull of several clumps that they fill
+CLUMPS = 0.05  # of H: clumps nearer to each other are one
+
+HATCH = 0.14  # of H: longer lines are no hatching
+ROW = 5  # lines in a patch of hatching
+SIDE = 0.45  # of their length: distance between lines of hatching
+PARALLEL = np.radians(18)
+AWAY = (0.3, 3.0)  # of its length, plus pens: hatching keeps that far from longer lines
+
+
+@dataclass(frozen=True, eq=False)
+class Foliage:
+    """The lines that are wood, and what the others are. Pixels of the ink, (x, y), y DOWN."""
+
+    wood: list[Traced]
+    leaves: int  # how many lines were left out as foliage
+    hatching: int
+    crowns: list[Float[np.ndarray, "point 2"]]
+
+
+def without_foliage(lines: list[Traced], pen: float) -> Foliage:
+    """Tell foliage and hatching from wood."""
+    if len(lines) < ROW:
+        return Foliage(lines, 0, 0, [])
+    points = np.concatenate([line.points for line in lines])
+    low, height = points.min(0), float(np.ptp(points, axis=0).max())
+    is_hatch = _hatching(lines, height, pen)
+    rest = [line for line, hatch in zip(lines, is_hatch, strict=True) if not hatch]
+    leafy = np.array([_is_leafy(line, height) for line in rest], bool)
+    if leafy.sum() < FEWEST:
+        return Foliage(rest, 0, int(is_hatch.sum()), [])
+    cell = height / GRID
+    region = _region([line for line, leaf in zip(rest, leafy, strict=True) if leaf], low, points.max(0), cell)
+    leafy &= np.array([_within(line, region, low, cell) >= 0.5 * WITHIN for line in rest])
+    left = bridged(_freed([line for line, leaf in zip(rest, leafy, strict=True) if not leaf]), pen, dashes=False)
+    wood = [line for line in left if _is_limb(line, height) or _within(line, region, low, cell) < WITHIN]
+    if not wood:
+        return Foliage(rest, 0, int(is_hatch.sum()), [])
+    return Foliage(wood, int(leafy.sum()) + len(left) - len(wood), int(is_hatch.sum()), _crowns(region, low, cell))
+
+
+def _freed(lines: list[Traced]) -> list[Traced]:
+    """The lines with those ends free that ended on a line which is gone."""
+    passed = frozenset().union(*(line.passes for line in lines))
+    return [dataclasses.replace(line, joints=tuple(node if node in passed else -1 for node in line.joints)) for line in lines]
+
+
+def _is_limb(line: Traced, height: float) -> bool:
+    return line.length >= LIMB[0] * height and turning(line) * height <= LIMB[1] * line.length
+
+
+def _is_leafy(line: Traced, height: float) -> bool:
+    """Whether a line whirls, is a small ring or a blade."""
+    length = line.length
+    if line.closed:
+        return length <= RING * height
+    turn = turning(line)
+    if turn >= WHIRL and turn * height >= CURL * length and length <= 4 * RING * height:
+        return True
+    return _is_blade(line, length)
+
+
+def turning(line: Traced) -> float:
+    """How much a line turns in all, radians, its points taken a width apart."""
+    width = max(float(np.median(line.width)), 2.0)
+    points = line.points[:: max(1, round(width))]
+    step = np.diff(np.vstack([points, line.points[-1:]]), axis=0)
+    angle = np.arctan2(step[:-1, 0] * step[1:, 1] - step[:-1, 1] * step[1:, 0], (step[:-1] * step[1:]).sum(1))
+    return float(np.abs(angle).sum())
+
+
+def _is_blade(line: Traced, length: float) -> bool:
+    """Whether a line with a free end is widest away from its foot."""
+    free = [side for side in (0, 1) if line.joints[side] < 0]
+    if len(free) != 1:
+        return False
+    width = line.width if free == [1] else line.width[::-1]
+    foot = float(np.median(width[: max(2, int(STEM * len(width)))]))
+    widest = float(np.quantile(width[len(width) // 4 :], 0.9))
+    return widest >= BLADE * foot and BLADE_LONG[0] * widest <= length <= BLADE_LONG[1] * widest
+
+
+def _region(leaves: list[Traced], low, high, cell: float) -> Bool[np.ndarray, "row col"]:
+    """Where the lines that whirl lie densely; one cell of margin and more around."""
+    shape = np.ceil((high - low) / cell).astype(int)[::-1] + 1 + 2 * MARGIN
+    texture = np.zeros(shape)
+    for line in leaves:
+        at = _cells(line, low, cell)
+        np.add.at(texture, (at[:, 1], at[:, 0]), line.length / len(at))
+    per_area = texture / cell**2 * (cell * GRID)
+    return gaussian_filter(per_area, SPREAD * GRID) >= DENSE
+
+
+def _cells(line: Traced, low, cell: float):
+    return np.floor((line.points - low) / cell).astype(int) + MARGIN
+
+
+def _within(line: Traced, region, low, cell: float) -> float:
+    """Share of a line that lies in a region."""
+    at = _cells(line, low, cell)
+    return float(region[at[:, 1], at[:, 0]].mean())
+
+
+def _crowns(region, low, cell: float) -> list[Float[np.ndarray, "point 2"]]:
+    """Outline of the foliage if it is large and high enough."""
+    reach = max(1, round(CLUMPS * GRID))
+    disc = np.hypot(*np.mgrid[-reach : reach + 1, -reach : reach + 1]) <= reach
+    joined = binary_fill_holes(binary_closing(np.pad(region, reach), disc)[reach:-reach, reach:-reach])
+    rows = np.flatnonzero(joined.any(1))
+    span = joined.shape[0] - 2 * MARGIN
+    if joined.sum() < CROWN * GRID**2 or (rows[0] - MARGIN) > (1 - HIGH) * span:
+        return []
+    soft = gaussian_filter(np.pad(joined, 2).astype(float), 1.0)
+    outlines = [line[:-1, ::-1] - 2 for line in find_contours(soft, 0.5)]
+    large = [line for line in outlines if shapely.Polygon(line).area >= 0.1 * joined.sum()]
+    if len(large) != 1:
+        every = np.concatenate(outlines)
+        hull = ConvexHull(every)
+        large = [every[hull.vertices]] if joined.sum() >= FULL * hull.volume else []
+    return [(line + 0.5 - MARGIN) * cell + low for line in large]
+
+
+def _hatching(lines: list[Traced], height: float, pen: float) -> Bool[np.ndarray, " line"]:
+    """Mask of the short lines that lie in rows side by side, away from longer ones."""
+    length = np.array([line.length for line in lines])
+    ends = np.array([line.points[[0, -1]] for line in lines])
+    chord = ends[:, 1] - ends[:, 0]
+    straight = np.hypot(*chord.T) >= 0.9 * length
+    free = np.array([line.joints == (-1, -1) and not line.closed for line in lines])
+    short = np.flatnonzero(free & straight & (length <= HATCH * height) & (length >= 2 * pen))
+    found = np.zeros(len(lines), bool)
+    if len(short) < ROW:
+        return found
+    middle, heading = ends[short].mean(1), np.arctan2(chord[short, 1], chord[short, 0])
+    pairs = cKDTree(middle).query_pairs(float(HATCH * height), output_type="ndarray")
+    if len(pairs) == 0:
+        return found
+    a, b = pairs.T
+    turn = np.abs((heading[a] - heading[b] + np.pi / 2) % np.pi - np.pi / 2)
+    apart = middle[b] - middle[a]
+    like = np.minimum(length[short][a], length[short][b])
+    along = np.abs(apart[:, 0] * np.cos(heading[a]) + apart[:, 1] * np.sin(heading[a]))
+    beside = (turn <= PARALLEL) & (np.hypot(*apart.T) ** 2 - along**2 <= (SIDE * like) ** 2) & (along <= 0.5 * like)
+    beside &= np.maximum(length[short][a], length[short][b]) <= 2.5 * like
+    labels = _groups(len(short), a[beside], b[beside])
+    large = np.bincount(labels)[labels] >= ROW
+    far = _away(lines, length, ends, short, pen)
+    share = np.bincount(labels, weights=far) / np.bincount(labels)
+    found[short[large & (share[labels] >= 0.7)]] = True
+    return found
+
+
+def _groups(count: int, a, b):
+    return connected_components(coo_array((np.ones(len(a)), (a, b)), (count, count)), directed=False)[1]
+
+
+def _away(lines, length, ends, short, pen: float) -> Bool[np.ndarray, " short"]:
+    """Which short lines keep away, by both ends, from lines more than twice as long."""
+    long = np.flatnonzero(length >= 2 * np.median(length[short]))
+    if len(long) == 0:
+        return np.ones(len(short), bool)
+    tree = shapely.STRtree([shapely.LineString(lines[k].points) for k in long])
+    far = np.ones(len(short), bool)
+    for side in (0, 1):
+        _, distance = tree.query_nearest(shapely.points(ends[short, side]), return_distance=True, all_matches=False)
+        far &= distance > AWAY[0] * length[short] + AWAY[1] * pen
+    return far
