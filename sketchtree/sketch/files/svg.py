@@ -18,6 +18,7 @@ from sketchtree.sketch.files.ids import unique
 from sketchtree.sketch.files.limits import MAX_MB, MAX_STROKES
 from sketchtree.sketch.files.outlines import flatten
 from sketchtree.sketch.files.painted import Walk
+from sketchtree.sketch.files.path_effects import Spine
 from sketchtree.sketch.files.shapes import Shape, extent_of
 from sketchtree.sketch.files.svg_record import restored, sketch_record
 from sketchtree.sketch.strokes import Sketch, Stroke, StrokeKind
@@ -117,14 +118,14 @@ def _flattened(shapes: list[Shape]) -> list[list[_Part]]:
     paths = [path for shape in shapes for path in shape.paths]
     pieces = np.concatenate([np.zeros((0, 4, 2)), *(path.cubics for path in paths)])
     points, steps = flatten(pieces, FLATNESS * extent_of(paths))
-    first = np.r_[0, np.cumsum(steps)]
-    ends = np.r_[0, np.cumsum([len(path.cubics) for path in paths])].astype(np.int64)
+    pieces_before = np.r_[0, np.cumsum([len(path.cubics) for path in paths])].astype(np.int64)
+    ends, first = pieces_before.tolist(), np.r_[0, np.cumsum(steps)][pieces_before].tolist()
     found, k = [], 0
     for shape in shapes:
         parts = [] if shape.drawn is None else [_Part(*shape.drawn)]
         for path in shape.paths:
-            line = np.concatenate([path.start[None], points[first[ends[k]] : first[ends[k + 1]]]])
-            press = _pressure(shape, steps[ends[k] : ends[k + 1]])
+            line = np.concatenate([path.start[None], points[first[k] : first[k + 1]]])
+            press = None if shape.spine is None else _pressure(shape.spine, steps[ends[k] : ends[k + 1]])
             if path.closed and len(line) > 1 and (line[0] == line[-1]).all():
                 line, press = line[:-1], None if press is None else press[:-1]
             parts.append(_Part(line, path.closed, press))
@@ -133,14 +134,14 @@ def _flattened(shapes: list[Shape]) -> list[list[_Part]]:
     return found
 
 
-def _pressure(shape: Shape, steps: Int[np.ndarray, " piece"]) -> Float[np.ndarray, " point"] | None:
+def _pressure(spine: Spine, steps: Int[np.ndarray, " piece"]) -> Float[np.ndarray, " point"] | None:
     """The width of a thickened line at its points, of its greatest."""
-    if shape.spine is None or shape.spine.knots is None:
+    if spine.knots is None:
         return None
     done = np.repeat(np.arange(len(steps)), steps)
     within = np.arange(len(done)) - np.repeat(np.cumsum(steps) - steps, steps) + 1
     times = np.r_[0.0, done + within / np.repeat(steps, steps)]
-    return np.interp(times, *shape.spine.knots.T) / shape.spine.width
+    return np.interp(times, *spine.knots.T) / spine.width
 
 
 def _shown(shape: Shape, whole: list[_Part]) -> list[_Part]:
