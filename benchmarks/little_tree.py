@@ -73,7 +73,7 @@ def inkml() -> bytes:
     for k, (name, points) in enumerate(STROKES.items()):
         plain = ", ".join(f"{x} {y}" for x, y in points)
         steps = np.diff(points, axis=0)
-        coded = f"{points[0][0]} {points[0][1]}" + "".join(f",{_mark(j)}{x}{_mark(j)}{y}" if j == 0 else f",{x} {y}" for j, (x, y) in enumerate(steps))
+        coded = ",".join([f"{points[0][0]} {points[0][1]}", f"'{steps[0][0]}'{steps[0][1]}", *(f"{x} {y}" for x, y in steps[1:])])
         traces.append(f'<trace xml:id="{name}" brushRef="#b">{coded if k % 2 else plain}</trace>')
     ring = ",".join(f"{x} {y}" for x, y in [*CROWN, CROWN[0]])
     return (
@@ -83,10 +83,6 @@ def inkml() -> bytes:
         f'<traceGroup contextRef="#c">{"".join(traces)}</traceGroup>'
         f'<traceGroup><annotation type="label">crown</annotation><trace xml:id="outline" brushRef="#b">{ring}</trace></traceGroup></ink>'
     ).encode()
-
-
-def _mark(step: int) -> str:
-    return "'" if step == 0 else ""
 
 
 def quickdraw() -> bytes:

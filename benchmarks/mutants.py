@@ -20,18 +20,27 @@ import numpy as np
 from benchmarks import little_tree
 
 READERS = ("svg", "json", "excalidraw", "inkml", "ndjson", "picture", "svgz")
-_NUMBERS = (b"0", b"-0", b"1e400", b"-1e308", b"1e-320", b"NaN", b"Infinity", b"1e9", b"9" * 400, b"0x10", b"1.5.2", b"--1", b"1e", b"")
-_WORDS = (b"null", b"true", b"[]", b"{}", b'""', b"\0", b"\xff\xfe", b"&amp;", b"&x;", b"<g>", b"</g>", b"]]>", b"<!--", b"#", b"'", b'"', b"*?!", b"\xf0\x9f")
-_VALUES = (None, True, 0, -1, 1, 1e308, -1e-320, 10**400, float("nan"), float("inf"), "", "crown", "\ud800", "1", [], {}, [[]], [None], [0, 0], [[0, 0]] * 3)
+_NUMBERS = b"0 -0 1e400 -1e308 1e-320 NaN Infinity 1e9 0x10 1.5.2 --1 1e".split() + [b"9" * 400, b""]
+_WORDS = (*b"null true [] {} &amp; &x; <g> </g> ]]> <!-- # ' *?!".split(), b'""', b'"', b"\0", b"\xff\xfe", b"\xf0\x9f")
+_VALUES = (
+    *(None, True, 0, -1, 1, 1e308, -1e-320, 10**400, float("nan"), float("inf")),
+    *("", "crown", "\ud800", "1", [], {}, [[]], [None], [0, 0], [[0, 0]] * 3),
+)
 _TEXTS = ("", "0", "-1", "1e999", "nan", "10%", "none", "url(#a)", "M0 0", "M0 0L1 1Z", "m1 1c0 0 0 0 9e9 9e9", "0 0 9 9", "0 0 0 0", "crown", "#a",
           "matrix(0 0 0 0 0 0)", "rotate(1e300)", "scale(0)", "1 2,3 4", "'1 1,\"2 2", "*", "display:none", "0 0 1e400 1")  # fmt: skip
-_TAGS = ("g", "path", "use", "svg", "symbol", "polyline", "circle", "ellipse", "rect", "line", "clipPath", "mask", "style", "defs", "a", "switch", "marker",
-         "trace", "traceGroup", "traceView", "traceFormat", "channel", "context", "brush", "brushProperty", "definitions", "annotation", "inkSource")  # fmt: skip
-_ATTRIBUTES = ("id", "d", "points", "transform", "style", "class", "href", "viewBox", "width", "height", "x", "y", "r", "rx", "cx", "x1", "y2", "stroke", "fill",
-               "stroke-width", "opacity", "display", "clip-path", "traceDataRef", "contextRef", "brushRef", "name", "value", "units", "type", "min", "max",
-               "from", "to", "continuation", "priorTrace", "timeOffset", "duration", "orientation", "preserveAspectRatio")  # fmt: skip
-_KEYS = ("sketchtree", "strokes", "points", "id", "kind", "width", "closed", "y", "units", "type", "elements", "angle", "x", "pressures", "roundness", "groupIds",
-         "customData", "frameId", "isDeleted", "opacity", "libraryItems", "drawing", "polygon", "strokeWidth", "backgroundColor", "text")  # fmt: skip
+_TAGS = tuple(
+    "g path use svg symbol polyline circle ellipse rect line clipPath mask style defs a switch marker trace traceGroup traceView traceFormat "
+    "channel context brush brushProperty definitions annotation inkSource".split()
+)
+_ATTRIBUTES = tuple(
+    "id d points transform style class href viewBox width height x y r rx cx x1 y2 stroke fill stroke-width opacity display clip-path "
+    "traceDataRef contextRef brushRef name value units type min max from to continuation priorTrace timeOffset duration orientation "
+    "preserveAspectRatio".split()
+)
+_KEYS = tuple(
+    "sketchtree strokes points id kind width closed y units type elements angle x pressures roundness groupIds customData frameId isDeleted "
+    "opacity libraryItems drawing polygon strokeWidth backgroundColor text".split()
+)
 
 
 def seeds(reader: str) -> list[bytes]:

@@ -32,7 +32,7 @@ def is_number(value: Any) -> bool:
     return isinstance(value, (int, float)) and not isinstance(value, bool) and abs(value) <= 1.7e308
 
 
-def number_rows(rows: Any, size: int) -> Float[np.ndarray, "row {size}"] | None:
+def number_rows(rows: Any, size: int) -> Float[np.ndarray, "row column"] | None:
     """A list of lists as (row, size), what follows in each row left out; None if it is no such list of finite numbers."""
     if not isinstance(rows, list) or not set(map(type, rows)) <= {list} or min(map(len, rows), default=size) < size:
         return None

@@ -43,6 +43,8 @@ def _stroke(rows: Any, k: int, name: str) -> Stroke:
     columns = number_rows(rows, lengths.pop()) if len(lengths) == 1 and 2 <= len(rows) <= 3 else None
     if columns is None or not columns.size:
         raise SketchError(
-            f"in {name}, it is not [[x, …], [y, …]] (or with [t, …]): finite numbers, as many of each and at least one.", stroke=k, remedy=_REMEDY
+            f"in {name}, it is not [[x, …], [y, …]] (or with [t, …]): finite numbers, as many of each and at least one.",
+            stroke=k,
+            remedy=_REMEDY,
         )
     return Stroke(f"stroke-{k}", np.column_stack([columns[0], -columns[1]]), time=columns[2] if len(columns) > 2 else None)

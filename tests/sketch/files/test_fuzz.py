@@ -15,8 +15,10 @@ from benchmarks.mutants import READERS, mutant
 
 COUNT = {"picture": 20}  # files of each reader
 short = settings(max_examples=60, derandomize=True, deadline=None, suppress_health_check=list(HealthCheck))
-STARTS = (b"", b"<svg>", b"<ink><trace>", b'{"sketchtree": 1, "strokes": [', b'{"type": "excalidraw", "elements": [', b'{"drawing": [', b"\x1f\x8b\x08",
-          b"\x89PNG\r\n\x1a\n\0\0\0\rIHDR", b"GIF89a", b"BM", b"II*\0", b"RIFF\0\0\0\0WEBP", b"\xff\xd8\xff\xe0", b"PK\x03\x04", b"\xff\xfe<\0")  # fmt: skip
+STARTS = (
+    *(b"", b"<svg>", b"<ink><trace>", b'{"sketchtree": 1, "strokes": [', b'{"type": "excalidraw", "elements": [', b'{"drawing": [', b"\x1f\x8b\x08"),
+    *(b"\x89PNG\r\n\x1a\n\0\0\0\rIHDR", b"GIF89a", b"BM", b"II*\0", b"RIFF\0\0\0\0WEBP", b"\xff\xd8\xff\xe0", b"PK\x03\x04", b"\xff\xfe<\0"),
+)
 
 number = st.one_of(st.integers(-1000, 1000), st.floats(), st.just(10**400), st.floats(-1e3, 1e3))
 name = st.sampled_from(["a", "crown", "trunk", "\ud800", "", "obstacle 2"])
@@ -51,7 +53,7 @@ sketches = st.fixed_dictionaries(
 )
 elements = st.fixed_dictionaries(
     {
-        "type": mostly(st.sampled_from(["line", "freedraw", "arrow", "rectangle", "ellipse", "diamond", "text", "frame", "image"]), st.text(max_size=5)),
+        "type": mostly(st.sampled_from("line freedraw arrow rectangle ellipse diamond text frame image".split()), st.text(max_size=5)),
         "x": mostly(coordinate),
         "y": mostly(coordinate),
         "width": mostly(coordinate),
@@ -77,11 +79,13 @@ elements = st.fixed_dictionaries(
         "startBinding": mostly(st.fixed_dictionaries({"elementId": mostly(name)})),
     },
 )
+items = st.lists(mostly(st.fixed_dictionaries({"elements": st.lists(elements)})), max_size=2)
 scenes = st.one_of(
     st.fixed_dictionaries({"type": st.just("excalidraw"), "elements": mostly(st.lists(elements, min_size=1, max_size=8))}),
-    st.fixed_dictionaries({"type": st.just("excalidrawlib"), "libraryItems": st.lists(mostly(st.fixed_dictionaries({"elements": st.lists(elements)})), max_size=2)}),
+    st.fixed_dictionaries({"type": st.just("excalidrawlib"), "libraryItems": items}),
 )
-drawings = st.fixed_dictionaries({"drawing": mostly(st.lists(st.one_of(st.lists(st.lists(number, max_size=5), max_size=4), points.map(lambda p: list(zip(*p, strict=True)))), max_size=5))})
+columns = points.map(lambda rows: list(zip(*rows, strict=True)))
+drawings = st.fixed_dictionaries({"drawing": mostly(st.lists(mostly(columns, st.lists(st.lists(number, max_size=5), max_size=4)), max_size=5))})
 
 values = st.sampled_from(["1", "-2", "30", "4.5", "'1", '"2', "!7", "*", "?", "T", "#F", "1e999", "-", "x"])
 texts = st.one_of(
@@ -89,12 +93,15 @@ texts = st.one_of(
     points.map(lambda p: ", ".join(f"{x} {y} {k}" for k, (x, y) in enumerate(p))),
     st.lists(st.lists(values, min_size=1, max_size=4).map(" ".join), max_size=6).map(",".join),
 )
-quoted = st.sampled_from(["a", "#a", "b", "#b", "X", "Y", "F", "T", "0", "1", "-1", "1e999", "nan", "begin", "end", "penUp", "1:2", "mm", "1/cm", "crown", ""])
+quoted = st.sampled_from("a #a b #b X Y F T 0 1 -1 1e999 nan begin end penUp 1:2 mm 1/cm crown".split() + [""])
 attributes = st.dictionaries(
-    st.sampled_from(["xml:id", "contextRef", "brushRef", "traceDataRef", "traceFormatRef", "inkSourceRef", "timestampRef", "priorTrace", "continuation", "type",
-                     "from", "to", "name", "value", "units", "min", "max", "timeOffset", "duration", "time", "channel", "orientation", "respectTo"]),
-    quoted, max_size=4,
-)  # fmt: skip
+    st.sampled_from(
+        "xml:id contextRef brushRef traceDataRef traceFormatRef inkSourceRef timestampRef priorTrace continuation type from to name value "
+        "units min max timeOffset duration time channel orientation respectTo".split()
+    ),
+    quoted,
+    max_size=4,
+)
 FORMAT = '<traceFormat><channel name="X"/><channel name="Y"/></traceFormat>'
 
 
@@ -102,8 +109,10 @@ def element(tag: str, inner: str, given: dict[str, str]) -> str:
     return f"<{tag} " + " ".join(f'{key}="{text}"' for key, text in given.items()) + f">{inner}</{tag}>"
 
 
-tags = st.sampled_from(["traceGroup", "traceView", "definitions", "context", "brush", "brushProperty", "inkSource", "traceFormat", "channel",
-                        "channelProperties", "channelProperty", "timestamp", "annotation", "canvasTransform", "intermittentChannels"])  # fmt: skip
+tags = st.sampled_from(
+    "traceGroup traceView definitions context brush brushProperty inkSource traceFormat channel channelProperties channelProperty "
+    "timestamp annotation canvasTransform intermittentChannels".split()
+)
 leaves = st.one_of(st.builds(element, st.just("trace"), texts, attributes), st.just(FORMAT), st.builds(element, tags, quoted, attributes))
 inks = st.recursive(leaves, lambda inner: st.builds(element, tags, st.lists(inner, max_size=4).map("".join), attributes), max_leaves=12)
 

@@ -46,10 +46,12 @@ def clones(count: int) -> str:
     return SVG.format(f'<defs><path id="a" d="M0 0{far}"/></defs><g fill="none" stroke="red">' + '<use href="#a"/>' * count + "</g>")
 
 
+FETCH = '<!DOCTYPE svg [<!ENTITY a SYSTEM "file:///etc/passwd">]>' + SVG.format(f"<text>&a;</text>{PATH}")
+DEEP_SCENE = '{"type": "excalidraw", "elements": ' + "[" * 100_000 + "]" * 100_000 + "}"
 REFUSED = {
     "laughs.svg": (laughs(), "declares XML entities"),
     "ink_laughs.inkml": (laughs().replace("<svg", "<ink").replace("</svg>", "</ink>").replace("svg [", "ink ["), "declares XML entities"),
-    "fetch.svg": ('<!DOCTYPE svg [<!ENTITY a SYSTEM "file:///etc/passwd">]>' + SVG.format(f"<text>&a;</text>{PATH}"), "declares an entity of another file"),
+    "fetch.svg": (FETCH, "declares an entity of another file"),
     "parameter.svg": ('<!DOCTYPE svg [<!ENTITY % a SYSTEM "http://127.0.0.1/">%a;]>' + SVG.format(PATH), "declares a parameter entity"),
     "uses.svg": (uses(9), "nests its groups|holds more than"),
     "clones.svg": (clones(100), "clones.svg draws more than 5 million points. Simplify its lines, unlink its clones"),
@@ -58,7 +60,7 @@ REFUSED = {
     "wide.json": (SKETCH.replace('"trunk",', '"trunk", "width": 1e999,'), "its width is inf; a number of at least 0 was expected"),
     "deep.json": ("[" * 100_000, "not one well-formed JSON document|nests its lists"),
     "deep_objects.json": ('{"sketchtree": 1, "strokes": ' + '{"a":' * 100_000, "not one well-formed JSON document|nests its lists"),
-    "deep.excalidraw": ('{"type": "excalidraw", "elements": ' + "[" * 100_000 + "]" * 100_000 + "}", "nests its lists or objects too deep|list 'elements'"),
+    "deep.excalidraw": (DEEP_SCENE, "nests its lists or objects too deep|list 'elements'"),
     "infinite.json": (SKETCH.replace("[1, 5]", "[1, 1e400]"), "not a finite number|point 2 is"),
     "nan.json": (SKETCH.replace("[1, 5]", "[1, NaN]"), "not a finite number|point 2 is"),
     "long_number.json": (SKETCH.replace("[1, 5]", f"[1, {'9' * 5000}]"), "not one well-formed JSON document"),

@@ -9,7 +9,7 @@ from sketchtree.sketch.formats import read_sketch
 from sketchtree.sketch.strokes import StrokeKind
 
 TRACE = "<trace>1 2, 3 4, 5 9</trace>"
-FORMAT = '<traceFormat>{}</traceFormat>'
+FORMAT = "<traceFormat>{}</traceFormat>"
 X, Y = '<channel name="X"/>', '<channel name="Y"/>'
 
 
@@ -190,8 +190,9 @@ def test_a_context_holds_for_the_traces_after_it_and_one_format_for_the_whole_fi
 
 
 def test_two_formats_by_reference():
-    body = '<definitions><traceFormat xml:id="a">{}</traceFormat><traceFormat xml:id="b">{}</traceFormat></definitions>'.format(X + Y, Y + X)
-    body += '<trace>1 2,3 4</trace><traceGroup contextRef="#c"><trace>1 2,3 4</trace></traceGroup><definitions><context xml:id="c" traceFormatRef="#b"/></definitions>'
+    body = f'<definitions><traceFormat xml:id="a">{X + Y}</traceFormat><traceFormat xml:id="b">{Y + X}</traceFormat></definitions>'
+    body += '<trace>1 2,3 4</trace><traceGroup contextRef="#c"><trace>1 2,3 4</trace></traceGroup>'
+    body += '<definitions><context xml:id="c" traceFormatRef="#b"/></definitions>'
     assert [s.points[0].tolist() for s in read(body).strokes] == [[1, -2], [2, -1]]
 
 
@@ -222,11 +223,12 @@ def test_a_long_annotation_is_a_note_and_a_group_is_a_layer():
     assert (stroke.kind, stroke.layer) == (StrokeKind.BRANCH, None)
     assert only(f"<traceGroup><annotation>Ink 1</annotation>{TRACE}</traceGroup>").layer == "Ink 1"
     assert only(f'<traceGroup xml:id="group-7">{TRACE}</traceGroup>').layer is None
-    assert only(f"<traceGroup><annotation>Ink 1</annotation><trace><annotation>shadow</annotation>1 2,3 4</trace></traceGroup>").layer == "shadow"
+    assert only("<traceGroup><annotation>Ink 1</annotation><trace><annotation>shadow</annotation>1 2,3 4</trace></traceGroup>").layer == "shadow"
 
 
 def test_what_is_defined_is_drawn_where_a_view_shows_it():
-    defined = '<definitions><trace xml:id="a">0 0,1 1,2 2,3 3</trace><traceGroup xml:id="g"><trace>9 9,8 8</trace><trace>7 7,6 6</trace></traceGroup></definitions>'
+    group = '<traceGroup xml:id="g"><trace>9 9,8 8</trace><trace>7 7,6 6</trace></traceGroup>'
+    defined = f'<definitions><trace xml:id="a">0 0,1 1,2 2,3 3</trace>{group}</definitions>'
     assert read(defined).strokes == ()
     assert only(defined + '<traceView traceDataRef="#a"/>').points[:, 0].tolist() == [0, 1, 2, 3]
     assert only(defined + '<traceView traceDataRef="#a" from="2" to="3"/>').points[:, 0].tolist() == [1, 2]
