@@ -16,7 +16,7 @@ from sketchtree.sketch.roles.found import Found
 from sketchtree.sketch.roles.measures import Measures
 
 LONG = 0.15  # of the drawing's height: least width of a ground line
-FLAT = 0.07  # of the drawing's height: how far it strays from its chord …
+FLAT = 0.1  # of the drawing's height: how far it strays from its chord …
 SLOPE = 0.3  # … and how steep that may be: a hillside
 WINDING = 6.0  # most length of a line of grass, of its width
 AT_FOOT = 0.05  # of the drawing's height: a stem ends this near to the line it stands on

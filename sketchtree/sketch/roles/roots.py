@@ -77,8 +77,8 @@ def _cut_at(line: Line, ground: list, height: float) -> tuple[list[Line], list[L
     crossing = s[turns] + (s[turns + 1] - s[turns]) * depth[turns] / (depth[turns] - depth[turns + 1])
     bounds = [0.0, *crossing.tolist(), line.length]
     pieces = [line.cut(a, b) for a, b in pairwise(bounds)] if len(crossing) else [line]
-    labels = [bool(low[0]) != bool(k % 2) for k in range(len(pieces))]
-    return [p for p, under in zip(pieces, labels, strict=True) if not under], [p for p, under in zip(pieces, labels, strict=True) if under]
+    over, under = pieces[bool(low[0]) :: 2], pieces[not low[0] :: 2]
+    return [piece for piece in over if len(pieces) == 1 or piece.length > DEPTH * height], under
 
 
 def _hanging_on(parts: list[Line], feet: Float[np.ndarray, "foot 2"], height: float) -> np.ndarray:

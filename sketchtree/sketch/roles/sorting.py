@@ -15,11 +15,13 @@ from jaxtyping import Bool, Float
 
 from sketchtree.sketch.graph import Cut, Role
 from sketchtree.sketch.joining.lines import Line
+from sketchtree.sketch.roles.arcs import crown_of_arcs
 from sketchtree.sketch.roles.contour import contour, lone_outline
 from sketchtree.sketch.roles.crown import closed_crowns, has_area, on_ground, outline
 from sketchtree.sketch.roles.found import NAMED, Found, role_warnings
 from sketchtree.sketch.roles.ground import grass, ground_lines
-from sketchtree.sketch.roles.implied import implied_stems
+from sketchtree.sketch.roles.hatching import hatching
+from sketchtree.sketch.roles.implied import carried_on, implied_stems
 from sketchtree.sketch.roles.leaves import leaf_shapes, marks_inside
 from sketchtree.sketch.roles.measures import Measures
 from sketchtree.sketch.roles.named import role_in_names
@@ -110,6 +112,8 @@ def sort_strokes(sketch: Sketch) -> Sorted:
     stem_warnings = []
     if not lines and table.outlines:
         lines, stem_warnings = implied_stems(table.outlines, ground, *_owner(table))
+    elif table.outlines:
+        lines, stem_warnings = carried_on(lines, table.outlines, *_owner(table))
     rooted = roots_apart(lines, ground, table.named_roots)
     cuts, cut_warnings = cuts_of([*rooted.above, *rooted.below], sketch.page)
     roles = tuple(table.found[row].named(sketch.strokes[row].id) for row in sorted(table.found))
@@ -182,6 +186,8 @@ def _find_crowns(table: _Table, ground: list[np.ndarray]) -> None:
         table.outlines += [outline(m.strokes[one.row].points) for one in closed if one.role == "crown"]
     if not table.outlines:
         _find_contour(table, np.flatnonzero(tame))
+    if not table.outlines:
+        _find_arcs(table, tame)
     if not table.outlines and (alone := lone_outline(_closed_by(ground, m, np.flatnonzero(tame)))) is not None:
         table.outlines.append(outline(alone))
         table.take([Found(int(row), "crown", "a closed outline without a trunk") for row in np.flatnonzero(tame)])
@@ -206,6 +212,14 @@ def _find_contour(table: _Table, rows) -> None:
         table.take([Found(row, "crown", "part of one contour around a crown on its trunk")])
         if legs:
             table.legs[row] = legs
+
+
+def _find_arcs(table: _Table, tame: Bool[np.ndarray, " stroke"]) -> None:
+    """A crown that several arcs draw."""
+    arcs = crown_of_arcs(table.m, table.free & tame, tame)
+    if arcs is not None:
+        table.outlines.append(outline(arcs.outline))
+        table.take([Found(int(row), "crown", "one of several arcs around the branches", (("branch", 0.5),)) for row in arcs.rows])
 
 
 def _take_scribble(table: _Table, scribble: Scribble) -> None:
@@ -236,6 +250,7 @@ def _find_leaves(table: _Table) -> None:
     height = float(max(table.m.high[rows, 1].max() - table.m.low[rows, 1].min(), 0.0))
     if table.outlines:
         table.take(marks_inside(table.m, table.free, table.crown_area(0.02 * height), table.wood, height))
+    table.take(hatching(table.m, table.free, table.wood, height))
     leaves = leaf_shapes(table.m, table.free, height)
     if len(leaves) < table.wood.sum():
         table.take(leaves)
