@@ -179,6 +179,8 @@ def _by_chunk(data: bytes, rng: np.random.Generator) -> bytes:
         (size,) = struct.unpack_from(">I", data, at)
         chunks.append((data[at + 4 : at + 8], bytearray(data[at + 8 : at + 8 + size])))
         at += 12 + size
+    if not chunks:
+        return _by_bytes(data, rng)
     kind, body = chunks[int(rng.integers(len(chunks)))] if rng.random() < 0.5 else chunks[0]
     if body:
         body[int(rng.integers(len(body)))] = int(rng.integers(256))
