@@ -78,7 +78,7 @@ def alternatives(drawn: Wobbly):
     table = evidence(bundle, arcs, drawn.line[0][0])
     side = end[arcs.parent]
     true = (arcs.end == end[arcs.child]) & (who[arcs.parent] == drawn.parent[who[arcs.child]])
-    table["slip"] = table["gap"] / slip_of(table["gap"][true])
+    table["slip"] = table["miss"] / slip_of(arcs.gap[true] / bundle.height)
     figures = np.stack([table[name][np.arange(len(side)), side if table[name].shape[1] > 1 else 0] for name in KNOTS], 1)
     whole = (np.bincount(who, minlength=len(drawn.line))[who] == 1) & (drawn.parent[who] != NULL)
     answered = np.zeros(len(lines), bool)

@@ -44,7 +44,6 @@ class Hanging:
     end: Int[np.ndarray, " line"]  # its foot: 0 first, 1 last point
     s: Float[np.ndarray, " line"]  # length along the parent, from the parent's foot
     gap: Float[np.ndarray, " line"]  # sketch units
-    excess: Float[np.ndarray, " line"]  # what of the gap counts, part of H
     cost: Float[np.ndarray, " line"]
     alternatives: tuple[tuple[tuple[int, float], ...], ...]  # next best (line, cost)
 
@@ -60,7 +59,7 @@ def attach(lines: list[Line], progress: Callable[[float], None] | None = None) -
     arcs, slip = candidate_arcs(bundle, root)
     told(0.5)
     solution = _solve(bundle, arcs, slip, alone + FORBIDDEN, rounds[0])
-    slip = slip_of(solution.excess[solution.parent != NULL])
+    slip = slip_of(solution.gap[solution.parent != NULL] / bundle.height)
     told(0.7)
     stem = int(np.argmin(np.where(solution.parent == NULL, solution.cost, np.inf)))
     ground = foot_y[stem, solution.end[stem]]
@@ -116,10 +115,10 @@ def _solve(bundle: Bundle, arcs: Arcs, slip: float, standing: Float[np.ndarray, 
 def _hanging(bundle: Bundle, arcs: Arcs, tail, head, chosen, foot, cost) -> Hanging:
     count, length = len(bundle), bundle.length
     parent = np.where(tail[chosen] == count, NULL, tail[chosen])
-    s, gap, excess = (np.r_[column, np.zeros(2 * count)][chosen] for column in (arcs.s, arcs.gap, arcs.excess))
+    s, gap = (np.r_[column, np.zeros(2 * count)][chosen] for column in (arcs.s, arcs.gap))
     turned = (parent != NULL) & (foot[parent] == 1)
     s = np.where(turned, length[parent] - s, s)
-    return Hanging(parent, foot, s, gap, excess, cost[chosen], _alternatives(tail, head, cost, chosen, count))
+    return Hanging(parent, foot, s, gap, cost[chosen], _alternatives(tail, head, cost, chosen, count))
 
 
 def _alternatives(tail, head, cost, chosen, count: int) -> tuple:

@@ -1,7 +1,7 @@
 """All lines of a drawing as one set of arrays, so that a question is put to every line at once.
 
-Points stand line after line. Lengths run on from line to line (`run`), each line's own begun at `begin`, a gap of 1 H
-between them, so that one sorted search finds the place of any length on any line.
+Points stand line after line. Each line's lengths are its own (`along`); `run` is the same made to grow from line to line,
+so that one sorted search finds the place of any length on any line.
 """
 
 from dataclasses import dataclass
@@ -20,9 +20,7 @@ class Bundle:
 
     points: Float[np.ndarray, "point 2"]
     first: Int[np.ndarray, " line+1"]  # of each line's points
-    run: Float[np.ndarray, " point"]
-    begin: Float[np.ndarray, " line"]
-    length: Float[np.ndarray, " line"]
+    along: Float[np.ndarray, " point"]
     width: Float[np.ndarray, " line"]  # the middle one of each line's widths; NaN if they say nothing
     time: Float[np.ndarray, " line"]  # when each was begun, ms; NaN where the file does not say
     height: float
@@ -30,16 +28,38 @@ class Bundle:
     @classmethod
     def of(cls, lines: list[Line]) -> "Bundle":
         """The lines as arrays; at least one line."""
-        points = np.concatenate([line.points for line in lines])
-        first = np.cumsum([0] + [len(line.points) for line in lines])
-        step = np.hypot(*np.diff(points, axis=0, prepend=points[:1]).T)
-        height = float(np.ptp(points, axis=0).max())
-        step[first[:-1]] = height
-        run = np.cumsum(step)
-        begin = run[first[:-1]]
         width = np.array([typical_width(line.width) for line in lines])
-        time = np.array([line.begun for line in lines])
-        return cls(points, first, run, begin, run[first[1:] - 1] - begin, width, time, height)
+        return cls.of_points([line.points for line in lines], width, np.array([line.begun for line in lines]))
+
+    @classmethod
+    def of_points(cls, lines: list[Float[np.ndarray, "point 2"]], width=np.nan, time=np.nan) -> "Bundle":
+        """Polylines of two points or more as arrays; at least one polyline."""
+        points = np.concatenate(lines)
+        count = np.array([len(line) for line in lines])
+        first = np.concatenate([[0], np.cumsum(count)])
+        step = np.zeros(len(points))
+        step[1:] = np.hypot(points[1:, 0] - points[:-1, 0], points[1:, 1] - points[:-1, 1])
+        step[first[:-1]] = 0.0
+        total = np.cumsum(step)
+        along = total - np.repeat(total[first[:-1]], count)
+        alike = [np.broadcast_to(np.asarray(column, float), len(lines)) for column in (width, time)]
+        return cls(points, first, along, *alike, float(np.ptp(points, axis=0).max()))
+
+    @cached_property
+    def length(self) -> Float[np.ndarray, " line"]:
+        """Length of every line."""
+        return self.along[self.first[1:] - 1]
+
+    @cached_property
+    def begin(self) -> Float[np.ndarray, " line"]:
+        """Where every line's own lengths begin in `run`."""
+        apart = self.length + self.height
+        return np.cumsum(apart) - apart
+
+    @cached_property
+    def run(self) -> Float[np.ndarray, " point"]:
+        """Lengths that grow from line to line."""
+        return self.along + np.repeat(self.begin, np.diff(self.first))
 
     def __len__(self) -> int:
         return len(self.length)
@@ -55,12 +75,16 @@ class Bundle:
         """First and last point of every line, alternating: end 2 k + e is end e of line k."""
         return self.points[np.stack([self.first[:-1], self.first[1:] - 1], 1).ravel()]
 
+    def after(self, line: Int[np.ndarray, "*place"], s: Float[np.ndarray, "*place"]) -> Int[np.ndarray, "*place"]:
+        """The point that ends the piece on which length `s` of each line lies."""
+        found = np.searchsorted(self.run, self.begin[line] + s)
+        return np.clip(found, self.first[line] + 1, self.first[line + 1] - 1)
+
     def at(self, line: Int[np.ndarray, "*place"], s: Float[np.ndarray, "*place"]) -> Float[np.ndarray, "*place 2"]:
         """The points at lengths `s` of lines `line`; beyond an end, the end."""
-        wanted = self.begin[line] + np.clip(s, 0.0, self.length[line])
-        after = np.clip(np.searchsorted(self.run, wanted), self.first[line] + 1, self.first[line + 1] - 1)
-        low, high = self.run[after - 1], self.run[after]
-        t = np.clip((wanted - low) / np.where(high > low, high - low, 1.0), 0.0, 1.0)[..., None]
+        after = self.after(line, s)
+        low, high = self.along[after - 1], self.along[after]
+        t = np.clip((s - low) / np.where(high > low, high - low, 1.0), 0.0, 1.0)[..., None]
         return self.points[after - 1] * (1 - t) + self.points[after] * t
 
     def direction(self, line, s, reach) -> Float[np.ndarray, "*place 2"]:

@@ -7,12 +7,13 @@ import shapely
 from jaxtyping import Bool, Float, Int
 
 from sketchtree.sketch.joining.bundle import Bundle
-from sketchtree.sketch.joining.evidence import PRECISE, Places, evidence, first_slip
+from sketchtree.sketch.joining.evidence import Places, evidence, first_slip
 from sketchtree.sketch.joining.likelihood import arc_costs, slip_costs
 from sketchtree.sketch.joining.lines import Line
 
 NEAREST = 16  # strokes tried for every end, half as many in a drawing of more than MANY
 MANY = 1000
+TOUCHES = 0.001  # of H: up to eight times as many are tried where they are as near as this
 FOOT = 0.006  # of H: nearer to an end than this is at the end
 
 
@@ -25,12 +26,12 @@ class Arcs:
     parent: Int[np.ndarray, " arc"]
     s: Float[np.ndarray, " arc"]  # length along the parent as drawn
     gap: Float[np.ndarray, " arc"]  # distance, sketch units
-    excess: Float[np.ndarray, " arc"]  # what of the gap counts, part of H
+    miss: Float[np.ndarray, " arc"]  # how far the end is from where it should be, part of H
     base: Float[np.ndarray, "arc 2"]  # cost but for the slip; column: the parent's foot is its first (0) or last (1) point
 
     def cost(self, slip: float) -> Float[np.ndarray, "arc 2"]:
         """The cost for a hand that keeps to `slip`, ε, part of H."""
-        return self.base + slip_costs(self.excess, slip)
+        return self.base + slip_costs(self.miss, slip)
 
     def joined(self, other: "Arcs") -> "Arcs":
         """These and the others."""
@@ -65,7 +66,7 @@ def _places(bundle: Bundle, row, parent, gap) -> Places:
 
 def _costed(bundle: Bundle, places: Places, root) -> Arcs:
     figures = evidence(bundle, places, root)
-    return Arcs(places.child, places.end, places.parent, places.s, places.gap, figures["gap"][:, 0], arc_costs(figures))
+    return Arcs(places.child, places.end, places.parent, places.s, places.gap, figures["miss"][:, 0], arc_costs(figures))
 
 
 def foot_reach(line: Line, height: float) -> float:
@@ -97,5 +98,5 @@ def _near(bundle: Bundle):
     order = np.lexsort((line, gap, row))
     row, line, gap = row[order], line[order], gap[order]
     rank = np.arange(len(row)) - np.searchsorted(row, row)
-    kept = (rank < wanted) | ((rank < 8 * wanted) & (gap <= PRECISE * bundle.height))
+    kept = (rank < wanted) | ((rank < 8 * wanted) & (gap <= TOUCHES * bundle.height))
     return row[kept], line[kept], gap[kept]

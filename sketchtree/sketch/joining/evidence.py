@@ -4,7 +4,7 @@ An arc is an end p of line i and the nearest point q of line j. Lengths are part
 how exactly this hand starts its strokes; r is the foot of the likeliest stem.
 
     gap         |p − q|; within the half width of j a third of it counts; 0 where i crosses j within OVERSHOOT of p
-    slip        gap / ε (left to the caller, who may know ε better once strokes are attached)
+    miss        the larger of `gap` and `over`; the caller makes of it the slip, miss / ε, once it knows ε
     over        how far before that crossing i was begun
     rise        Δy / |i| from i's other end up to p: branches rise more often than they fall
     outward     (|tip − r| − |p − r|) / |i|: branches lead away from the stem's foot
@@ -36,7 +36,7 @@ from sketchtree.sketch.joining.lines import angle_between
 REACH, FAR, BESIDE = 0.03, 0.09, 0.05  # of H
 TIP = 0.02  # of H
 OVERSHOOT = 0.025  # of H
-PRECISE, COARSE = 0.001, 0.03  # of H: bounds of ε
+PRECISE, COARSE = 0.0025, 0.03  # of H: bounds of ε
 SHARED = ("gap", "slip", "over", "rise", "outward", "longer", "size", "carries", "beside")
 TURNED = ("turn", "sweep", "at_tip", "foot", "tip", "place")
 
@@ -53,7 +53,7 @@ class Places:
 
 
 def evidence(bundle: Bundle, arcs: Places, root: Float[np.ndarray, " 2"]) -> dict[str, Float[np.ndarray, "arc side"]]:
-    """Every figure of every arc but `slip`, one column, or two for those that depend on the parent's foot."""
+    """Every figure of every arc but the slip, one column, or two for those that depend on the parent's foot."""
     h, child, parent, length = bundle.height, arcs.child, arcs.parent, bundle.length
     row = 2 * child + arcs.end
     over = overshoots(bundle, arcs)
@@ -63,6 +63,7 @@ def evidence(bundle: Bundle, arcs: Places, root: Float[np.ndarray, " 2"]) -> dic
     figures = {
         "gap": gap / h,
         "over": np.maximum(over, 0.0) / h,
+        "miss": np.maximum(gap, over) / h,
         "rise": (foot - tip)[:, 1] / length[child],
         "outward": (_away(tip, root) - _away(foot, root)) / length[child],
         "longer": np.log(length[child] / length[parent]),

@@ -27,6 +27,6 @@ def arc_costs(figures: dict[str, Float[np.ndarray, "arc side"]]) -> Float[np.nda
     return total + THICKER * np.maximum(figures["thicker"] + AS_THICK, 0.0) + BEFORE * figures["before"]
 
 
-def slip_costs(gap: Float[np.ndarray, " arc"], slip: float) -> Float[np.ndarray, "arc 1"]:
-    """What the gaps (parts of H) cost a hand that keeps to `slip`, ε."""
-    return np.interp(gap / slip, *CURVES["slip"])[:, None]
+def slip_costs(miss: Float[np.ndarray, " arc"], slip: float) -> Float[np.ndarray, "arc 1"]:
+    """What it costs a hand that keeps to `slip`, ε, to miss by so much (parts of H)."""
+    return np.interp(miss / slip, *CURVES["slip"])[:, None]
