@@ -14,13 +14,15 @@ from jaxtyping import Float, Int
 
 from sketchtree.axes import NULL
 from sketchtree.sketch.joining.attach import Hanging
+from sketchtree.sketch.joining.bundle import Bundle
 from sketchtree.sketch.joining.candidates import foot_reach
 from sketchtree.sketch.joining.evidence import REACH
-from sketchtree.sketch.joining.lines import Line, angle_between, extent
+from sketchtree.sketch.joining.lines import Line, angle_between, unit
 
 SLACK = 0.012  # of H: a wider gap between a foot and its junction is bridged, a narrower one closed
 OVERSHOOT = 0.025  # of H: how far past its parent a foot may have been drawn
 CROSSES = np.radians(25)  # lines that meet at less run side by side
+SAME = 1e-9  # of H: nearer than this is the same point
 RISING = 0.2  # cosine with the vertical above which a line that starts at a foot on the ground is a stem
 STRAIGHT_ON = np.radians(75)  # a line that leaves a tip at more is a lateral there
 
@@ -48,93 +50,90 @@ class Limb:
 
 def limbs_of(lines: list[Line], hanging: Hanging) -> list[Limb]:
     """The limbs, parents before children; lengths along a limb are from its foot."""
-    height = extent(lines)
     oriented = [line.reversed() if end else line for line, end in zip(lines, hanging.end, strict=True)]
+    bundle = Bundle.of(oriented)
+    height = bundle.height
     parent, s = hanging.parent.copy(), hanging.s.copy()
-    oriented, s = _meet(oriented, parent, s, height)
-    order = _parents_first(parent)
-    _siblings(oriented, parent, s, order, height)
-    order = _parents_first(parent)
-    heir = _heirs(oriented, parent, s, height)
-    return _assemble(oriented, parent, s, order, heir, height)
+    cut, s = _meet(bundle, parent, s)
+    for k in np.flatnonzero(cut).tolist():
+        oriented[k] = oriented[k].cut(cut[k], oriented[k].length)
+    reach = np.array([foot_reach(line, height) for line in oriented])
+    rising = _onward(bundle, np.arange(len(bundle)), cut)[:, 1] > RISING
+    _siblings(parent, s, _parents_first(parent), reach, rising)
+    heir = _heirs(bundle, parent, s, cut, reach)
+    return _assemble(oriented, parent, s, _parents_first(parent), heir, reach, height)
 
 
-def _meet(lines: list[Line], parent, s, height: float) -> tuple[list[Line], Float[np.ndarray, " line"]]:
-    """Cut overshoots and find the meeting points. Lengths on a line whose foot was cut count from the cut."""
-    met, place, cut = list(lines), s.copy(), np.zeros(len(lines))
-    for k in _crossed(lines, parent, height):
-        line, shape = lines[k], lines[parent[k]].shape
-        crossing = _last_crossing(line, shape, height)
-        if crossing is not None:
-            cut[k] = crossing
-            met[k] = line.cut(crossing, line.length)
-            place[k] = shape.project(shapely.Point(line.at(crossing)))
+def _meet(bundle: Bundle, parent, s) -> tuple[Float[np.ndarray, " line"], Float[np.ndarray, " line"]]:
+    """(how much to cut off each foot, the meeting points). Lengths on a line whose foot is cut count from the cut.
+
+    An overshot foot is cut where it crosses its parent for the last time, at an angle that is no accident.
+    """
+    cut, place = np.zeros(len(bundle)), s.copy()
+    child = np.flatnonzero(parent != NULL)
+    stubs, reach = _stubs(bundle, child)
+    near = shapely.dwithin(stubs, bundle.shapes[parent[child]], SAME * bundle.height) if len(child) else np.zeros(0, bool)
+    child, reach = child[near], reach[near]
+    crossing, index = shapely.get_coordinates(shapely.intersection(stubs[near], bundle.shapes[parent[child]]), return_index=True)
+    child, reach, points = child[index], 0.5 * reach[index], shapely.points(crossing)
+    here, there = (shapely.line_locate_point(bundle.shapes[line], points) for line in (child, parent[child]))
+    angle = angle_between(bundle.direction(child, here, reach), bundle.direction(parent[child], there, reach))
+    crosses = (np.minimum(angle, np.pi - angle) > CROSSES) & (here > 0)
+    order = np.flatnonzero(crosses)[np.argsort(here[crosses], kind="stable")]
+    cut[child[order]], place[child[order]] = here[order], there[order]
     inner = parent != NULL
     place[inner] = np.maximum(place[inner] - cut[parent[inner]], 0.0)
-    return met, place
+    return cut, place
 
 
-def _crossed(lines: list[Line], parent, height: float) -> list[int]:
-    """The lines that meet their parent within an overshoot of their foot."""
-    child = np.flatnonzero(parent != NULL)
-    if len(child) == 0:
-        return []
-    feet = []
-    for line in (lines[k] for k in child):
-        reach = min(OVERSHOOT * height, 0.3 * line.length)
-        count = int(np.searchsorted(line.along, reach, side="right"))
-        feet.append(np.concatenate([line.points[:count], line.at(np.array([reach]))]))
-    index = np.repeat(np.arange(len(feet)), [len(points) for points in feet])
-    shapes = np.array([line.shape for line in lines], object)
-    near = shapely.dwithin(shapely.linestrings(np.concatenate(feet), indices=index), shapes[parent[child]], 1e-9 * height)
-    return child[near].tolist()
+def _stubs(bundle: Bundle, line) -> tuple[np.ndarray, Float[np.ndarray, " line"]]:
+    """(the first piece of each line as far as an overshoot reaches, for shapely; how long it is)."""
+    reach = np.minimum(OVERSHOOT * bundle.height, 0.3 * bundle.length[line])
+    begin = bundle.first[line]
+    count = np.searchsorted(bundle.run, bundle.begin[line] + reach, side="right") - begin
+    each = np.repeat(np.arange(len(line)), count + 1)
+    rank = np.arange(len(each)) - (np.cumsum(count + 1) - count - 1)[each]
+    points = bundle.points[begin[each] + np.minimum(rank, count[each] - 1)]
+    last = np.cumsum(count + 1) - 1
+    points[last] = bundle.at(line, reach)
+    return shapely.linestrings(points, indices=each), reach
 
 
-def _last_crossing(line: Line, shape: shapely.LineString, height: float) -> float | None:
-    """The length at which an overshot foot crosses its parent for the last time, at an angle that is no accident."""
-    reach = min(OVERSHOOT * height, 0.3 * line.length)
-    crossings = shapely.get_coordinates(line.cut(0.0, reach).shape.intersection(shape))
-    found = None
-    for point in crossings:
-        s, there = (float(curve.project(shapely.Point(point))) for curve in (line.shape, shape))
-        near = 0.5 * reach
-        parent = np.subtract(*(np.array(shape.interpolate(t).coords[0]) for t in (there + near, max(there - near, 0.0))))
-        angle = angle_between(line.direction(s, near), parent)
-        if min(angle, np.pi - angle) > CROSSES and s > (found or 0.0):
-            found = s
-    return found
-
-
-def _siblings(lines: list[Line], parent, s, order: list[int], height: float) -> None:
+def _siblings(parent, s, order: list[int], reach, rising) -> None:
     """Hang what starts at the foot of a line onto that line's parent; in place."""
     for k in order:
         above = parent[k]
-        if above == NULL or s[k] > foot_reach(lines[above], height):
+        if above == NULL or s[k] > reach[above]:
             continue
         if parent[above] != NULL:
             parent[k], s[k] = parent[above], s[above]
-        elif lines[k].direction(0.0, REACH * height)[1] > RISING:
+        elif rising[k]:
             parent[k] = NULL  # a second stem from the same foot
         else:
             s[k] = 0.0
 
 
-def _heirs(lines: list[Line], parent, s, height: float) -> list[int]:
+def _heirs(bundle: Bundle, parent, s, cut, reach) -> list[int]:
     """For every line the one that carries it on from its tip, else NULL. Moves children near a tip onto it."""
-    heir, least = [NULL] * len(lines), [STRAIGHT_ON] * len(lines)
-    for k, line in enumerate(lines):
-        above = parent[k]
-        if above == NULL or s[k] < lines[above].length - foot_reach(lines[above], height):
-            continue
-        s[k] = lines[above].length
-        reach = REACH * height
-        bend = float(angle_between(lines[above].direction(s[k], reach), line.direction(0.0, reach)))
-        if bend < least[above] - 1e-9:
-            heir[above], least[above] = k, bend
+    heir, least = [NULL] * len(bundle), [STRAIGHT_ON] * len(bundle)
+    length = bundle.length - cut
+    child = np.flatnonzero(parent != NULL)
+    child = child[s[child] >= (length - reach)[parent[child]]]
+    s[child] = length[parent[child]]
+    ahead = bundle.direction(parent[child], bundle.length[parent[child]], REACH * bundle.height)
+    bend = angle_between(ahead, _onward(bundle, child, cut[child]))
+    for k, angle in zip(child.tolist(), bend.tolist(), strict=True):
+        if angle < least[parent[k]] - 1e-9:
+            heir[parent[k]], least[parent[k]] = k, angle
     return heir
 
 
-def _assemble(lines: list[Line], parent, s, order: list[int], heir: list[int], height: float) -> list[Limb]:
+def _onward(bundle: Bundle, line, s) -> Float[np.ndarray, "line 2"]:
+    """Direction of each line as it goes on from `s`."""
+    return unit(bundle.at(line, s + REACH * bundle.height) - bundle.at(line, s))
+
+
+def _assemble(lines: list[Line], parent, s, order: list[int], heir: list[int], reach, height: float) -> list[Limb]:
     limb_of, offset = [NULL] * len(lines), np.zeros(len(lines))
     limbs: list[Limb] = []
     for first in order:
@@ -144,25 +143,25 @@ def _assemble(lines: list[Line], parent, s, order: list[int], heir: list[int], h
         while heir[chain[-1]] != NULL:
             chain.append(heir[chain[-1]])
         above = parent[first]
-        limb = _chain(lines, chain, offset, height)
+        limb = _chain(lines, chain, offset, reach, height)
         if above != NULL:
             limb.parent, limb.s = limb_of[above], float(offset[above] + s[first])
-            limb.slack = max(SLACK * height, foot_reach(lines[above], height))
+            limb.slack = max(SLACK * height, float(reach[above]))
         for k in chain:
             limb_of[k] = len(limbs)
         limbs.append(limb)
     return limbs
 
 
-def _chain(lines: list[Line], chain: list[int], offset, height: float) -> Limb:
+def _chain(lines: list[Line], chain: list[int], offset, reach, height: float) -> Limb:
     """Lines end to end as one limb; writes the length at which each begins to `offset`."""
     line = lines[chain[0]]
     points, width, row, joins = line.points, line.width, np.full(len(line.points), line.row), []
     length = line.length
-    for k, before in zip(chain[1:], (lines[j] for j in chain), strict=False):
+    for k, before in zip(chain[1:], chain, strict=False):
         offset[k] = length
         joins.append(length)
-        slack = max(SLACK * height, foot_reach(before, height))
+        slack = max(SLACK * height, float(reach[before]))
         start = beyond(lines[k].points, lines[k].along, points[-1], slack)
         points = np.concatenate([points, lines[k].points[start:]])
         width = np.concatenate([width, lines[k].width[start:]])
