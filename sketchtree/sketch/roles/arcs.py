@@ -55,7 +55,7 @@ def crown_of_arcs(m: Measures, free: Bool[np.ndarray, " stroke"], wood: Bool[np.
     for ground in (low[1] + STANDS * (high[1] - low[1]), -np.inf):  # on a trunk, or a bush
         chosen, middle = _chosen(points, may_be, centre, ground, m.length[rows])
         if FEWEST <= chosen.sum() <= MANY:
-            found.append(_checked(m, rows[chosen], rows[~chosen], points[chosen], middle, size))
+            found.append(_checked(m, rows[chosen], rows[~chosen], points[chosen], points[~chosen], middle, size))
     return max((arcs for arcs in found if arcs is not None), key=lambda arcs: len(arcs.rows), default=None)
 
 
@@ -92,11 +92,11 @@ def _turned(angle) -> Float[np.ndarray, "stroke step"]:
     return np.concatenate([angle[:, :1], angle[:, :1] + np.cumsum(step, axis=1)], axis=1)
 
 
-def _checked(m: Measures, rows, others, points, centre, size: float) -> Arcs | None:
+def _checked(m: Measures, rows, others, points, rest_points, centre, size: float) -> Arcs | None:
     """The arcs as an outline, if they close, hold the rest, and do not grow on it."""
     offset = points - centre
     angle = _turned(np.arctan2(offset[..., 1], offset[..., 0]))
-    if not _closes(angle) or _seated(m, rows, others, size) > SEATED:
+    if not _closes(angle) or _seated(m, rows, rest_points, size) > SEATED:
         return None
     outline = _outline(points, angle)
     low, high = m.drawing
@@ -128,13 +128,13 @@ def _closes(angle) -> bool:
     return True
 
 
-def _seated(m: Measures, rows, others, size: float) -> float:
+def _seated(m: Measures, rows, others: Float[np.ndarray, "stroke step 2"], size: float) -> float:
     """Part of the arcs' ends that sit on other strokes, away from these strokes' own ends."""
     if len(others) == 0:
         return 0.0
-    inner = shapely.union_all([shapely.LineString(m.resampled(np.array([row]), STEPS)[0][3:-3]) for row in others if m.length[row] > 0])
     ends = shapely.points(np.concatenate([m.first[rows], m.last[rows]]))
-    return float((shapely.distance(ends, inner) <= ON_BRANCH * size).mean())
+    near = shapely.STRtree(shapely.linestrings(others[:, 3:-3])).query(ends, predicate="dwithin", distance=ON_BRANCH * size)[0]
+    return len(np.unique(near)) / len(ends)
 
 
 def _outline(points, angle) -> Float[np.ndarray, "point 2"]:

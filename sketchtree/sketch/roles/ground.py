@@ -158,7 +158,7 @@ def _rootlike(m: Measures, row: int, height: float) -> bool:
     upper = np.where((m.first[:, 1] >= m.last[:, 1])[:, None], m.first, m.last)[wholly]
     lower = np.where((m.first[:, 1] >= m.last[:, 1])[:, None], m.last, m.first)[wholly]
     falls = upper[:, 1] - lower[:, 1] >= 0.25 * np.hypot(*(upper - lower).T)
-    from_foot = falls & (np.abs(upper[:, 1] - level) <= AT_FOOT * height)
+    from_foot = falls & (np.abs(upper[:, 1] - level) <= 2 * AT_FOOT * height)
     return bool(painted.any() or (from_foot.sum() >= 2 and np.ptp(upper[from_foot, 0]) <= TOGETHER * height))
 
 

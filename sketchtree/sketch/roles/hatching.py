@@ -23,6 +23,7 @@ BESIDE = 1.3  # of their length: neighbours are no farther apart
 ACROSS = 0.35  # least part of that distance that lies across the strokes
 FAMILY = 5  # strokes
 LOOSE = 0.015  # of the drawing's height: a stroke with an end this near to another may grow from it
+NEAREST, LONGER = 24, 1.3  # points looked at, and how much longer than itself a stroke is that bears a twig for sure
 HELD = 0.25  # greatest part of a family that may
 
 
@@ -30,6 +31,7 @@ def hatching(m: Measures, free: Bool[np.ndarray, " stroke"], wood: Bool[np.ndarr
     """The families of short parallel strokes that grow from nothing."""
     apart = np.hypot(*(m.last - m.first).T)
     rows = np.flatnonzero(free & ~m.closed & (m.length <= SHORT * height) & (apart >= STRAIGHT * m.length) & (m.length > 0))
+    rows = rows[~_plainly_held(m, rows, wood, LOOSE * height)] if len(rows) >= FAMILY else rows
     if len(rows) < FAMILY:
         return []
     family = _families(m, rows)
@@ -56,6 +58,17 @@ def _families(m: Measures, rows: Int[np.ndarray, " row"]) -> Int[np.ndarray, " r
     kept = alike & near & (np.abs((way[a] * way[b]).sum(1)) >= PARALLEL)
     links = coo_array((np.ones(kept.sum()), (a[kept], b[kept])), (len(rows),) * 2)
     return connected_components(links, directed=False)[1]
+
+
+def _plainly_held(m: Measures, rows, wood, reach: float) -> Bool[np.ndarray, " row"]:
+    """Which of these strokes has an end near one of the even points along a longer stroke: most twigs, at little cost."""
+    others = np.flatnonzero(wood)
+    longer = np.repeat(m.length[others], m.evenly.shape[1])
+    tree = cKDTree(m.evenly[others].reshape(-1, 2))
+    ends = np.stack([m.first[rows], m.last[rows]], 1)
+    _, near = tree.query(ends, k=NEAREST, distance_upper_bound=reach)
+    longer = np.r_[longer, 0.0]  # where there are fewer near points
+    return (longer[near] > LONGER * m.length[rows][:, None, None]).any((1, 2))
 
 
 def _held(m: Measures, rows, family, wood, reach: float) -> Bool[np.ndarray, " row"]:

@@ -61,10 +61,19 @@ class Measures:
     @cached_property
     def length(self) -> Float[np.ndarray, " stroke"]:
         """P."""
-        step = np.hypot(*np.diff(self.points, axis=0).T)
-        step = np.r_[step, 0.0]
-        step[self.first_point[1:] - 1] = 0.0
-        return np.add.reduceat(step, self.first_point[:-1])
+        return np.add.reduceat(np.where(np.isfinite(self._step), self._step, 0.0), self.first_point[:-1])
+
+    @cached_property
+    def shortest_step(self) -> Float[np.ndarray, " stroke"]:
+        """The least distance from one point to the next; infinite for a single point."""
+        return np.minimum.reduceat(self._step, self.first_point[:-1])
+
+    @cached_property
+    def _step(self) -> Float[np.ndarray, " point"]:
+        """Distance of every point from the next of its stroke; infinite at the last."""
+        step = np.r_[np.hypot(*np.diff(self.points, axis=0).T), np.inf]
+        step[self.first_point[1:] - 1] = np.inf
+        return step
 
     @cached_property
     def area(self) -> Float[np.ndarray, " stroke"]:

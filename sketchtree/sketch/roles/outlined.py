@@ -72,22 +72,31 @@ def _single_outlines(lines: list[Line], closed: list[bool], height: float) -> tu
 
 def _pairs(lines: list[Line], height: float) -> tuple[list[Line], list[tuple[Line, Line]]]:
     """Two lines that meet at a free tip, and not far apart at the foot, become their middle."""
-    rows, turned = _meeting(lines, height)
-    if len(rows) == 0:
+    length = np.array([line.length for line in lines])
+    ends = np.array([line.points[k] for line in lines for k in (0, -1)])
+    pairs = _meeting(ends, length, height)
+    if length[np.unique(pairs // 2)].sum() < HABIT[1] * length.sum() or len(pairs) < HABIT[0]:
         return lines, []
-    sides = [(lines[a].reversed() if ta else lines[a], lines[b].reversed() if tb else lines[b]) for (a, b), (ta, tb) in zip(rows, turned, strict=True)]
+    sides = [(_towards(lines[a // 2], a), _towards(lines[b // 2], b)) for a, b in pairs.tolist()]
     found = middles(np.array([even_border(np.vstack([one.points, other.points[::-1]])) for one, other in sides]))
+    limb = np.array([_is_limb(found, n, PAIRED, height) for n in range(len(pairs))])
+    limb[limb] = _free_and_held(lines, ends, pairs[limb], height)
     used: set[int] = set()
     made: list[tuple[Line, Line]] = []
     for n in np.argsort(found.width.mean(1), kind="stable"):
-        a, b = rows[n]
-        if not used & {a, b} and _is_limb(found, n, PAIRED, height):
-            used |= {int(a), int(b)}
+        a, b = (pairs[n] // 2).tolist()
+        if limb[n] and not used & {a, b}:
+            used |= {a, b}
             longer, shorter = sorted(sides[n], key=lambda side: -side.length)
             made.append((_middle_line(longer, found, n, height), shorter))
-    if len(made) < HABIT[0] or sum(lines[k].length for k in used) < HABIT[1] * sum(line.length for line in lines):
+    if len(made) < HABIT[0] or length[sorted(used)].sum() < HABIT[1] * length.sum():
         return lines, []
     return [line for k, line in enumerate(lines) if k not in used] + [middle for middle, _ in made], made
+
+
+def _towards(line: Line, end: int) -> Line:
+    """The line drawn so that it ends at this end of it: odd, its last point; even, its first."""
+    return line if end % 2 else line.reversed()
 
 
 def _is_limb(found: Middles, n: int, limit: float, height: float) -> bool:
@@ -101,26 +110,19 @@ def _middle_line(line: Line, found: Middles, n: int, height: float) -> Line:
     return Line(line.row, line.id, points, width)
 
 
-def _meeting(lines: list[Line], height: float) -> tuple[Int[np.ndarray, "pair 2"], Float[np.ndarray, "pair 2"]]:
-    """(pairs of lines that may be two sides, whether each must be turned so that it ends at the tip)."""
-    ends = np.array([line.points[k] for line in lines for k in (0, -1)])
-    length = np.array([line.length for line in lines])
+def _meeting(ends: Float[np.ndarray, "end 2"], length: Float[np.ndarray, " line"], height: float) -> Int[np.ndarray, "pair 2"]:
+    """Pairs of ends (two a line) that meet, of lines alike in length whose other ends are not far apart."""
     pairs = cKDTree(ends).query_pairs(MEET * height, output_type="ndarray")
     a, b = pairs.T // 2
     feet = np.hypot(*(ends[pairs[:, 0] ^ 1] - ends[pairs[:, 1] ^ 1]).T)
     alike = np.minimum(length[a], length[b]) >= LIKE * np.maximum(length[a], length[b])
-    kept = (a != b) & alike & (feet <= FEET * np.minimum(length[a], length[b])) & (feet >= WIDE * height)
-    pairs = pairs[kept]
-    if len(pairs) == 0:
-        return np.zeros((0, 2), np.int64), np.zeros((0, 2), bool)
-    free, held = _touched(lines, ends, pairs, height)
-    pairs = pairs[free & held]
-    return pairs // 2, pairs % 2 == 0
+    return pairs[(a != b) & alike & (feet <= FEET * np.minimum(length[a], length[b])) & (feet >= WIDE * height)]
 
 
-def _touched(lines: list[Line], ends, pairs, height: float):
-    """(whether nothing but the pair comes near its tip, whether something else comes near its feet)."""
-    tree = shapely.STRtree(shapely.linestrings(np.concatenate([line.points for line in lines]), indices=np.repeat(np.arange(len(lines)), [len(line.points) for line in lines])))
+def _free_and_held(lines: list[Line], ends, pairs, height: float) -> np.ndarray:
+    """Whether nothing but the pair comes near its tip, and something else near its feet."""
+    index = np.repeat(np.arange(len(lines)), [len(line.points) for line in lines])
+    tree = shapely.STRtree(shapely.linestrings(np.concatenate([line.points for line in lines]), indices=index))
 
     def others_near(points, reach):
         row, line = tree.query(shapely.points(points), predicate="dwithin", distance=reach)
@@ -131,4 +133,4 @@ def _touched(lines: list[Line], ends, pairs, height: float):
 
     tips = 0.5 * (ends[pairs[:, 0]] + ends[pairs[:, 1]])
     feet = [others_near(ends[pairs[:, k] ^ 1], HELD * height) for k in (0, 1)]
-    return ~others_near(tips, FREE * height), feet[0] | feet[1]
+    return ~others_near(tips, FREE * height) & (feet[0] | feet[1])

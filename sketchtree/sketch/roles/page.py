@@ -46,24 +46,24 @@ def cuts_of(lines: list[Line], page: tuple[float, float, float, float] | None) -
     size = max(page[2] - page[0], page[3] - page[1])
     if not size > 0:
         return (), []
-    tips, ways, ids = _tips(lines, 0.02 * size)
+    tips = np.concatenate([line.points[[0, -1]] for line in lines])
     outside = np.stack([page[0] - tips[:, 0], page[1] - tips[:, 1], tips[:, 0] - page[2], tips[:, 1] - page[3]], 1)
     edge = outside.argmax(1)
     beyond = outside.max(1) > BEYOND * size
-    touching = ~beyond & (outside.max(1) >= -ON_EDGE * size) & ((ways * _NORMAL[edge]).sum(1) >= OUTWARD)
-    touching &= edge != EDGES.index("bottom")
+    touching = ~beyond & (outside.max(1) >= -ON_EDGE * size) & (edge != EDGES.index("bottom"))
+    for k in np.flatnonzero(touching):
+        touching[k] = _way(lines[k // 2], k % 2, 0.02 * size) @ _NORMAL[edge[k]] >= OUTWARD
     several = np.bincount(edge[touching], minlength=4) >= SEVERAL
     rows = np.flatnonzero(beyond | (touching & several[edge]))
     sheet = shapely.box(*page)
-    cuts = tuple(Cut(ids[k], _leaves(lines[k // 2], tips[k], sheet, beyond[k]), EDGES[edge[k]]) for k in rows)
+    cuts = tuple(Cut(lines[k // 2].id, _leaves(lines[k // 2], tips[k], sheet, beyond[k]), EDGES[edge[k]]) for k in rows)
     return cuts, [_sentence(cuts)] if cuts else []
 
 
-def _tips(lines: list[Line], reach: float) -> tuple[Float[np.ndarray, "end 2"], Float[np.ndarray, "end 2"], list[str]]:
-    """(both ends of every line, the directions in which they end, the strokes' ids)."""
-    tips = np.array([line.points[k] for line in lines for k in (0, -1)])
-    inner = np.array([line.at(s) for line in lines for s in (min(reach, 0.5 * line.length), max(line.length - reach, 0.5 * line.length))])
-    return tips, unit(tips - inner), [line.id for line in lines for _ in (0, 1)]
+def _way(line: Line, end: int, reach: float) -> Float[np.ndarray, " 2"]:
+    """The direction in which a line ends at its first (0) or last (1) point."""
+    s = max(line.length - reach, 0.5 * line.length) if end else min(reach, 0.5 * line.length)
+    return unit(line.points[-1 if end else 0] - line.at(s))
 
 
 def _leaves(line: Line, tip, sheet: shapely.Polygon, beyond: bool) -> tuple[float, float]:

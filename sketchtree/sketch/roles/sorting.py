@@ -105,7 +105,7 @@ def sort_strokes(sketch: Sketch) -> Sorted:
     table.take(shadows(table.m, table.free, table.wood))
     _find_crowns(table, ground)
     _find_leaves(table)
-    wood = wood_lines(sketch.strokes, np.flatnonzero(table.wood).tolist(), table.legs)
+    wood = wood_lines(table.m, np.flatnonzero(table.wood).tolist(), table.legs)
     trunks = trunks_of_edges(wood.lines, table.outlines)
     lines, sides = trunks.lines, [*wood.sides, *trunks.sides]
     table.add_bark([*wood.bark, *trunks.bark], lines)

@@ -14,6 +14,7 @@ from sketchtree.sketch.joining.cleaning import as_line
 from sketchtree.sketch.joining.lines import Line
 from sketchtree.sketch.joining.widths import VARIES, drawn_widths
 from sketchtree.sketch.roles.brush import even_border, middles, simplified
+from sketchtree.sketch.roles.measures import Measures
 from sketchtree.sketch.roles.outlined import limbs_of_outlines
 from sketchtree.sketch.roles.silhouette import is_blob, middle_lines, with_holes
 from sketchtree.sketch.strokes import Stroke
@@ -34,10 +35,11 @@ class Wood:
     holes: list[tuple[int, int]]  # (row of a hole, row of the painted shape that it is in)
 
 
-def wood_lines(strokes: tuple[Stroke, ...], rows: list[int], legs: dict[int, tuple[np.ndarray, ...]]) -> Wood:
+def wood_lines(m: Measures, rows: list[int], legs: dict[int, tuple[np.ndarray, ...]]) -> Wood:
     """The lines of these strokes, and of the `legs` of strokes that drew a crown too."""
+    strokes = m.strokes
     penned = [row for row in rows if not strokes[row].filled]
-    lines, closed = _pen_lines(strokes, penned)
+    lines, closed = _pen_lines(m, penned)
     lines += [line for row, parts in legs.items() for points in parts if (line := as_line(row, strokes[row].id, points, np.nan))]
     closed += [False] * (len(lines) - len(closed))
     plain = {id(line) for line in lines}
@@ -51,14 +53,17 @@ def wood_lines(strokes: tuple[Stroke, ...], rows: list[int], legs: dict[int, tup
     return Wood(lines, known and not by_pen and not thin, outlined.sides, outlined.bark, [(hole, outer) for outer, holes in shapes for hole in holes])
 
 
-def _pen_lines(strokes: tuple[Stroke, ...], rows: list[int]) -> tuple[list[Line], list[bool]]:
+def _pen_lines(m: Measures, rows: list[int]) -> tuple[list[Line], list[bool]]:
     """(lines of the strokes that were drawn with a pen, whether each is closed)."""
-    widths = drawn_widths([strokes[row] for row in rows])
+    strokes = [m.strokes[row] for row in rows]
+    clean = m.shortest_step[rows] > 1e-9 * m.size[rows]
     lines, closed = [], []
-    for row, width in zip(rows, widths, strict=True):
-        stroke = strokes[row]
+    for row, stroke, width, plain in zip(rows, strokes, drawn_widths(strokes), clean.tolist(), strict=True):
         begun = np.nan if stroke.time is None else float(stroke.time[0])
-        line = as_line(row, stroke.id, stroke.points, width, begun)
+        if plain and len(stroke.points) > 1:
+            line = Line(row, stroke.id, stroke.points, np.full(len(stroke.points), width) if np.ndim(width) == 0 else width, begun)
+        else:
+            line = as_line(row, stroke.id, stroke.points, width, begun)
         if line is not None:
             lines.append(line)
             closed.append(stroke.closed)
