@@ -19,6 +19,7 @@ BINS = 72  # directions
 OUTER = 0.72  # of the greatest distance in its direction: farther out is outermost …
 MOST = 0.8  # … for at least this part of an arc
 ACROSS = 0.45  # least angle that an arc covers, times its middle distance, of its length
+BOWED = 0.5  # radians that an arc turns at least
 SPAN = np.radians(20)  # least angle of an arc
 LARGE = 0.3  # least size of the crown, of the drawing's
 HIGH = 0.85  # of the drawing's height: the crown's top is above
@@ -46,14 +47,19 @@ def crown_of_arcs(m: Measures, free: Bool[np.ndarray, " stroke"], wood: Bool[np.
     rows = np.flatnonzero(wood & ~m.filled & (m.size > 0))
     if len(rows) < FEWEST:
         return None
-    points = m.resampled(rows, STEPS)
     low, high = m.low[rows].min(0), m.high[rows].max(0)
     size = float((high - low).max())
-    may_be = free[rows] & (m.size[rows] >= 0.04 * size) & (m.size[rows] <= 0.9 * size)
+    bowed = free & (m.turning >= BOWED)
+    if bowed.sum() < FEWEST:
+        return None
+    may_be = bowed[rows] & (m.size[rows] >= 0.04 * size) & (m.size[rows] <= 0.9 * size)
+    points = m.resampled(rows, STEPS)
     centre = np.array([0.5 * (low[0] + high[0]), 0.4 * low[1] + 0.6 * high[1]])
     found = []
-    for ground in (low[1] + STANDS * (high[1] - low[1]), -np.inf):  # on a trunk, or a bush
-        chosen, middle = _chosen(points, may_be, centre, ground, m.length[rows])
+    ground = low[1] + STANDS * (high[1] - low[1])
+    stems = (m.low[rows, 1] <= ground) & (m.turning[rows] < BOWED)
+    for foot in (ground,) if stems.any() else (ground, -np.inf):  # on a trunk, or a bush
+        chosen, middle = _chosen(points, may_be, centre, foot, m.length[rows])
         if FEWEST <= chosen.sum() <= MANY:
             found.append(_checked(m, rows[chosen], rows[~chosen], points[chosen], points[~chosen], middle, size))
     return max((arcs for arcs in found if arcs is not None), key=lambda arcs: len(arcs.rows), default=None)

@@ -55,7 +55,8 @@ def ground_lines(m: Measures, free: Bool[np.ndarray, " stroke"], wood: Bool[np.n
         return []
     standing = stems(m, np.flatnonzero(wood & ~flat))
     found = []
-    for row in np.flatnonzero(flat):
+    middle = 0.5 * (m.drawing[0][1] + m.drawing[1][1])
+    for row in np.flatnonzero(flat & (m.low[:, 1] <= middle)):
         reason = _stood_on(m, int(row), standing, height)
         if reason:
             found.append(Found(int(row), "ground", reason, (("branch", 0.5),)))
@@ -121,15 +122,15 @@ def _by_x(a, b):
 def _stood_on(m: Measures, row: int, standing: Stems, height: float) -> str:
     """Why this level line is the ground; "" if it need not be."""
     line = m.strokes[row].points
+    deep = float(np.median(line[:, 1]) - m.drawing[0][1])
+    if deep > float(m.drawing[1][1] - np.median(line[:, 1])):
+        return ""
     shape = shapely.LineString(line)
     at = level_at([line], standing.foot[:, 0])
     rising = standing.top - at >= RISES * height
     over = (standing.foot[:, 0] >= m.low[row, 0] - AT_FOOT * height) & (standing.foot[:, 0] <= m.high[row, 0] + AT_FOOT * height)
     near = shapely.distance(shapely.points(standing.foot), shape) <= AT_FOOT * height if len(at) else np.zeros(0, bool)
     near |= over & (np.abs(standing.foot[:, 1] - at) <= AT_FOOT * height)
-    deep = float(np.median(line[:, 1]) - m.drawing[0][1])
-    if deep > float(m.drawing[1][1] - np.median(line[:, 1])):
-        return ""
     feet = standing.foot[near & rising]
     if len(feet) == 0:
         return "a level line that the tree passes through, roots below" if _rooted(m, row, height, deep) else ""

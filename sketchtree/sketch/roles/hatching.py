@@ -23,7 +23,7 @@ BESIDE = 1.3  # of their length: neighbours are no farther apart
 ACROSS = 0.35  # least part of that distance that lies across the strokes
 FAMILY = 5  # strokes
 LOOSE = 0.015  # of the drawing's height: a stroke with an end this near to another may grow from it
-NEAREST, LONGER = 24, 1.3  # points looked at, and how much longer than itself a stroke is that bears a twig for sure
+NEAREST, LONGER = 12, 1.3  # points looked at, and how much longer than itself a stroke is that bears a twig for sure
 HELD = 0.25  # greatest part of a family that may
 
 

@@ -6,6 +6,7 @@
 """
 
 import re
+from functools import lru_cache
 
 from sketchtree.sketch.strokes import Stroke
 
@@ -17,7 +18,8 @@ _WORDS = {
     "hatching": "hatch|hatche|hatching|shading|texture",
     "paper": "paper|background|underlay|reference|frame|note",
 }
-_PATTERN = {role: re.compile(rf"(?<![a-z])(?:{words})s?(?![a-z])") for role, words in _WORDS.items()}
+_PATTERN = re.compile("|".join(f"(?<![a-z])(?P<{role}>{words})s?(?![a-z])" for role, words in _WORDS.items()))
+_HUMP = re.compile(r"(?<=[a-z])(?=[A-Z])")
 
 
 def role_in_names(stroke: Stroke) -> str | None:
@@ -32,9 +34,8 @@ def role_in_names(stroke: Stroke) -> str | None:
     return None
 
 
+@lru_cache(maxsize=4096)
 def role_in_name(name: str | None) -> str | None:
     """The same for one name."""
-    if not name:
-        return None
-    name = re.sub(r"(?<=[a-z])(?=[A-Z])", " ", name).lower()
-    return next((role for role, pattern in _PATTERN.items() if pattern.search(name)), None)
+    match = _PATTERN.search(_HUMP.sub(" ", name).lower()) if name else None
+    return match.lastgroup if match else None

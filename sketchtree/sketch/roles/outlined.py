@@ -53,9 +53,10 @@ def limbs_of_outlines(lines: list[Line], closed: list[bool]) -> Outlined:
 def _single_outlines(lines: list[Line], closed: list[bool], height: float) -> tuple[list[Line], dict[int, shapely.Geometry]]:
     """(lines, those that run out and back replaced by their middle; of those that are closed, the area inside)."""
     length = np.array([line.length for line in lines])
-    opening = np.array([np.hypot(*(line.points[0] - line.points[-1])) for line in lines])
-    back = np.array(closed) | (opening <= 0.3 * length)
-    rows = [k for k in np.flatnonzero(back) if len(lines[k].points) > 3 and lines[k].length > 4 * WIDE * height]
+    ends = np.concatenate([line.points[[0, -1]] for line in lines])
+    opening = np.hypot(*(ends[::2] - ends[1::2]).T)
+    back = (np.array(closed) | (opening <= 0.3 * length)) & (length > 4 * WIDE * height)
+    rows = [k for k in np.flatnonzero(back) if len(lines[k].points) > 3]
     if not rows:
         return lines, {}
     found = middles(np.array([even_border(lines[k].points) for k in rows]))
@@ -73,14 +74,16 @@ def _single_outlines(lines: list[Line], closed: list[bool], height: float) -> tu
 def _pairs(lines: list[Line], height: float) -> tuple[list[Line], list[tuple[Line, Line]]]:
     """Two lines that meet at a free tip, and not far apart at the foot, become their middle."""
     length = np.array([line.length for line in lines])
-    ends = np.array([line.points[k] for line in lines for k in (0, -1)])
+    ends = np.concatenate([line.points[[0, -1]] for line in lines])
     pairs = _meeting(ends, length, height)
     if length[np.unique(pairs // 2)].sum() < HABIT[1] * length.sum() or len(pairs) < HABIT[0]:
+        return lines, []
+    pairs = pairs[_free_and_held(lines, ends, pairs, height)]
+    if len(pairs) < HABIT[0]:
         return lines, []
     sides = [(_towards(lines[a // 2], a), _towards(lines[b // 2], b)) for a, b in pairs.tolist()]
     found = middles(np.array([even_border(np.vstack([one.points, other.points[::-1]])) for one, other in sides]))
     limb = np.array([_is_limb(found, n, PAIRED, height) for n in range(len(pairs))])
-    limb[limb] = _free_and_held(lines, ends, pairs[limb], height)
     used: set[int] = set()
     made: list[tuple[Line, Line]] = []
     for n in np.argsort(found.width.mean(1), kind="stable"):

@@ -27,7 +27,7 @@ STEEP = 0.7  # sine of the slope of a side
 FLARE, FLAT = 0.6, 0.5  # part of a side that may run out along the ground, and the sine of the slope that ends it
 SHORT = 0.3  # of the longest line on the ground: shorter ones are no sides
 STALLS = 0.3  # sine of the slope below which a side has stopped rising
-MANY = 12  # lines on the ground: among more none are sides
+MANY = 24  # lines on the ground: among more none are sides
 PIECES = 4  # of one side
 MEETS = 0.02  # of H: pieces of one side meet end to end within this …
 BENDS = np.radians(60)  # … and bend no more there
@@ -62,10 +62,12 @@ def trunks_of_edges(lines: list[Line], crowns: list[Float[np.ndarray, "point 2"]
     if not lines:
         return Trunks(lines, [], [])
     height = extent(lines)
-    lowest = min(float(line.points[:, 1].min()) for line in lines)
+    lowest = np.array([line.points[:, 1].min() for line in lines])
+    ground = float(lowest.min()) + ON_GROUND[bool(crowns)] * height
+    near = np.flatnonzero(lowest <= ground).tolist()
+    if len(near) == 0 or len(near) > MANY:
+        return Trunks(lines, [], [])
     upward = [line if line.points[0, 1] <= line.points[-1, 1] else line.reversed() for line in lines]
-    ground = lowest + ON_GROUND[bool(crowns)] * height
-    near = [k for k, line in enumerate(upward) if line.points[:, 1].min() <= ground]
     sides = {k: _side(upward[k], k, height, crowns) for k in near}
     sides = {k: side for k, side in sides.items() if _rises(side.line) and side.line.points[0, 1] <= ground}
     longest = max((side.line.length for side in sides.values()), default=0.0)
@@ -115,7 +117,7 @@ def _side(line: Line, row: int, height: float, crowns) -> _Side:
 def _pairs(sides: dict[int, _Side]) -> list[tuple[_Side, _Side]]:
     """Pairs of sides, those farthest apart first: what stands between is bark."""
     order = sorted(sides.values(), key=lambda side: (side.line.points[0, 0], side.line.points[-1, 0]))
-    spans = [(j - i, i) for i in range(len(order)) for j in range(i + 1, len(order))] if len(order) <= MANY else []
+    spans = [(j - i, i) for i in range(len(order)) for j in range(i + 1, len(order))]
     return [(order[i], order[i + span]) for span, i in sorted(spans, key=lambda pair: (-pair[0], pair[1]))]
 
 
