@@ -6,13 +6,14 @@
     pictures   a field of a PNG chunk changed, its checksum made right again; else bytes
 """
 
+import collections
 import copy
 import gzip
 import json
 import re
 import struct
 import zlib
-from collections.abc import Callable
+from collections.abc import Callable, Iterator
 from xml.etree import ElementTree
 
 import numpy as np
@@ -103,10 +104,8 @@ def _by_json(data: bytes, rng: np.random.Generator) -> bytes:
         document = json.loads(data)
     except (ValueError, RecursionError):
         return _by_bytes(data, rng)
-    holder, key = {"": document}, ""
-    while isinstance(value := holder[key], (list, dict)) and len(value) and rng.random() < 0.85:
-        holder = value
-        key = int(rng.integers(len(value))) if isinstance(value, list) else list(value)[int(rng.integers(len(value)))]
+    places = list(_places({"": document}))
+    holder, key = places[int(rng.integers(len(places)))] if rng.random() < 0.5 else places[int(rng.integers(min(len(places), 12)))]
     root = {"": document}
     if key == "":
         holder = root
@@ -123,6 +122,17 @@ def _by_json(data: bytes, rng: np.random.Generator) -> bytes:
     else:
         holder[key] = nonsense(rng)
     return json.dumps(root[""]).encode()
+
+
+def _places(holder: list | dict) -> Iterator[tuple[list | dict, int | str]]:
+    """(list or object, index or key) of every value inside, the outer ones first."""
+    waiting = collections.deque([holder])
+    while waiting:
+        holder = waiting.popleft()
+        for key in range(len(holder)) if isinstance(holder, list) else list(holder):
+            yield holder, key
+            if isinstance(holder[key], (list, dict)):
+                waiting.append(holder[key])
 
 
 def nonsense(rng: np.random.Generator, depth: int = 3) -> object:

@@ -10,7 +10,7 @@ from sketchtree.commands.app import run
 LIMITS = {
     "--max-strokes 3": ("tree.json", "more than 3", "--max-strokes"),
     "--max-mb 0.001": ("tree.json", "the limit is 0.001 MB", "--max-mb"),
-    "--max-megapixels 0.01": ("tree.png", "megapixels", "megapixels"),
+    "--max-megapixels 0.01": ("tree.png", "at most 0.01 megapixels are read", "--max-megapixels"),
 }
 READING = {"inspect": ["-o", "out.svg"], "infer": ["-o", "out.swc"], "build": ["-o", "out.glb"]}
 

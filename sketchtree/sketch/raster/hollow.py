@@ -45,6 +45,8 @@ class Filled:
 def filled_outlines(mask: Bool[np.ndarray, "row col"], web: Web, pen: float) -> Filled | None:
     """Fill the limbs drawn by their outlines; None where there are none. `web` is that of the same ink."""
     rows = np.flatnonzero(mask.any(1))
+    if len(rows) == 0:
+        return None
     top, bottom = rows[0], rows[-1] + 1
     height = max(float(bottom - top), float(np.ptp(np.flatnonzero(mask.any(0)))) + 1.0)
     if pen > THIN * height:

@@ -83,8 +83,8 @@ def _check_size(size: tuple[int, int], name: str, limit: float) -> None:
     megapixels = size[0] * size[1] / 1e6
     if megapixels > limit:
         raise SketchError(
-            f"{name} has {size[0]} × {size[1]} pixels ({megapixels:.0f} megapixels); at most {limit:.0f} megapixels are read.",
-            remedy="Scale the picture down, or raise `max_megapixels`.",
+            f"{name} has {size[0]} × {size[1]} pixels ({megapixels:,.4g} megapixels); at most {limit:g} megapixels are read.",
+            remedy="Scale the picture down, or raise the limit with --max-megapixels.",
         )
 
 

@@ -69,7 +69,8 @@ def read_raster(
     tell(0.9)
     if len(read.lines) > max_strokes:
         raise SketchError(
-            f"{name} holds {len(read.lines):,} lines; at most {max_strokes:,} are read.", remedy="Simplify it, or raise `max_strokes`."
+            f"{name} holds {len(read.lines):,} lines; at most {max_strokes:,} are read.",
+            remedy="Simplify it, or raise the limit with --max-strokes.",
         )
     scale = ink.scale * picture.scale
     crowns = [outline * scale for outline in read.crowns]

@@ -76,7 +76,7 @@ REFUSED = {
     "latin.excalidraw": (SCENE.replace('"a"', '"\xe9"').encode("latin-1"), "is not Unicode text"),
     "latin.ndjson": (LINE.replace("{", '{"word": "\xe9", ').encode("latin-1"), "is not Unicode text"),
     "folded.json": (SKETCH.encode() + b"\0" * 9, "not one well-formed JSON document"),
-    "bomb.png": (png(50_000, 50_000, b"\0"), "50000 × 50000 pixels .2500 megapixels.; at most 200 megapixels are read"),
+    "bomb.png": (png(50_000, 50_000, b"\0"), "50000 × 50000 pixels .2,500 megapixels.; at most 200 megapixels are read"),
 }
 
 
