@@ -36,7 +36,7 @@ def drawn_radius(sketch: Sketch, graph: SketchGraph, similarity: Similarity, hab
     if np.isnan(radius).all():
         return radius
     if graph.width_is_wood:
-        inked = np.array([stroke.filled for stroke in sketch.strokes], bool)[graph.stroke]
+        inked = np.array([stroke.filled or stroke.wood for stroke in sketch.strokes], bool)[graph.stroke]
         return np.where(inked, radius, np.minimum(radius, _CARTOON * graph.height * similarity.scale))
     thinnest, thickest = np.nanmin(radius), np.nanmax(radius)
     trunk = habit.trunk_ratio * similarity.scale * float(np.ptp(graph.xy[:, 1]))
