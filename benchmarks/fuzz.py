@@ -1,12 +1,13 @@
 """Does any file break a reader? `python -m benchmarks.fuzz --minutes N [--reader R]... [--seed S] [--keep DIR]`
 
-Mutants are read by `read_sketch` and made a graph. Each must give a sound sketch and a sound graph, or a SketchTreeError; anything
-else (another exception, a warning of numpy, more than SLOW seconds, more than MEMORY) is a failure: it is counted,
-kept in DIR, and the command ends with status 1.
+Mutants are read by `read_sketch`, written, read again, and made a graph. Each must give a sound sketch, the same once written,
+and a sound graph, or a SketchTreeError. Anything else (another exception, a warning of numpy, more than SLOW seconds or MEMORY) is
+a failure: it is counted, kept in DIR, and the command ends with status 1.
 """
 
 import argparse
 import collections
+import dataclasses
 import resource
 import signal
 import sys
@@ -21,6 +22,9 @@ import numpy as np
 
 from benchmarks.mutants import READERS, mutant
 from sketchtree.errors import SketchTreeError
+from sketchtree.sketch.files.sketch_json import read_sketch_json, sketch_json
+from sketchtree.sketch.files.svg import read_svg
+from sketchtree.sketch.files.svg_writer import sketch_svg
 from sketchtree.sketch.formats import read_sketch
 from sketchtree.sketch.graph import SketchGraph
 from sketchtree.sketch.reading import sketch_graph
@@ -51,6 +55,7 @@ def outcome(path: Path) -> str:
     except SketchTreeError as error:
         return f"refused: {_kind(error)}"
     check_sketch(sketch)
+    check_written(sketch)
     try:
         graph = sketch_graph(sketch)
     except SketchTreeError as error:
@@ -72,6 +77,18 @@ def check_sketch(sketch: Sketch) -> None:
         stroke.id.encode("utf-8")
     assert all(isinstance(warning, str) and len(warning) < 500 for warning in sketch.warnings), "a long warning"
     assert len(sketch.warnings) < 30, "too many warnings"
+
+
+def check_written(sketch: Sketch) -> None:
+    """What is written as sketch JSON or SVG reads back as the same sketch."""
+    for write, read in ((sketch_json, read_sketch_json), (sketch_svg, read_svg)):
+        again = read(write(sketch).encode(), sketch.name)
+        assert (again.units, again.view_deg, again.page) == (sketch.units, sketch.view_deg, sketch.page), f"{write.__name__}: the page"
+        assert len(again) == len(sketch), f"{write.__name__}: {len(again)} strokes of {len(sketch)}"
+        for old, new in zip(sketch.strokes, again.strokes, strict=True):
+            for column in dataclasses.fields(old):
+                a, b = getattr(old, column.name), getattr(new, column.name)
+                assert (a is None) == (b is None) and (a is None or np.array_equal(a, b)), f"{write.__name__}: {column.name}"
 
 
 def check_graph(graph: SketchGraph, sketch: Sketch) -> None:

@@ -119,6 +119,8 @@ def _by_json(data: bytes, rng: np.random.Generator) -> bytes:
             holder[key] = [holder[key]]
     elif way == 3 and isinstance(holder, dict):
         holder[_KEYS[int(rng.integers(len(_KEYS)))]] = holder.get(key) if rng.random() < 0.5 else nonsense(rng)
+    elif type(holder[key]) in (int, float) and rng.random() < 0.7:
+        holder[key] = round(float(rng.normal(0, 10.0 ** rng.integers(-2, 5))), 2)
     else:
         holder[key] = nonsense(rng)
     return json.dumps(root[""]).encode()
