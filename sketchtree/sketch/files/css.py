@@ -48,10 +48,16 @@ class Cascade:
         self._crowded = bool(sheets) and max(len(element) for element in root.iter()) > _MOST_SIBLINGS
         for element in sheets:
             if element.get("type", "text/css").strip() in ("", "text/css") and _for_screen(element.get("media", "")):
-                self._add(tinycss2.parse_stylesheet(element.text or "", True, True))
+                self._add_sheet(element.text or "")
         self._wrapper: dict[Element, ElementWrapper] = {}
         if self._rules:
             self._wrapper = {e.etree_element: e for e in ElementWrapper.from_xml_root(root).iter_subtree()}
+
+    def _add_sheet(self, text: str) -> None:
+        try:
+            self._add(tinycss2.parse_stylesheet(text, True, True))
+        except RecursionError:
+            self.warnings.append("A style sheet nests its brackets too deep; the rest of it was left out.")
 
     def _add(self, rules) -> None:
         for rule in rules:
@@ -123,11 +129,13 @@ def _computed(own: dict[str, str], inherited: Style) -> Style:
 def _with_variables(value: str, style: Style) -> str:
     """The value with every `var(--name, fallback)` put in; "" (as if it were not there) if one is missing or they never end."""
     for _ in range(20):
-        missing = [m[0] for m in _VARIABLE.finditer(value) if m[1] not in style and m[2] is None]
-        if missing or len(value) > _LONGEST:
+        if len(value) > _LONGEST:
             return ""
-        if not _VARIABLE.search(value):
+        found = list(_VARIABLE.finditer(value))
+        if not found:
             return value
+        if any(match[1] not in style and match[2] is None for match in found):
+            return ""
         value = _VARIABLE.sub(lambda match: style.get(match[1], match[2] or "").strip(), value)
     return ""
 
@@ -136,7 +144,10 @@ def _with_variables(value: str, style: Style) -> str:
 def _of_attribute(text: str) -> Declarations:
     """The declarations of a `style` attribute; drawings repeat few of them often."""
     if not _SIMPLE.fullmatch(text):
-        return _declarations(tinycss2.parse_blocks_contents(text, True, True))
+        try:
+            return _declarations(tinycss2.parse_blocks_contents(text, True, True))
+        except RecursionError:  # brackets in brackets without end
+            return ()
     found = []
     for part in text.split(";"):
         name, colon, value = part.partition(":")

@@ -8,6 +8,7 @@ export forgot to declare get the meaning everyone gives them.
 
 import codecs
 import re
+from collections import Counter
 from functools import lru_cache
 from xml.etree.ElementTree import Element
 from xml.parsers import expat
@@ -24,7 +25,7 @@ INKSCAPE = "http://www.inkscape.org/namespaces/inkscape"
 SERIF = "http://www.serif.com/"
 _XML = "http://www.w3.org/XML/1998/namespace"
 _USUAL = {"xml": _XML, "svg": SVG, "xlink": XLINK, "inkscape": INKSCAPE, "serif": SERIF}
-_REFERENCE = re.compile(r"&([^#&;\s][^&;\s]*);")
+_REFERENCE = re.compile(r"&([^#&;\s][^&;\s]{0,255});")
 _DECLARED = re.compile(rb"""^\s*<\?xml[^>]*?encoding\s*=\s*["']([\w.:-]{1,40})["']""")
 _NO_TEXT = frozenset({"punycode", "idna", "unicode_escape", "raw_unicode_escape", "undefined"})  # codecs, but no file's encoding
 _MARKS = (
@@ -146,7 +147,8 @@ class _Builder:
     def _check_growth(self) -> None:
         """Refuse entities that refer to themselves, or that would swell the document."""
         lengths: dict[str, int] = {}
-        growth = sum(self._length(entity, lengths, ()) * self.text.count(f"&{entity};") for entity in self._entities)
+        used = Counter(match[1] for match in _REFERENCE.finditer(self.text)) if self._entities else {}
+        growth = sum(self._length(entity, lengths, ()) * used.get(entity, 0) for entity in self._entities)
         if growth > LARGEST_GROWTH:
             raise self._bomb("would swell the document")
 

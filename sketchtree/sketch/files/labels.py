@@ -14,16 +14,17 @@ _WORDS: dict[StrokeKind | str, str] = {
     StrokeKind.CROWN: "crown canopy canopies treetop foliage_outline foliage_contour foliage_envelope leaf_outline leaves_outline",
     StrokeKind.OBSTACLE: "obstacle obstruction keep_out",
     StrokeKind.BRANCH: "branch trunk limb bough twig stem",
-    "ground": "ground soil earth horizon floor ground_line ground_level",
-    "root": "root taproot",
-    "shadow": "shadow cast_shadow",
+    "ground": "ground soil earth grass horizon floor ground_line ground_level",
+    "root": "root rootstock taproot",
+    "shadow": "shadow cast_shadow shade",
     "leaves": "leaf leaves foliage needle blossom flower fruit",
-    "hatching": "hatch hatches hatching crosshatch crosshatching shading texture grass bark",
-    "paper": "paper background bg backdrop underlay reference note notes annotation guide guideline scan photo",
+    "hatching": "hatch hatches hatching crosshatch crosshatching shading texture bark",
+    "paper": "paper background bg backdrop underlay reference note notes annotation guide guideline frame scan photo",
 }
 _MEANING = {word.replace("_", " "): meaning for meaning, words in _WORDS.items() for word in words.split()}
 _MEANING |= {word + ending: meaning for word, meaning in list(_MEANING.items()) for ending in ("s", "es")}
 _FIND = re.compile(r"(?<![^\W\d_])(" + "|".join(sorted(_MEANING, key=len, reverse=True)) + r")(?![^\W\d_])")
+_LONGEST = 200  # characters of a name that are read for words
 _ESCAPE = re.compile(r"_x([0-9A-Fa-f]{2,6})_")
 _COPY = re.compile(r"_\d+_$")  # what Illustrator appends to the second of two equal ids
 _HUMP = re.compile(r"(?<=[a-z])(?=[A-Z])")
@@ -48,7 +49,7 @@ def role_named(*names: str | None) -> str | None:
 
 def meaning(*names: str | None) -> StrokeKind | str | None:
     """The kind or role that the first name with one of our words gives."""
-    return next((found for name in names if name and (found := _meaning(name)) is not None), None)
+    return next((found for name in names if name and (found := _meaning(name[:_LONGEST])) is not None), None)
 
 
 def is_automatic(name: str) -> bool:
@@ -56,7 +57,6 @@ def is_automatic(name: str) -> bool:
     return _AUTOMATIC.fullmatch(name) is not None
 
 
-@lru_cache(maxsize=65536)
 def plain_name(name: str) -> str:
     """A name as its author typed it: Illustrator's `_x5F_` escapes and copy numbers undone."""
     if "_" not in name:

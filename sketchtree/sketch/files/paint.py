@@ -15,11 +15,6 @@ class Paint(NamedTuple):
     opacity: str
 
 
-def is_paint(paint: str, opacity: str, style: Style) -> bool:
-    """Whether a fill or stroke shows at all."""
-    return seen(paint, opacity, style) is not None
-
-
 def seen(paint: str, opacity: str, style: Style) -> Paint | None:
     """What a fill or stroke shows; None if nothing. `currentColor` becomes the colour it stands for."""
     if paint.lower() == "currentcolor":

@@ -22,8 +22,8 @@ Matrix = Float[np.ndarray, "3 3"]
 IDENTITY: Matrix = np.eye(3)
 IDENTITY.flags.writeable = False
 
-_FUNCTION = re.compile(r"([a-zA-Z0-9]+)\s*\(([^)]*)\)")
-_NUMBER = re.compile(r"([-+]?(?:\d+\.?\d*|\.\d+)(?:[eE][-+]?\d+)?)([a-zA-Z%]*)")
+_FUNCTION = re.compile(r"(?<![a-zA-Z0-9])([a-zA-Z0-9]++)\s*+\(([^()]*+)\)")  # possessive: long texts are looked at once
+_NUMBER = re.compile(r"([-+]?(?:[0-9]++\.?+[0-9]*+|\.[0-9]++)(?:[eE][-+]?[0-9]++)?)([a-zA-Z%]*+)")
 _LENGTH = {"": 1.0, "px": 1.0, "in": 96.0, "cm": 96 / 2.54, "mm": 96 / 25.4, "q": 96 / 101.6, "pt": 96 / 72, "pc": 16.0}
 _LENGTH |= {"em": 16.0, "rem": 16.0, "ex": 8.0}
 _ANGLE = {"": 1.0, "deg": 1.0, "grad": 0.9, "rad": 180 / math.pi, "turn": 360.0}

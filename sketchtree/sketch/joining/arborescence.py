@@ -1,7 +1,7 @@
 """Which parent for every stroke, so that the whole costs least?
 
 The minimum spanning arborescence of a directed graph (Chu & Liu 1965; Edmonds 1967): every node but the root
-takes one incoming arc, no cycles, least total cost. As Tarjan (1977, "Finding optimum branchings") has it, a walk
+takes one incoming arc, no cycles, least total cost. If the cheapest arc into every node makes no cycle, that is it. Else, as Tarjan (1977, "Finding optimum branchings") has it, a walk
 goes from node to node up the cheapest incoming arcs until it meets the finished part. Where it meets itself, the cycle
 becomes one node, whose arcs (u → v) then cost w(u → v) − w(best into v). Arcs wait in heaps; a heap carries what is
 to be taken off all its costs, and the smaller of two heaps is poured into the larger: O(E log² E).
@@ -24,6 +24,9 @@ def arborescence(
 
     Every node must be reachable from the root.
     """
+    chosen = _cheapest(head, cost, node_count, root)
+    if _reaches(tail, chosen, root):
+        return chosen
     forest = _Contraction(tail.tolist(), head.tolist(), cost.tolist(), node_count)
     forest.state[root] = _DONE
     for start in range(node_count):
@@ -31,6 +34,24 @@ def arborescence(
     chosen = np.array(forest.unfold()[:node_count])
     chosen[root] = NULL
     return chosen
+
+
+def _cheapest(head, cost, node_count: int, root: int) -> Int[np.ndarray, " node"]:
+    """The cheapest arc into every node."""
+    order = np.lexsort((cost, head))
+    chosen = np.full(node_count, NULL)
+    nodes, first = np.unique(head[order], return_index=True)
+    chosen[nodes] = order[first]
+    chosen[root] = NULL
+    return chosen
+
+
+def _reaches(tail, chosen, root: int) -> bool:
+    """Whether every node hangs on the root by these arcs."""
+    above = np.where(chosen == NULL, np.arange(len(chosen)), tail[chosen])
+    for _ in range(len(chosen).bit_length()):
+        above = above[above]
+    return bool((above == root).all())
 
 
 class _Contraction:

@@ -1,8 +1,6 @@
 """What does every stroke grow from? One minimum spanning arborescence over strokes and the ground.
 
-An attachment's cost depends on which end of the parent is its foot, and that on the parent's own attachment. So
-the arborescence is solved first with the kinder of both, then again with the directions it gave, until nothing
-changes; the cheapest consistent tree of all rounds is kept. The ground may feed every stroke:
+The ground may feed every stroke:
 
     cost of standing on the ground   STANDING − TOWERS min(2 t, 1) + HANGS exp(−g / ε) + 50 |y − y_ground| / H + (1 − up) / 2
                                      for strokes that rise from the ground; FORBIDDEN + 100 (y − y_lowest) / H + … for others
@@ -22,9 +20,9 @@ import numpy as np
 from jaxtyping import Bool, Float, Int
 
 from sketchtree.axes import NULL
-from sketchtree.sketch.joining.arborescence import arborescence
 from sketchtree.sketch.joining.bundle import Bundle
 from sketchtree.sketch.joining.candidates import MANY, Arcs, bridging_arcs, candidate_arcs
+from sketchtree.sketch.joining.choices import Choices, solve
 from sketchtree.sketch.joining.evidence import slip_of
 from sketchtree.sketch.joining.lines import Line
 
@@ -58,84 +56,71 @@ def attach(lines: list[Line], progress: Callable[[float], None] | None = None) -
     root = bundle.ends[int(np.argmin(alone))]
     arcs, slip = candidate_arcs(bundle, root)
     told(0.5)
-    solution = _solve(bundle, arcs, slip, alone + FORBIDDEN, rounds[0])
-    slip = slip_of(solution.gap[solution.parent != NULL] / bundle.height)
+    choices = Choices.of(arcs, slip, alone + FORBIDDEN)
+    chosen = solve(choices, rounds[0])
     told(0.7)
-    stem = int(np.argmin(np.where(solution.parent == NULL, solution.cost, np.inf)))
-    ground = foot_y[stem, solution.end[stem]]
+    stands = choices.tail[chosen] == len(lines)
+    slip = slip_of(arcs.gap[chosen[~stands]] / bundle.height)
+    stem = int(np.argmin(np.where(stands, choices.cost(choices.end[chosen])[chosen], np.inf)))
+    standing = _standing(bundle, arcs, slip, alone, foot_y[stem, choices.end[chosen[stem]]])
+    choices = Choices.of(arcs, slip, standing)
+    chosen = solve(choices, rounds[1], choices.end[chosen])
+    told(0.9)
+    for _ in range(len(lines)):
+        group = _floating(choices, chosen)
+        if group is None:
+            break
+        foot = choices.end[chosen]
+        arcs = arcs.joined(bridging_arcs(bundle, group, root))
+        choices = Choices.of(arcs, slip, standing)
+        chosen = solve(choices, 2, foot)
+    told(1.0)
+    return _hanging(bundle, arcs, choices, chosen)
+
+
+def _standing(bundle: Bundle, arcs: Arcs, slip: float, alone, ground: float) -> Float[np.ndarray, "line 2"]:
+    """What it costs each line to stand on the ground, at height `ground`, by either end."""
+    rising, foot_y = _rising(bundle)
     tall = np.clip(2 * (foot_y[:, ::-1] - foot_y) / bundle.height, 0.0, 1.0)
     hung = np.exp(-_nearest(bundle, arcs)[:, ::-1] / (slip * bundle.height))
     standing = STANDING - TOWERS * tall + HANGS * hung + 50 * np.abs(foot_y - ground) / bundle.height + 0.5 * (1 - rising)
     allowed = (np.abs(foot_y - ground) <= GROUND * bundle.height) & (rising > 0.2)
-    standing = np.where(allowed, standing, alone + FORBIDDEN)
-    hanging = _solve(bundle, arcs, slip, standing, rounds[1], first=solution.end)
-    told(0.9)
-    for _ in range(len(lines)):
-        group = _floating(hanging)
-        if group is None:
-            break
-        arcs = arcs.joined(bridging_arcs(bundle, group, root))
-        hanging = _solve(bundle, arcs, slip, standing, 2, first=hanging.end)
-    told(1.0)
-    return hanging
+    return np.where(allowed, standing, alone + FORBIDDEN)
 
 
-def _floating(hanging: Hanging) -> Bool[np.ndarray, " line"] | None:
+def _floating(choices: Choices, chosen) -> Bool[np.ndarray, " line"] | None:
     """The lines that hang on a stroke in mid-air because only each other are near; None if there are none."""
-    stems = np.flatnonzero(hanging.parent == NULL)
-    stems = stems[np.argsort(hanging.cost[stems], kind="stable")]
-    aloft = stems[1:][hanging.cost[stems[1:]] >= FORBIDDEN]
-    if len(aloft) == 0:
+    above = np.append(choices.tail[chosen], choices.count)
+    stems = np.flatnonzero(above[:-1] == choices.count)
+    cost = choices.both[chosen[stems], 0]
+    stems = stems[np.argsort(cost, kind="stable")]
+    if len(stems) < 2 or choices.both[chosen[stems[-1]], 0] < FORBIDDEN:
         return None
-    top = np.arange(len(hanging.parent))
-    while (hanging.parent[top] != NULL).any():
-        top = np.where(hanging.parent[top] != NULL, hanging.parent[top], top)
-    return top == aloft[-1]
+    above[stems] = stems
+    above[-1] = stems[0]
+    for _ in range(len(above).bit_length()):
+        above = above[above]
+    return above[:-1] == stems[-1]
 
 
-def _solve(bundle: Bundle, arcs: Arcs, slip: float, standing: Float[np.ndarray, "line 2"], rounds: int, first=None) -> Hanging:
-    count = len(bundle)
-    tail = np.r_[arcs.parent, np.full(2 * count, count)]
-    head = np.r_[arcs.child, np.repeat(np.arange(count), 2)]
-    end = np.r_[arcs.end, np.tile([0, 1], count)]
-    both = np.concatenate([arcs.cost(slip), np.repeat(standing.reshape(-1, 1), 2, 1)])
-    cost = both.min(1) if first is None else both[np.arange(len(both)), np.r_[first, 0][tail]]
-    best, least = None, np.inf
-    for _ in range(rounds):
-        chosen = arborescence(tail, head, cost, count + 1, count)[:count]
-        foot = end[chosen]
-        cost = both[np.arange(len(both)), np.r_[foot, 0][tail]]
-        total = float(cost[chosen].sum())
-        if total >= least - 1e-9:
-            break
-        best, least = (chosen, foot, cost), total
-    return _hanging(bundle, arcs, tail, head, *best)
+def _hanging(bundle: Bundle, arcs: Arcs, choices: Choices, chosen) -> Hanging:
+    count, length, foot = choices.count, bundle.length, choices.end[chosen]
+    parent = np.where(choices.tail[chosen] == count, NULL, choices.tail[chosen])
+    s, gap = (np.append(column, np.zeros(2 * count))[chosen] for column in (arcs.s, arcs.gap))
+    s = np.where((parent != NULL) & (foot[parent] == 1), length[parent] - s, s)
+    cost = choices.cost(foot)
+    return Hanging(parent, foot, s, gap, cost[chosen], _alternatives(choices, cost, chosen))
 
 
-def _hanging(bundle: Bundle, arcs: Arcs, tail, head, chosen, foot, cost) -> Hanging:
-    count, length = len(bundle), bundle.length
-    parent = np.where(tail[chosen] == count, NULL, tail[chosen])
-    s, gap = (np.r_[column, np.zeros(2 * count)][chosen] for column in (arcs.s, arcs.gap))
-    turned = (parent != NULL) & (foot[parent] == 1)
-    s = np.where(turned, length[parent] - s, s)
-    return Hanging(parent, foot, s, gap, cost[chosen], _alternatives(tail, head, cost, chosen, count))
-
-
-def _alternatives(tail, head, cost, chosen, count: int) -> tuple:
+def _alternatives(choices: Choices, cost, chosen) -> tuple[tuple[tuple[int, float], ...], ...]:
     """The two next best parents of every line, with what they would cost."""
-    order = np.lexsort((cost, head))
-    order = order[tail[order] < count]
-    bounds = np.searchsorted(head[order], np.arange(count + 1))
-    rows = []
-    for line in range(count):
-        best: dict[int, float] = {}
-        for arc in order[bounds[line] : bounds[line + 1]]:
-            if tail[arc] != tail[chosen[line]] and tail[arc] not in best:
-                best[int(tail[arc])] = float(cost[arc])
-            if len(best) == 2:
-                break
-        rows.append(tuple(best.items()))
-    return tuple(rows)
+    others = np.flatnonzero((choices.tail < choices.count) & (choices.tail != choices.tail[chosen][choices.head]))
+    order = others[np.lexsort((cost[others], choices.head[others]))]
+    rows: list[dict[int, float]] = [{} for _ in range(choices.count)]
+    for line, other, price in zip(choices.head[order].tolist(), choices.tail[order].tolist(), cost[order].tolist(), strict=True):
+        if len(rows[line]) < 2 and other not in rows[line]:
+            rows[line][other] = price
+    return tuple(tuple(row.items()) for row in rows)
 
 
 def _rising(bundle: Bundle) -> tuple[Float[np.ndarray, "line 2"], Float[np.ndarray, "line 2"]]:

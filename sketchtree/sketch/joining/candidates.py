@@ -13,6 +13,7 @@ from sketchtree.sketch.joining.lines import Line
 
 NEAREST = 16  # strokes tried for every end, half as many in a drawing of more than MANY
 MANY = 1000
+LIKELY = 16  # arcs kept of every line
 TOUCHES = 0.001  # of H: up to eight times as many are tried where they are as near as this
 FOOT = 0.006  # of H: nearer to an end than this is at the end
 
@@ -41,7 +42,16 @@ class Arcs:
 def candidate_arcs(bundle: Bundle, root: Float[np.ndarray, " 2"]) -> tuple[Arcs, float]:
     """(the attachments of every end to the lines nearest to it, a first ε). `root` is the likeliest stem's foot."""
     places = nearest_places(bundle)
-    return _costed(bundle, places, root), first_slip(bundle, places)
+    slip = first_slip(bundle, places)
+    return _likeliest(_costed(bundle, places, root), slip), slip
+
+
+def _likeliest(arcs: Arcs, slip: float) -> Arcs:
+    """The LIKELY cheapest arcs of every line; dearer ones are in no sensible tree."""
+    order = np.lexsort((arcs.cost(slip).min(1), arcs.child))
+    rank = np.arange(len(order)) - np.searchsorted(arcs.child[order], arcs.child[order])
+    kept = np.sort(order[rank < LIKELY])
+    return Arcs(*(getattr(arcs, f.name)[kept] for f in fields(arcs)))
 
 
 def nearest_places(bundle: Bundle) -> Places:

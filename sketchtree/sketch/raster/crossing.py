@@ -13,7 +13,7 @@ import numpy as np
 
 from sketchtree.sketch.raster.tracing import Edge, Web
 
-BEND = np.radians(60)  # greatest turn of a line that goes on through a joint
+BEND = np.radians(42)  # greatest turn of a line that goes on through a joint
 STRAIGHT = np.radians(28)  # the same over a bridge
 APART = np.radians(8)  # least angle between two lines that cross
 WIDTH = 0.5  # radians for a width e times as large

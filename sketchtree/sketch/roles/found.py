@@ -14,7 +14,7 @@ _TAKEN_FOR = {
     "leaves": "leaves",
     "hatching": "hatching or bark",
     "speckle": "specks",
-    "paper": "the paper or its frame",
+    "paper": "the paper",
     "dot": None,  # said by the cleaning
 }
 

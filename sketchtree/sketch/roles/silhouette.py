@@ -38,15 +38,24 @@ def with_holes(strokes: list[Stroke]) -> list[tuple[int, list[int]]]:
     for k, stroke in enumerate(strokes):
         stem, _, part = stroke.id.rpartition("-")
         paths.setdefault(stem if part.isdigit() and stem in paths else stroke.id, []).append(k)
-    found = []
-    for parts in paths.values():
-        parts.sort(key=lambda k: -_polygon([strokes[k]]).area)
-        outers: dict[int, list[int]] = {}
-        for k in parts:
-            around = (j for j in outers if _polygon([strokes[j]]).covers(shapely.Point(strokes[k].points[0])))
-            outers.setdefault(next(around, k), []).append(k)
-        found += [(k, inside[1:]) for k, inside in outers.items()]
+    found = [(parts[0], []) for parts in paths.values() if len(parts) == 1]
+    for parts in (parts for parts in paths.values() if len(parts) > 1):
+        found += _nested([strokes[k] for k in parts], parts)
     return sorted(found)
+
+
+def _nested(strokes: list[Stroke], rows: list[int]) -> list[tuple[int, list[int]]]:
+    """The same for the parts of one path: a part inside a hole is a shape of its own again."""
+    areas = np.array([_polygon([stroke]) for stroke in strokes], object)
+    inner, outer = shapely.STRtree(areas).query(shapely.point_on_surface(areas), predicate="within")
+    size = shapely.area(areas)
+    around = size[outer] > size[inner]
+    outer, inner = outer[around], inner[around]
+    depth = np.bincount(inner, minlength=len(rows))
+    holes: dict[int, list[int]] = {k: [] for k in np.flatnonzero(depth % 2 == 0).tolist()}
+    for k in np.flatnonzero(depth % 2 == 1).tolist():
+        holes[min((j for j in outer[inner == k].tolist() if j in holes), key=lambda j: size[j])].append(k)
+    return [(rows[k], [rows[hole] for hole in sorted(inside)]) for k, inside in holes.items()]
 
 
 def middle_lines(row: int, outer: Stroke, holes: list[Stroke]) -> list[Line]:

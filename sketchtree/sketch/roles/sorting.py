@@ -22,16 +22,21 @@ from sketchtree.sketch.roles.found import NAMED, Found, role_warnings
 from sketchtree.sketch.roles.ground import grass, ground_lines
 from sketchtree.sketch.roles.hatching import hatching
 from sketchtree.sketch.roles.implied import carried_on, implied_stems
+from sketchtree.sketch.roles.ink import areas, is_ink
 from sketchtree.sketch.roles.leaves import leaf_shapes, marks_inside
+from sketchtree.sketch.roles.masses import border, bulk_and_trunk
 from sketchtree.sketch.roles.measures import Measures
 from sketchtree.sketch.roles.named import role_in_names
 from sketchtree.sketch.roles.page import cuts_of, frames
 from sketchtree.sketch.roles.roots import Rooted, roots_apart
 from sketchtree.sketch.roles.scribble import Scribble, meaning, scribbles
 from sketchtree.sketch.roles.shadow import shadows
+from sketchtree.sketch.roles.silhouette import with_holes
 from sketchtree.sketch.roles.trunk_edges import trunks_of_edges
-from sketchtree.sketch.roles.wood import wood_lines
+from sketchtree.sketch.roles.wood import Wood, wood_lines
 from sketchtree.sketch.strokes import Sketch, Stroke, StrokeKind
+
+PAINTED = 0.5  # of the drawing's size: a crown and trunk painted in one piece are larger
 
 
 @dataclass(frozen=True)
@@ -69,6 +74,9 @@ class _Table:
     found: dict[int, Found] = field(default_factory=dict)
     outlines: list[np.ndarray] = field(default_factory=list)  # of crowns
     legs: dict[int, tuple[np.ndarray, ...]] = field(default_factory=dict)  # wood in strokes that drew a crown too
+    pieces: list[tuple[int, Stroke]] = field(default_factory=list)  # of painted strokes that are wood only in part
+    inks: list[tuple[int, list[int]]] = field(default_factory=list)  # painted paths that are the lines of a drawing, their areas
+    parts: list[Part] = field(default_factory=list)
     named_roots: set[int] = field(default_factory=set)
 
     def take(self, found: list[Found]) -> None:
@@ -88,6 +96,11 @@ class _Table:
         rows = {line.row for line in bark} - {line.row for line in lines}
         self.take([Found(row, "hatching", "drawn between the two sides of a limb", (("branch", 0.6),)) for row in sorted(rows)])
 
+    def add_rims(self, wood: Wood) -> None:
+        """Strokes that ran along a crown's outline, in part or wholly."""
+        for line in wood.rims:
+            self.found.setdefault(line.row, Found(line.row, "crown", "it runs along the crown's outline", (("branch", 0.5),)))
+
     def rows(self, role: str) -> list[int]:
         """The strokes known to be this."""
         return sorted(row for row, one in self.found.items() if one.role == role)
@@ -99,13 +112,16 @@ def sort_strokes(sketch: Sketch) -> Sorted:
         return Sorted([], [], (), False, (), (), (), (), (), ())
     table = _named(sketch)
     table.take(frames(table.m, table.free))
+    _find_ink(table)
     table.take(ground_lines(table.m, table.free, table.wood))
     ground = [table.m.strokes[row].points for row in table.rows("ground")]
     table.take(grass(table.m, table.free, ground, table.wood))
     table.take(shadows(table.m, table.free, table.wood))
+    _read_ink(table)
     _find_crowns(table, ground)
     _find_leaves(table)
-    wood = wood_lines(table.m, np.flatnonzero(table.wood).tolist(), table.legs)
+    wood = wood_lines(table.m, np.flatnonzero(table.wood).tolist(), table.legs, table.pieces, table.outlines)
+    table.add_rims(wood)
     trunks = trunks_of_edges(wood.lines, table.outlines)
     lines, sides = trunks.lines, [*wood.sides, *trunks.sides]
     table.add_bark([*wood.bark, *trunks.bark], lines)
@@ -120,7 +136,7 @@ def sort_strokes(sketch: Sketch) -> Sorted:
     return Sorted(
         lines=rooted.above,
         roots=rooted.below,
-        parts=_parts(sketch, wood.holes, sides),
+        parts=(*table.parts, *_parts(sketch, wood.holes, sides)),
         measured=wood.measured,
         crowns=tuple(table.outlines),
         obstacles=tuple(outline(sketch.strokes[row].points) for row in table.rows("obstacle") if has_area(sketch.strokes[row])),
@@ -173,6 +189,46 @@ def _named(sketch: Sketch) -> _Table:
     return table
 
 
+def _find_ink(table: _Table) -> None:
+    """Painted paths that are the lines of a drawing: what they enclose is looked at in their place."""
+    rows = np.flatnonzero(table.free & table.m.filled)
+    if len(rows) < 2:
+        return
+    for outer, holes in with_holes([table.m.strokes[row] for row in rows]):
+        row, inner = int(rows[outer]), [int(rows[hole]) for hole in holes]
+        if is_ink(table.m, row, inner):
+            table.inks.append((row, inner))
+            table.wood[row] = table.free[row] = False
+
+
+def _read_ink(table: _Table) -> None:
+    """The areas between the lines of an ink drawing: wood, crown, or gaps."""
+    for row, holes in table.inks:
+        found = areas(table.m, row, holes, set(table.found))
+        table.outlines += found.outlines
+        table.take([Found(k, "crown", "an area of the crown in an outline drawing") for k in found.crown])
+        table.take([Found(k, "paper", "a gap between the limbs of an outline drawing") for k in found.gaps])
+        if found.wood:
+            owner = min(table.m.strokes[k].id for k in found.wood)
+            table.parts.append(Part(table.m.strokes[row].id, owner, "the ink around that limb"))
+        else:
+            table.take([Found(row, "crown", "the ink around a crown")])
+
+
+def _find_painted_trees(table: _Table) -> None:
+    """Crowns painted in one with their trunk."""
+    m = table.m
+    size = float((m.drawing[1] - m.drawing[0]).max())
+    large = table.free & m.filled & (m.size >= PAINTED * size) & (m.area >= 0.05 * m.size**2)
+    for row in np.flatnonzero(large).tolist():
+        area = shapely.make_valid(shapely.Polygon(m.strokes[row].points))
+        crown, trunk = bulk_and_trunk(area) if area.geom_type == "Polygon" else (None, [])
+        if crown is not None:
+            table.outlines.append(border(crown))
+            table.take([Found(row, "crown", "the bulky part of a tree painted in one piece")])
+            table.pieces += [(row, dataclasses.replace(m.strokes[row], points=border(piece))) for piece in trunk]
+
+
 def _find_crowns(table: _Table, ground: list[np.ndarray]) -> None:
     """The crowns by their shape, unless the file names one; and what the scribbles are."""
     m = table.m
@@ -184,6 +240,9 @@ def _find_crowns(table: _Table, ground: list[np.ndarray]) -> None:
         table.take(closed)
         tame[[one.row for one in closed]] = False
         table.outlines += [outline(m.strokes[one.row].points) for one in closed if one.role == "crown"]
+    if not table.outlines:
+        _find_painted_trees(table)
+        tame &= table.wood
     if not table.outlines:
         _find_contour(table, np.flatnonzero(tame))
     if not table.outlines:

@@ -16,6 +16,7 @@ from sketchtree.sketch.joining.widths import VARIES, drawn_widths
 from sketchtree.sketch.roles.brush import even_border, middles, simplified
 from sketchtree.sketch.roles.measures import Measures
 from sketchtree.sketch.roles.outlined import limbs_of_outlines
+from sketchtree.sketch.roles.rim import without_rims
 from sketchtree.sketch.roles.silhouette import is_blob, middle_lines, with_holes
 from sketchtree.sketch.strokes import Stroke
 
@@ -29,14 +30,20 @@ class Wood:
     """The lines that the branch strokes draw."""
 
     lines: list[Line]
-    measured: bool  # their widths are the limbs' own thickness; no pen set them
+    measured: bool  # any widths that these lines have, or their trunk gets, are the limbs' own thickness; no pen set them
     sides: list[tuple[Line, Line]]  # (middle, the other side) of limbs that two lines drew
     bark: list[Line]  # what was drawn inside the outline of a limb
     holes: list[tuple[int, int]]  # (row of a hole, row of the painted shape that it is in)
+    rims: list[Line]  # painted lines of which a part, or all, ran along a crown's outline
 
 
-def wood_lines(m: Measures, rows: list[int], legs: dict[int, tuple[np.ndarray, ...]]) -> Wood:
-    """The lines of these strokes, and of the `legs` of strokes that drew a crown too."""
+def wood_lines(
+    m: Measures, rows: list[int], legs: dict[int, tuple[np.ndarray, ...]], pieces: list[tuple[int, Stroke]], crowns: list[np.ndarray]
+) -> Wood:
+    """The lines of these strokes, of the `legs` of strokes that drew a crown too, and of `pieces` of painted ones.
+
+    `crowns`: outlines; painted lines that run along them are their rims.
+    """
     strokes = m.strokes
     penned = [row for row in rows if not strokes[row].filled]
     lines, closed = _pen_lines(m, penned)
@@ -48,9 +55,10 @@ def wood_lines(m: Measures, rows: list[int], legs: dict[int, tuple[np.ndarray, .
     by_pen = any(np.isfinite(line.width).any() for line in lines if id(line) in plain and not strokes[line.row].wood)
     shapes = _shapes(strokes, [row for row in rows if strokes[row].filled])
     painted, thin = _painted_lines(strokes, shapes)
+    painted += [line for row, piece in pieces for line in middle_lines(row, piece, [])]
+    painted, rims = without_rims(painted, crowns)
     lines = lines + painted
-    known = any(np.isfinite(line.width).any() for line in lines)
-    return Wood(lines, known and not by_pen and not thin, outlined.sides, outlined.bark, [(hole, outer) for outer, holes in shapes for hole in holes])
+    return Wood(lines, not by_pen and not thin, outlined.sides, outlined.bark, [(hole, outer) for outer, holes in shapes for hole in holes], rims)
 
 
 def _pen_lines(m: Measures, rows: list[int]) -> tuple[list[Line], list[bool]]:

@@ -40,7 +40,7 @@ def test_these_names_are_obstacles(name):
         ("Foliage", "leaves"),
         ("cross-hatching", "hatching"),
         ("bark texture", "hatching"),
-        ("grass", "hatching"),
+        ("grass", "ground"),
         ("Background", "paper"),
         ("paper scan", "paper"),
         ("reference photo", "paper"),

@@ -1,0 +1,77 @@
+"""Which part of a painted limb is really the rim of the crown? Ink around a crown often runs on into the trunk.
+
+A line down the middle of a painted shape that runs along a crown's outline for a good while is the pen line around the crown;
+it is cut off where it leaves it. A limb meets the outline at an angle, or only with its tip.
+"""
+
+import numpy as np
+import shapely
+from jaxtyping import Bool, Float
+
+from sketchtree.sketch.joining.lines import Line
+
+NEAR = 0.045  # of the crown's size: on the outline
+ALONG = np.cos(np.radians(35))  # and in its direction
+LONG = 0.2  # of the crown's size: least length of rim
+KEPT = 0.08  # of the crown's size: what is left of a line is dropped where it is shorter
+STEPS = 96
+
+
+def without_rims(lines: list[Line], outlines: list[Float[np.ndarray, "point 2"]]) -> tuple[list[Line], list[Line]]:
+    """(the lines without what runs along an outline, the lines of which something was cut off)."""
+    kept, cut = [], []
+    for line in lines:
+        rims = [_rim(line, points) for points in outlines]
+        on_rim = np.any(rims, axis=0) if rims else np.zeros(STEPS, bool)
+        size = max((float(np.ptp(points, axis=0).max()) for points in outlines), default=0.0)
+        parts = _parts(line, on_rim, size)
+        kept += parts
+        if parts != [line]:
+            cut.append(line)
+    return kept, cut
+
+
+def _rim(line: Line, outline: Float[np.ndarray, "point 2"]) -> Bool[np.ndarray, " step"]:
+    """Which of STEPS even places along a line are on the outline and run along it."""
+    size = float(np.ptp(outline, axis=0).max())
+    ring = shapely.LinearRing(outline)
+    s = np.linspace(0.0, line.length, STEPS)
+    points = line.at(s)
+    near = shapely.distance(shapely.points(points), ring) <= NEAR * size
+    if not near.any():
+        return near
+    at = shapely.line_locate_point(ring, shapely.points(points))
+    reach = 0.02 * size
+    ahead, behind = (shapely.get_coordinates(shapely.line_interpolate_point(ring, (at + step) % ring.length)) for step in (reach, -reach))
+    own = line.at(np.minimum(s + reach, line.length)) - line.at(np.maximum(s - reach, 0.0))
+    way = ahead - behind
+    cosine = np.abs((own * way).sum(1)) / np.maximum(np.hypot(*own.T) * np.hypot(*way.T), 1e-300)
+    return _long_runs(near & (_smoothed(cosine) >= ALONG), LONG * size / max(line.length, 1e-300) * STEPS)
+
+
+def _smoothed(value: Float[np.ndarray, " step"]) -> Float[np.ndarray, " step"]:
+    return np.convolve(np.pad(value, 3, mode="edge"), np.full(7, 1 / 7), mode="valid")
+
+
+def _long_runs(mask: Bool[np.ndarray, " step"], least: float) -> Bool[np.ndarray, " step"]:
+    """The mask without runs shorter than `least` steps; gaps of a few steps are closed."""
+    edges = np.flatnonzero(np.diff(np.r_[False, mask, False].astype(int)))
+    runs: list[list[int]] = []
+    for begin, end in zip(edges[::2].tolist(), edges[1::2].tolist(), strict=True):
+        if runs and begin - runs[-1][1] <= 6:
+            runs[-1][1] = end
+        else:
+            runs.append([begin, end])
+    result = np.zeros(len(mask), bool)
+    for begin, end in runs:
+        result[begin:end] = end - begin >= least
+    return result
+
+
+def _parts(line: Line, on_rim: Bool[np.ndarray, " step"], size: float) -> list[Line]:
+    """What is left of a line without its rims."""
+    if not on_rim.any():
+        return [line]
+    edges = np.flatnonzero(np.diff(np.r_[True, on_rim, True].astype(int)))
+    spans = edges.reshape(-1, 2) / (STEPS - 1) * line.length
+    return [line.cut(low, min(high, line.length)) for low, high in spans.tolist() if min(high, line.length) - low >= KEPT * size]
