@@ -26,13 +26,13 @@ def page_to_world(graph: SketchGraph, height: float) -> Similarity:
 
 
 def drawn_radius(sketch: Sketch, graph: SketchGraph, similarity: Similarity, habit: Habit) -> Float[np.ndarray, " segment"]:
-    """Half the drawn width of each branch, metres; NaN where the widths say nothing.
+    """Half the drawn width of each branch, metres; NaN where the widths say nothing (a width of 0 does not).
 
     An area of ink shows how thick the wood is, and so do the two edges of a trunk, up to `_CARTOON`: people who draw
-    a trunk by its edges draw it wide. A pen's line does not show it: it shows which branch is thicker than which. The thickest line then stands for the trunk of such a tree (or up to `_STOUT`
-    times that, if it was drawn so), the thinnest for a branch no thicker than `_THIN` of it, and those between for
-    what lies between on a logarithmic scale."""
-    radius = graph.width * similarity.scale / 2
+    a trunk by its edges draw it wide. A pen's line does not show it: it shows which branch is thicker than which. The
+    thickest line then stands for the trunk of such a tree (or up to `_STOUT` times that, if it was drawn so), the
+    thinnest for a branch no thicker than `_THIN` of it, and those between for what lies between on a logarithmic scale."""
+    radius = np.where(graph.width > 0, graph.width, np.nan) * similarity.scale / 2
     if np.isnan(radius).all():
         return radius
     if graph.width_is_wood:

@@ -91,6 +91,8 @@ class SketchGraph:
             column.flags.writeable = False
             object.__setattr__(self, name, column)
         n = len(self.parent)
+        assert all(len(getattr(self, name)) == n for name in _ROW_COLUMNS), "every column has one entry a row"
+        assert n == 0 or (self.limb.min() >= 0 and self.limb.max() < len(self.limb_id)), "every limb has an id"
         assert (self.parent < np.arange(n)).all(), "parents must precede children"
         assert np.isfinite(self.xy).all() and self.xy.shape == (n, 2)
         assert not (self.root[:-1] & ~self.root[1:]).any(), "roots stand after all other rows"

@@ -115,7 +115,7 @@ def test_the_trunk_s_bend_is_not_learnt_from_two_laterals(double):
     graph = factor_graph(
         two.replace(
             parent=two.parent[rows], xy=two.xy[rows], limb=two.limb[rows], stroke=two.stroke[rows], tree=two.tree[rows],
-            width=two.width[rows], joined=two.joined[rows], curve_start=np.zeros(8, int), limb_id=two.limb_id[:3],
+            width=two.width[rows], joined=two.joined[rows], root=two.root[rows], curve_start=np.zeros(8, int), limb_id=two.limb_id[:3],
         )
     )  # fmt: skip
     theta = _evaluate(graph, _psi(graph, 7, 1.0))[2]

@@ -21,6 +21,7 @@ SLENDER = 0.3  # greatest mean width of a stroke, of its length
 BULGE = 2.6  # greatest width of a stroke, of its middle width
 STRAY = 0.12  # or this part of its length, where that is more
 FOLLOWS = 0.82  # least length of the middle line and width together, of half the border: the middle of unlike halves cuts corners
+POINTED = 1.0  # greatest slope of its width towards the end of a stroke: where it falls faster, the end is blunt
 BATCH = 256  # shapes worked on at once
 
 
@@ -79,6 +80,14 @@ def slenderness(area: Float[np.ndarray, " shape"], around: Float[np.ndarray, " s
     half = 0.25 * np.maximum(around, 1e-300)
     root = np.sqrt(np.maximum(half**2 - area, 0.0))
     return (half + root) / np.maximum(half - root, 1e-9 * half)
+
+
+def blunt(points: Float[np.ndarray, "step 2"], width: Float[np.ndarray, " step"]) -> Float[np.ndarray, " step"]:
+    """The widths with those near blunt ends as wide as the stroke is there: w_j ≥ w_k − POINTED · |s_j − s_k|.
+
+    A border is parted at one point, so that its middle starts with a width of 0, however wide the stroke ends."""
+    s = np.r_[0.0, np.cumsum(np.hypot(*np.diff(points, axis=0).T))]
+    return (width[None] - POINTED * np.abs(s[:, None] - s[None])).max(1)
 
 
 def simplified(points: Float[np.ndarray, "step 2"], width: Float[np.ndarray, " step"], tolerance: float):

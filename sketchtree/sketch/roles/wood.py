@@ -13,7 +13,7 @@ import numpy as np
 from sketchtree.sketch.joining.cleaning import as_line
 from sketchtree.sketch.joining.lines import Line
 from sketchtree.sketch.joining.widths import VARIES, drawn_widths
-from sketchtree.sketch.roles.brush import even_border, middles, simplified
+from sketchtree.sketch.roles.brush import blunt, even_border, middles, simplified
 from sketchtree.sketch.roles.measures import Measures
 from sketchtree.sketch.roles.outlined import limbs_of_outlines
 from sketchtree.sketch.roles.rim import without_rims
@@ -109,7 +109,7 @@ def _brushed(strokes: list[Stroke], rows: list[int], *, many: bool) -> dict[int,
     slender = found.single & (many | (found.width.mean(1) <= SLENDER * length))
     made = {}
     for k in np.flatnonzero(slender):
-        points, width = simplified(found.points[k], found.width[k], 0.05 * float(np.median(found.width[k])))
+        points, width = simplified(found.points[k], blunt(found.points[k], found.width[k]), 0.05 * float(np.median(found.width[k])))
         made[rows[k]] = Line(rows[k], strokes[k].id, points, width)
     return made
 
