@@ -28,7 +28,7 @@ from sketchtree.sketch.raster.paper import darkness
 from sketchtree.sketch.raster.picture import Picture, read_picture
 from sketchtree.sketch.raster.speckle import swept
 from sketchtree.sketch.raster.strokes_of import strokes_of
-from sketchtree.sketch.raster.thinning import thinned
+from sketchtree.sketch.raster.thinning import half_widths, thinned
 from sketchtree.sketch.raster.tracing import trace
 from sketchtree.sketch.strokes import Sketch
 
@@ -102,7 +102,7 @@ def _ink(picture: Picture, name: str) -> tuple[Ink, Painted | None]:
 
 def _lines(ink: Ink, name: str) -> Read:
     """What the ink shows."""
-    dotted, mask = dotted_curves(ink.mask, thinned(ink.mask)[1])
+    dotted, mask = dotted_curves(ink.mask, half_widths(ink.mask))
     clean = swept(mask, ink.pen)
     web = trace(*thinned(clean.mask), ink.pen)
     filled = filled_outlines(clean.mask, web, ink.pen)
