@@ -11,8 +11,11 @@ import numpy as np
 import shapely
 from jaxtyping import Float
 
+from sketchtree.sketch.roles.found import Found
 from sketchtree.sketch.roles.masses import border
 from sketchtree.sketch.roles.measures import Measures
+from sketchtree.sketch.roles.silhouette import with_holes
+from sketchtree.sketch.roles.table import Part, Table
 
 COVERS = 0.35  # greatest part of what it encloses that ink covers
 LARGE = 0.5  # least size of an ink drawing, of the whole
@@ -54,3 +57,29 @@ def areas(m: Measures, outer: int, holes: list[int], known: set[int]) -> Areas:
     size = float((m.drawing[1] - m.drawing[0]).max())
     pieces = [p for p in shapely.get_parts(whole) if p.geom_type == "Polygon" and max(np.subtract(p.bounds[2:], p.bounds[:2])) >= CROWN * size]
     return Areas(wood, crown, gaps, [border(piece) for piece in sorted(pieces, key=lambda p: p.bounds)])
+
+
+def find_ink(table: Table) -> None:
+    """Painted paths that are the lines of a drawing: what they enclose is looked at in their place."""
+    rows = np.flatnonzero(table.free & table.m.filled)
+    if len(rows) < 2:
+        return
+    for outer, holes in with_holes([table.m.strokes[row] for row in rows]):
+        row, inner = int(rows[outer]), [int(rows[hole]) for hole in holes]
+        if is_ink(table.m, row, inner):
+            table.inks.append((row, inner))
+            table.wood[row] = table.free[row] = False
+
+
+def read_ink(table: Table) -> None:
+    """The areas between the lines of an ink drawing: wood, crown, or gaps."""
+    for row, holes in table.inks:
+        found = areas(table.m, row, holes, set(table.found))
+        table.outlines += found.outlines
+        table.take([Found(k, "crown", "an area of the crown in an outline drawing") for k in found.crown])
+        table.take([Found(k, "paper", "a gap between the limbs of an outline drawing") for k in found.gaps])
+        if found.wood:
+            owner = min(table.m.strokes[k].id for k in found.wood)
+            table.parts.append(Part(table.m.strokes[row].id, owner, "the ink around that limb"))
+        else:
+            table.take([Found(row, "crown", "the ink around a crown")])
