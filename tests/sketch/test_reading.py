@@ -54,7 +54,7 @@ def test_every_example_is_one_tree_of_the_limbs_that_were_drawn(path):
     check(graph)
     assert graph.is_base.sum() == 1 and len(graph.limb_id) == LIMBS[path.stem]
     assert len(graph.crown) == (path.stem in ("oak", "oak_50", "poplar", "apple"))
-    assert graph.warnings == ()
+    assert graph.warnings == (("A hidden shape was left out.",) if path.stem == "palm" else ())  # its sand
 
 
 @pytest.mark.parametrize("path", DRAWN, ids=lambda p: p.stem)

@@ -3,7 +3,7 @@
 Declarations win in this order (CSS Cascade 4, §6): presentation attributes, rules of `<style>` elements by
 specificity and order, the `style` attribute, then whatever is marked `!important`. Custom properties (`--ink`) are
 inherited and put in where `var()` asks for them. Only properties that matter to reading strokes are kept. Style
-sheets of other files are never fetched.
+sheets of other files are never fetched. What of a style is not read is told.
 """
 
 import re
@@ -31,6 +31,8 @@ _SIMPLE = re.compile(r"[^\"'\\(){}\[\]/@<]*")  # a style attribute that colons a
 _VARIABLE = re.compile(r"var\(\s*(--[^\s,()]+)\s*(?:,([^()]*(?:\([^()]*\)[^()]*)*))?\)", re.IGNORECASE)
 _LONGEST = 10_000  # characters of a value once its variables are put in
 _MOST_SIBLINGS = 2_000  # elements in one group up to which selectors that look at all of them are tried
+_GROUPED = frozenset({"supports", "layer", "container", "scope", "starting-style"})  # at-rules around others, not read
+_TOO_DEEP = "{} nests its brackets too deep; {} was left out."
 _LOOKS_AROUND = re.compile(r"~(?!=)|-of-type|:nth-last|:has\(", re.IGNORECASE)
 
 Style = Mapping[str, str]
@@ -41,7 +43,9 @@ class Cascade:
     """The style sheets of one document: `style(element, inherited)` is the computed style of an element."""
 
     def __init__(self, root: Element):
-        self.warnings: list[str] = []
+        self._told: dict[str, None] = {}  # an ordered set
+        self._deep: dict[Element, None] = {}  # … of elements whose own style can't be read
+        self._unread: dict[str, list[str]] = {}  # why → rules that were left out
         self._matcher = cssselect2.Matcher()
         self._rules = 0
         sheets = [element for element in root.iter() if local_name(element.tag) == "style"]
@@ -57,7 +61,18 @@ class Cascade:
         try:
             self._add(tinycss2.parse_stylesheet(text, True, True))
         except RecursionError:
-            self.warnings.append("A style sheet nests its brackets too deep; the rest of it was left out.")
+            self._told[_TOO_DEEP.format("A style sheet", "the rest of it")] = None
+
+    @property
+    def warnings(self) -> list[str]:
+        """What was left out, a line for every reason."""
+        found = [*self._told, *(_said(rules, why) for why, rules in self._unread.items())]
+        if self._deep:
+            first = next(iter(self._deep))
+            whose = f"'{first.get('id', '')[:40]}'" if first.get("id") else f"a <{local_name(first.tag)}>"
+            more = f" (and of {len(self._deep) - 1} more)" if len(self._deep) > 1 else ""
+            found.append(_TOO_DEEP.format(f"The style of {whose}{more}", "it"))
+        return found
 
     def _add(self, rules) -> None:
         for rule in rules:
@@ -65,24 +80,33 @@ class Cascade:
                 if _for_screen(tinycss2.serialize(rule.prelude)):
                     self._add(tinycss2.parse_rule_list(rule.content, True, True))
             elif rule.type == "at-rule" and rule.lower_at_keyword == "import":
-                self.warnings.append("A style sheet of another file was left out; lines may look other than drawn.")
+                self._told["A style sheet of another file was left out; lines may look other than drawn."] = None
+            elif rule.type == "at-rule" and rule.lower_at_keyword in _GROUPED and rule.content is not None:
+                self._leave(f"@{rule.lower_at_keyword}{tinycss2.serialize(rule.prelude)}", "at-rules of its kind are not read")
             elif rule.type == "qualified-rule":
                 self._add_rule(rule)
 
     def _add_rule(self, rule) -> None:
-        declarations = _declarations(tinycss2.parse_blocks_contents(rule.content, True, True))
-        prelude = tinycss2.serialize(rule.prelude)
+        items = tinycss2.parse_blocks_contents(rule.content, True, True)
+        declarations, prelude = _declarations(items), tinycss2.serialize(rule.prelude)
+        for inner in (item for item in items if item.type == "qualified-rule"):
+            self._leave(tinycss2.serialize(inner.prelude), "rules inside rules are not read")
         if self._crowded and _LOOKS_AROUND.search(prelude):
-            self.warnings.append(f"The style rule '{prelude.strip()[:40]}' was left out: it compares too many elements with each other.")
+            self._leave(prelude, "it compares too many elements with each other")
             return
         try:
             selectors = cssselect2.compile_selector_list(rule.prelude)
         except cssselect2.SelectorError:  # CSS says: a rule with a selector one does not know is skipped
+            if declarations:
+                self._leave(prelude, "its selector is not understood")
             return
         for selector in selectors:
             if declarations and selector.pseudo_element is None and not selector.never_matches:
                 self._matcher.add_selector(selector, declarations)
                 self._rules += 1
+
+    def _leave(self, rule: str, why: str) -> None:
+        self._unread.setdefault(why, []).append(rule.strip()[:40])
 
     def style(self, element: Element, inherited: Style) -> Style:
         """The computed style: property → value as text. `inherited` is the parent's (or the `use`'s)."""
@@ -91,10 +115,22 @@ class Cascade:
         if self._rules:
             layers += [declarations for *_, declarations in self._matcher.match(self._wrapper[element])]
         if "style" in attributes:
-            layers.append(_of_attribute(attributes["style"]))
+            layers.append(self._own(element))
         own: dict[str, str] = {name: value for layer in layers for name, value, mark in layer if not mark}
         own.update((name, value) for layer in layers for name, value, mark in layer if mark)
         return _computed(own, inherited)
+
+    def _own(self, element: Element) -> Declarations:
+        """The declarations of its `style` attribute."""
+        found = _of_attribute(element.attrib["style"])
+        if found is None:
+            self._deep[element] = None
+        return found or ()
+
+
+def _said(rules: list[str], why: str) -> str:
+    more = f" (and {len(rules) - 1} more of them) was" if len(rules) > 1 else " was"
+    return f"The style rule '{rules[0]}'{more} left out: {why}."
 
 
 def geometry(style: Style) -> dict[str, str]:
@@ -141,13 +177,13 @@ def _with_variables(value: str, style: Style) -> str:
 
 
 @lru_cache(maxsize=4096)
-def _of_attribute(text: str) -> Declarations:
-    """The declarations of a `style` attribute; drawings repeat few of them often."""
+def _of_attribute(text: str) -> Declarations | None:
+    """The declarations of a `style` attribute; drawings repeat few of them often. None for brackets in brackets without end."""
     if not _SIMPLE.fullmatch(text):
         try:
             return _declarations(tinycss2.parse_blocks_contents(text, True, True))
-        except RecursionError:  # brackets in brackets without end
-            return ()
+        except RecursionError:
+            return None
     found = []
     for part in text.split(";"):
         name, colon, value = part.partition(":")

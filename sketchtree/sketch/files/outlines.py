@@ -10,16 +10,17 @@ import numpy as np
 from jaxtyping import Float, Int
 
 from sketchtree.sketch.files.path_data import Subpath, lines, numbers_of, path_data, straight
-from sketchtree.sketch.files.transforms import length
+from sketchtree.sketch.files.viewport import View
 
 CIRCLE = 0.5522847498307936  # control arm of a quarter circle, by its radius
+_ACROSS = frozenset({"x", "x1", "x2", "cx", "width", "rx"})
 SHAPES = frozenset({"path", "line", "polyline", "polygon", "rect", "circle", "ellipse"})
 
 
-def subpaths(tag: str, attributes, view: tuple[float, float]) -> list[Subpath]:
+def subpaths(tag: str, attributes, view: View) -> list[Subpath]:
     """The geometry of one element in its own coordinates; [] for an element that draws nothing.
 
-    `view` is (width, height) of the viewBox, for percentages. Raises ValueError for data that make no sense.
+    Lengths refer to `view`. Raises ValueError for data that make no sense.
     """
     found = _shape(tag, attributes, view)
     if not all(np.isfinite(path.cubics if len(path.cubics) else path.start).all() for path in found):
@@ -27,16 +28,14 @@ def subpaths(tag: str, attributes, view: tuple[float, float]) -> list[Subpath]:
     return found
 
 
-def _shape(tag: str, attributes, view: tuple[float, float]) -> list[Subpath]:
+def _shape(tag: str, attributes, view: View) -> list[Subpath]:
     if tag == "path":
         return path_data(attributes.get("d", ""))
     if tag in ("polyline", "polygon"):
         return _poly(attributes.get("points", ""), tag == "polygon")
-    diagonal = float(np.hypot(*view) / np.sqrt(2.0))
 
-    def number(name: str, default: str = "0") -> float:
-        whole = view[0] if name in ("x", "x1", "x2", "cx", "width", "rx") else view[1]
-        return length(attributes.get(name, default), diagonal if name == "r" else whole)
+    def number(name: str) -> float:
+        return view.length(attributes.get(name, "0"), 0 if name in _ACROSS else 2 if name == "r" else 1)
 
     if tag == "line":
         return [lines(np.array([[number("x1"), number("y1")], [number("x2"), number("y2")]]), False)]

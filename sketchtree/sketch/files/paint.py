@@ -1,11 +1,16 @@
 """Does a fill or a stroke show at all, and how bright is it? Colours are not read beyond that."""
 
+import re
+from collections.abc import Container
 from functools import lru_cache
 from typing import NamedTuple
 
 from tinycss2.color3 import parse_color
 
 from sketchtree.sketch.files.css import Style
+
+
+_SERVER = re.compile(r"""url\(\s*["']?([^"')]*)["']?\s*\)\s*(.*)""", re.IGNORECASE | re.DOTALL)
 
 
 class Paint(NamedTuple):
@@ -15,8 +20,12 @@ class Paint(NamedTuple):
     opacity: str
 
 
-def seen(paint: str, opacity: str, style: Style) -> Paint | None:
-    """What a fill or stroke shows; None if nothing. `currentColor` becomes the colour it stands for."""
+def seen(paint: str, opacity: str, style: Style, by_id: Container[str]) -> Paint | None:
+    """What a fill or stroke shows; None if nothing. A gradient that is not in the file shows what stands after it, else nothing;
+    `currentColor` becomes the colour it stands for."""
+    server = _SERVER.match(paint.strip()) if "(" in paint else None
+    if server is not None and server[1].removeprefix("#") not in by_id:
+        paint = server[2].strip() or "none"
     if paint.lower() == "currentcolor":
         paint = style.get("color", "black")
     return None if _is_clear(paint, opacity) else Paint(paint, opacity)

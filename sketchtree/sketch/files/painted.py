@@ -27,7 +27,7 @@ from sketchtree.sketch.files.path_effects import Spine, spine
 from sketchtree.sketch.files.shapes import Shape, bounds, transformed
 from sketchtree.sketch.files.svg_record import STROKE, StrokeRecord, polyline, stroke_record
 from sketchtree.sketch.files.transforms import IDENTITY, Matrix, matrix_of, scale_of, translation
-from sketchtree.sketch.files.viewport import Box, at, nested, page, user_length
+from sketchtree.sketch.files.viewport import Box, View, at, nested, page, user_length
 
 _GROUPS = frozenset({"svg", "g", "a", "switch"})
 _PAINTED = SHAPES | _GROUPS | {"use", "symbol"}
@@ -39,6 +39,7 @@ _MOST_CLONED = 50_000  # elements drawn through `use`, beyond two for every stro
 class _Scope(NamedTuple):
     """What an element inherits."""
 
+    view: View  # what lengths refer to
     matrix: Matrix = IDENTITY
     style: Style = MappingProxyType({})
     naming: Naming = Naming()
@@ -57,7 +58,7 @@ class Walk:
         self.name, self.max_strokes, self.root = name, max_strokes, root
         self.cascade = Cascade(root)
         self.box, self.has_page = page(root, name)
-        self.view = self.box[2:]
+        self.view = View(*self.box[2:])
         self.by_id: dict[str, Element] = {}
         for element in root.iter():
             if (own := element.get("id")) is not None:
@@ -69,11 +70,11 @@ class Walk:
         self._cloned = 0
         self._strokes = self._points = 0
         self._boxes: dict[Element, Box] = {}
-        self._outlines: dict[Element, list[Subpath]] = {}
+        self._outlines: dict[tuple[Element, View], list[Subpath]] = {}
 
     def shapes(self) -> list[Shape]:
         """Every painted shape. Raises SketchError when there are more than `max_strokes` strokes."""
-        self._element(self.root, _Scope())
+        self._element(self.root, _Scope(self.view))
         return self._found
 
     def warnings(self) -> tuple[str, ...]:
@@ -86,17 +87,17 @@ class Walk:
 
     def ghosts(self, node: Element, matrix: Matrix) -> list[Shape]:
         """The shapes inside a clip path, whatever their paint."""
-        return self._apart(node, _Scope(matrix, depth=2, ghost=True))
+        return self._apart(node, _Scope(self.view, matrix, depth=2, ghost=True))
 
     def painted(self, node: Element, matrix: Matrix, style: Style) -> list[Shape]:
         """The shapes inside a mask."""
-        return self._apart(node, _Scope(matrix, style, depth=2))
+        return self._apart(node, _Scope(self.view, matrix, style, depth=2))
 
     def fill_box(self, element: Element) -> Box:
         """Bounding box of an element in its own coordinates, line widths and clips left out."""
         if element not in self._boxes:
             self._boxes[element] = (0.0, 0.0, 0.0, 0.0)  # what it is to its own descendants, should they ask
-            paths = [path for shape in self._apart(element, _Scope(depth=2, ghost=True), itself=True) for path in shape.paths]
+            paths = [path for shape in self._apart(element, _Scope(self.view, depth=2, ghost=True), itself=True) for path in shape.paths]
             self._boxes[element] = bounds(paths)
         return self._boxes[element]
 
@@ -108,7 +109,7 @@ class Walk:
         if style.get("transform-box") in ("fill-box", "content-box", "stroke-box", "border-box"):
             box = self.fill_box(element)
         else:
-            box = (0.0, 0.0, *self.view)
+            box = (0.0, 0.0, *self.view[:2])
         try:
             return matrix_of(attribute, style, box)
         except ValueError as error:
@@ -154,7 +155,11 @@ class Walk:
         if "clip-path" in style or "mask" in style:
             clip = both(clip, self.clips.region(element, style, matrix))
         group = scope.group if tag in SHAPES or is_root else element.get(LABEL) or element.get("id")
-        inner = _Scope(matrix, style, naming, scope.depth + 1, scope.uses, clip, scope.ghost, group)
+        view = scope.view
+        if "font-size" in style:
+            view = view.with_letters(style["font-size"])
+            style["font-size"] = repr(view.em)
+        inner = _Scope(view, matrix, style, naming, scope.depth + 1, scope.uses, clip, scope.ghost, group)
         if tag in SHAPES:
             self._shape(element, inner, style)
         elif tag == "use":
@@ -164,11 +169,11 @@ class Walk:
 
     def _group(self, element: Element, tag: str, scope: _Scope, given: Mapping[str, str]) -> None:
         if tag == "symbol" or (tag == "svg" and element is not self.root):
-            matrix, port = nested(element, self.view, self.name, given)
+            matrix, port, view = nested(element, scope.view, self.name, given)
             clip = scope.clip
             if port is not None and scope.style.get("overflow", "hidden") not in ("visible", "auto"):
                 clip = both(clip, rectangle(port, scope.matrix))
-            scope = scope._replace(matrix=scope.matrix @ matrix, clip=clip)
+            scope = scope._replace(matrix=scope.matrix @ matrix, clip=clip, view=view)
         if tag == "switch":
             first = next((child for child in element if local_name(child.tag) in _PAINTED | _OTHER.keys() and _fits(child)), None)
             if first is not None:
@@ -187,16 +192,16 @@ class Walk:
         elif target[1:] not in self.by_id:
             self.left_out.add("a clone of nothing")
         elif target not in scope.uses:
-            x, y = (user_length(attributes.get(a, "0"), i, element, self.view, self.name) for i, a in enumerate("xy"))
+            x, y = (user_length(attributes.get(a, "0"), i, element, scope.view, self.name) for i, a in enumerate("xy"))
             given = {side: attributes[side] for side in ("width", "height") if side in attributes}
             shifted = scope.matrix if x == y == 0 else scope.matrix @ translation(x, y)
             inner = scope._replace(matrix=shifted, uses=(*scope.uses, target), given=given)
             self._element(self.by_id[target[1:]], inner)
 
     def _shape(self, element: Element, scope: _Scope, style: Style) -> None:
-        line = seen(style.get("stroke", "none"), style.get("stroke-opacity", "1"), style)
-        fill = seen(style.get("fill", "black"), style.get("fill-opacity", "1"), style) if local_name(element.tag) != "line" else None
-        width = user_length(style.get("stroke-width", "1"), 2, element, self.view, self.name) if line else 0.0
+        line = seen(style.get("stroke", "none"), style.get("stroke-opacity", "1"), style, self.by_id)
+        fill = seen(style.get("fill", "black"), style.get("fill-opacity", "1"), style, self.by_id) if local_name(element.tag) != "line" else None
+        width = user_length(style.get("stroke-width", "1"), 2, element, scope.view, self.name) if line else 0.0
         scale = scale_of(scope.matrix)
         if style.get("visibility", "visible") != "visible" or (scale == 0 and not scope.ghost):  # 0: squeezed flat
             self._hide(element, scope)
@@ -260,10 +265,10 @@ class Walk:
             attributes = {**attributes, **geometry(style)}
         try:
             if not scope.uses or attributes is not element.attrib:
-                return transformed(subpaths(local_name(element.tag), attributes, self.view), scope.matrix)
-            if element not in self._outlines:
-                self._outlines[element] = subpaths(local_name(element.tag), attributes, self.view)
-            return transformed(self._outlines[element], scope.matrix)
+                return transformed(subpaths(local_name(element.tag), attributes, scope.view), scope.matrix)
+            if (element, scope.view) not in self._outlines:
+                self._outlines[element, scope.view] = subpaths(local_name(element.tag), attributes, scope.view)
+            return transformed(self._outlines[element, scope.view], scope.matrix)
         except ValueError as error:
             raise at(element, self.name, error) from None
 

@@ -35,7 +35,9 @@ class Subpath:
 
 
 def path_data(data: str) -> list[Subpath]:
-    """The runs of a path. Raises ValueError, in words, for data that make no sense."""
+    """The runs of a path ("none" has none, as SVG 2 says). Raises ValueError, in words, for data that make no sense."""
+    if data.strip() == "none":
+        return []
     if "n" in data or "N" in data:  # no command or number has an n
         raise ValueError("a coordinate is not a finite number")
     found: list[Subpath] = []

@@ -43,10 +43,20 @@ def transformed(paths: list[Subpath], matrix: Matrix) -> list[Subpath]:
     if matrix is IDENTITY:
         return paths
     linear, shift = matrix[:2, :2].T, matrix[:2, 2]
-    moved = [Subpath(path.start @ linear + shift, path.cubics @ linear + shift, path.closed) for path in paths]
+    moved = [_moved(path, linear, shift) for path in paths]
     if not all(np.isfinite(path.start).all() and np.isfinite(path.cubics).all() for path in moved):
         raise ValueError("a coordinate is not a finite number")
     return moved
+
+
+def _moved(path: Subpath, linear, shift) -> Subpath:
+    """One path after a transform; what ended where it began still does, to the last bit."""
+    start, cubics = path.start @ linear + shift, path.cubics @ linear + shift
+    if len(cubics):
+        back = (path.cubics[-1, 3] == path.start).all()
+        cubics[0, 0] = start
+        cubics[-1, 3] = start if back else cubics[-1, 3]
+    return Subpath(start, cubics, path.closed)
 
 
 def extent_of(paths: list[Subpath]) -> float:

@@ -21,6 +21,7 @@ from sketchtree.sketch.files.painted import Walk
 from sketchtree.sketch.files.path_effects import Spine
 from sketchtree.sketch.files.shapes import Shape, extent_of
 from sketchtree.sketch.files.svg_record import restored, sketch_record
+from sketchtree.sketch.files.viewport import View
 from sketchtree.sketch.strokes import Sketch, Stroke, StrokeKind
 
 FLATNESS = 5e-4  # how far a flattened curve may lie from the true one, of the drawing's size
@@ -159,8 +160,8 @@ def _same(parts: list[_Part], whole: list[_Part]) -> bool:
     return len(parts) == len(whole) and all(a is b for a, b in zip(parts, whole, strict=True))
 
 
-def _is_page(line, view: tuple[float, float]) -> bool:
+def _is_page(line, view: View) -> bool:
     low, high = line.min(0), line.max(0)
     corners = np.array([[x, y] for x in (low[0], high[0]) for y in (low[1], high[1])])
     gaps = np.abs(line[:, None] - corners).max(-1).min(1)
-    return bool(len(line) == 4 and gaps.max() < 1e-6 * max(view) and (high - low >= _PAGE * np.array(view)).all())
+    return bool(len(line) == 4 and gaps.max() < 1e-6 * max(view[:2]) and (high - low >= _PAGE * np.array(view[:2])).all())

@@ -24,22 +24,25 @@ IDENTITY.flags.writeable = False
 
 _FUNCTION = re.compile(r"(?<![a-zA-Z0-9])([a-zA-Z0-9]++)\s*+\(([^()]*+)\)")  # possessive: long texts are looked at once
 _NUMBER = re.compile(r"([-+]?(?:[0-9]++\.?+[0-9]*+|\.[0-9]++)(?:[eE][-+]?[0-9]++)?)([a-zA-Z%]*+)")
-_LENGTH = {"": 1.0, "px": 1.0, "in": 96.0, "cm": 96 / 2.54, "mm": 96 / 25.4, "q": 96 / 101.6, "pt": 96 / 72, "pc": 16.0}
-_LENGTH |= {"em": 16.0, "rem": 16.0, "ex": 8.0}
+_LENGTH = {"": 1.0, "px": 1.0, "in": 96.0, "cm": 96 / 2.54, "mm": 96 / 25.4, "q": 96 / 101.6, "pt": 96 / 72, "pc": 16.0, "rem": 16.0}
+_LETTER = {"em": 1.0, "ex": 0.5}
+EM = 16.0  # size of letters where nothing says otherwise, px
 _ANGLE = {"": 1.0, "deg": 1.0, "grad": 0.9, "rad": 180 / math.pi, "turn": 360.0}
 _MOVES = frozenset({"translate", "rotate", "scale", "transform-origin"})
 _KEYWORD = {"left": "0%", "top": "0%", "center": "50%", "right": "100%", "bottom": "100%"}
 
 
 @lru_cache(maxsize=4096)
-def length(text: str, percent_of: float = 0.0) -> float:
-    """A CSS or SVG length in user units (96 px an inch). Raises ValueError if it is none."""
+def length(text: str, percent_of: float = 0.0, em: float = EM) -> float:
+    """A CSS or SVG length in user units (96 px an inch; `em` a letter). Raises ValueError if it is none."""
     match = _NUMBER.fullmatch(text.strip())
     value, unit = (float(match[1]), match[2].lower()) if match else (math.inf, "")
     if not math.isfinite(value):
         raise ValueError(f"'{text[:40]}' is not a length")
     if unit == "%":
         return value / 100 * percent_of
+    if unit in _LETTER:
+        return value * _LETTER[unit] * em
     if unit not in _LENGTH:
         raise ValueError(f"'{text[:40]}' has a unit that is not a length")
     return value * _LENGTH[unit]

@@ -131,7 +131,7 @@ MASK = '<mask id="m" {}>{}</mask>'
         ('style="mask-type:alpha"', '<g fill="#D9D9D9"><rect x="20" width="40" height="100"/></g>'),
         ("", '<rect width="100" height="100" fill="#fff"/><rect x="60" width="40" height="100"/><rect width="20" height="100" fill="rgb(0,0,0)"/>'),
         ("", '<path d="M40 0V100" stroke="white" stroke-width="40"/>'),
-        ('maskUnits="userSpaceOnUse" x="20" y="0" width="40" height="100"', '<rect width="100" height="100" fill="url(#fade)"/>'),
+        ('maskUnits="userSpaceOnUse" x="20" y="0" width="40" height="100"', '<linearGradient id="fade"/><rect width="100" height="100" fill="url(#fade)"/>'),
         ('maskContentUnits="objectBoundingBox"', '<rect x=".2" y="-9" width=".4" height="99" fill="white"/>'),
     ],
 )

@@ -124,9 +124,32 @@ def test_an_import_is_not_fetched_but_told():
     assert styled("@import url('http://example.org/a.css');")[1] == ["A style sheet of another file was left out; lines may look other than drawn."]
 
 
+@pytest.mark.parametrize(
+    "rule, why",
+    [
+        ("path:fancy(3)", "its selector is not understood"),
+        ("@supports (display: grid)", "at-rules of its kind are not read"),
+        ("@layer ink", "at-rules of its kind are not read"),
+    ],
+)
+def test_rules_that_are_not_read_are_told(rule, why):
+    inner = "path{stroke-width:2}" if rule[0] == "@" else "stroke-width:2"
+    style, warnings = styled(f"{rule}{{{inner}}} .a{{stroke:red}}")
+    assert style == {"stroke": "red"} and warnings == [f"The style rule '{rule}' was left out: {why}."]
+
+
+def test_a_rule_inside_a_rule_is_told_and_the_outer_one_holds():
+    style, warnings = styled(".a{stroke:red; .b{stroke:none}}")
+    assert style == {"stroke": "red"} and warnings == ["The style rule '.b' was left out: rules inside rules are not read."]
+
+
+def test_rules_that_say_nothing_of_strokes_are_not_told():
+    assert styled("path:fancy(3){cursor:pointer} @font-face{src:url(x)} @keyframes a{from{stroke:none}} path::before{stroke:red}")[1] == []
+
+
 def test_rules_that_compare_too_many_elements_are_left_out_and_told():
     crowd = "<line/>" * 2001 + PATH.format("")
     style, warnings = styled("line ~ path{stroke-width:1} path:nth-of-type(1){stroke-width:2} [data-x~='1']{fill:red}", crowd)
-    assert style == {"fill": "red"} and len(warnings) == 2
-    assert warnings[0] == "The style rule 'line ~ path' was left out: it compares too many elements with each other."
+    assert style == {"fill": "red"}
+    assert warnings == ["The style rule 'line ~ path' (and 1 more of them) was left out: it compares too many elements with each other."]
     assert width("line ~ path{stroke-width:1}", "<line/>" + PATH.format("")) == "1"

@@ -56,7 +56,6 @@ REFUSED = {
     "uses.svg": (uses(9), "nests its groups|holds more than"),
     "clones.svg": (clones(100), "clones.svg draws more than 5 million points. Simplify its lines, unlink its clones"),
     "deep.svg": (SVG.format("<g>" * 100_000 + PATH + "</g>" * 100_000), "nests its groups"),
-    "deep_style.svg": (SVG.format(PATH.replace("<path", '<path style="stroke:' + "(" * 5000 + '"')), "nests its parts too deep to be read"),
     "wide.json": (SKETCH.replace('"trunk",', '"trunk", "width": 1e999,'), "its width is inf; a number of at least 0 was expected"),
     "deep.json": ("[" * 100_000, "not one well-formed JSON document|nests its lists"),
     "deep_objects.json": ('{"sketchtree": 1, "strokes": ' + '{"a":' * 100_000, "not one well-formed JSON document|nests its lists"),
@@ -87,6 +86,22 @@ def test_a_hostile_file_is_refused_in_one_sentence(name, tmp_path):
     with pytest.raises(SketchError, match=message) as error:
         read_sketch(tmp_path / name)
     assert error.value.remedy and len(str(error.value)) < 600
+
+
+@pytest.mark.parametrize(
+    "deep, told",
+    [
+        (PATH.replace("<path", '<path style="fill:red;stroke:' + "(" * 5000 + '"'), "The style of a <path> nests its brackets too deep; it was left out."),
+        ("<style>path{fill:" + "(" * 5000 + "}</style>" + PATH, "A style sheet nests its brackets too deep; the rest of it was left out."),
+        ("<style>" + "@media all{" * 5000 + "path{fill:red}</style>" + PATH, "A style sheet nests its brackets too deep; the rest of it was left out."),
+    ],
+    ids=["attribute", "sheet", "at-rules"],
+)
+def test_a_style_nested_without_end_is_told_and_the_drawing_is_read_without_it(deep, told, tmp_path):
+    (tmp_path / "deep.svg").write_text(SVG.format(deep))
+    sketch = read_sketch(tmp_path / "deep.svg")
+    assert sketch.strokes[0].points.tolist() == [[0, 0], [1, -5]] and sketch.strokes[0].width == 1.0
+    assert sketch.warnings == (told,)
 
 
 def test_a_gzip_bomb_stops_at_the_limit(tmp_path):

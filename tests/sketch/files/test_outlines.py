@@ -3,8 +3,9 @@ import pytest
 import shapely
 
 from sketchtree.sketch.files.outlines import flatten, subpaths
+from sketchtree.sketch.files.viewport import View
 
-VIEW = (100.0, 100.0)
+VIEW = View(100.0, 100.0)
 
 
 def points_of(tag, tolerance=0.01, **attributes):

@@ -197,3 +197,37 @@ def test_too_many_pieces_of_one_path_are_too_many_strokes():
 
 def test_strokes_inside_clips_do_not_count():
     assert len(sketch_of(f'<clipPath id="c">{BARE * 9}</clipPath><g clip-path="url(#d)">{BARE}</g>', max_strokes=1)) == 1
+
+
+@pytest.mark.parametrize("sized", ['<svg width="100" height="40" viewBox="0 0 50 20">{}</svg>', '<symbol id="s" viewBox="0 0 50 20">{}</symbol><use href="#s" width="100" height="40"/>'])
+def test_percentages_are_of_the_nearest_viewport(sized):
+    line = only(sized.format('<line x1="10%" y1="50%" x2="90%" y2="100%" stroke="black" stroke-width="10%"/>'))
+    assert line.points == pytest.approx(np.array([[10, -20], [90, -40]]))
+    assert line.width == pytest.approx(2 * 0.1 * np.hypot(50, 20) / np.sqrt(2))
+
+
+def test_letters_are_as_large_as_the_font_around():
+    def ends(size, unit):
+        return only(f'<g font-size="20"><g style="font-size:{size}"><line x2="1{unit}" stroke="black"/></g></g>').points[-1, 0]
+
+    assert [ends("20px", "em"), ends("50%", "em"), ends("2em", "em"), ends("30", "ex")] == [20, 10, 40, 15]
+    assert [ends("larger", "em"), ends("30", "rem")] == [20, 16]
+    assert only('<line x2="1em" stroke="black"/>').points[-1, 0] == 16
+
+
+@pytest.mark.parametrize("paint, shows", [("url(#here)", True), ("url('#here') none", True), ("url(#gone) red", True), ("url(#gone)", False), ("url(#gone) none", False),
+                                          ("url(other.svg#here)", False)])  # fmt: skip
+def test_a_line_of_a_gradient_shows_if_the_gradient_is_there_or_a_colour_stands_in(paint, shows):
+    gradient = '<linearGradient id="here"><stop stop-color="red"/></linearGradient>'
+    sketch = sketch_of(gradient + f'<path d="M0 0L9 9" fill="none" stroke="{paint}"/>')
+    assert len(sketch) == shows and sketch.warnings == (() if shows else ("A shape without fill or stroke was left out.",))
+
+
+def test_a_path_of_none_draws_nothing():
+    assert ids('<path d="none" stroke="red"/>' + NAMED) == ["a"]
+
+
+def test_a_closed_outline_that_is_turned_does_not_repeat_its_first_point():
+    for shape in ('<rect x="3" y="7" width="50" height="20"', '<path d="M3 7H53V27H3L3 7Z"', '<polygon points="3,7 53,7 53,27 3,27"'):
+        outline = only(f'{shape} transform="rotate(30) scale(1.7 .9)" fill="none" stroke="red"/>')
+        assert outline.closed and len(outline.points) == 4
