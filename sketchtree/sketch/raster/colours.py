@@ -1,7 +1,9 @@
 """Which painted areas are no wood? Green foliage, and the grey shadow under a brown tree.
 
-Paint is even: an area that is rougher than EVEN is foliage in a photograph, and no paint. Areas are solid where a disc of SOLID of the picture fits in; thin green or grey lines stay lines. Solid green is
-foliage: its outline, limbs that lie over it included, is a crown. Solid grey is a shadow, in a picture whose wood is brown.
+Paint is even: an area that is rougher than EVEN is foliage in a photograph, and no paint. What lies along most of the
+picture's edge is its paper. Areas are solid where a disc of SOLID of the picture fits in; thin green or grey lines stay lines.
+Solid green is foliage: its outline, limbs that lie over it included, is a crown. Solid grey is a shadow, in a picture whose
+wood is brown.
 """
 
 from dataclasses import dataclass
@@ -24,6 +26,7 @@ GREYEST = 0.15  # greatest saturation of a grey
 SOLID = 0.012  # of the picture's larger side: radius of the disc that fits into an area
 FRINGE = 0.004  # of the same: how far the blended edge of an area reaches
 LARGE = 0.01  # of the picture: a smaller area is no crown
+EDGING = 0.5  # of the picture's edge: an area along more of it is the paper
 EVEN = 0.035  # of full lightness: standard deviation of the tones within an area, from pixel to pixel
 EDGE = 0.03  # of the foliage's size: a line that keeps as near to its outline …
 ALONG = 0.8  # … over so much of its length is its edge
@@ -50,6 +53,7 @@ def painted_areas(rgb: UInt8[np.ndarray, "row col 3"]) -> Painted | None:
     grey = np.zeros_like(green)
     if brown.mean() >= WOOD:
         grey = _solid((saturation <= GREYEST) & (light < 0.9), SOLID * side)
+    green, grey = (np.zeros_like(part) if _is_paper(part) else part for part in (green, grey))
     green, grey = (part if _is_even(rgb, part, factor) else np.zeros_like(part) for part in (green, grey))
     if green.mean() < LARGE and not grey.any():
         return None
@@ -81,6 +85,11 @@ def without_edges(lines: list[Traced], outlines: list[Float[np.ndarray, "point 2
         if along < ALONG or line.length < 2 * reach:
             kept.append(line)
     return kept or lines
+
+
+def _is_paper(area: Bool[np.ndarray, "row col"]) -> bool:
+    """Whether an area lies along most of the picture's edge."""
+    return float(np.concatenate([area[0], area[-1], area[:, 0], area[:, -1]]).mean()) > EDGING
 
 
 def _is_even(rgb: UInt8[np.ndarray, "row col 3"], area: Bool[np.ndarray, "small_row small_col"], factor: int) -> bool:

@@ -72,7 +72,7 @@ def without_foliage(lines: list[Traced], pen: float) -> Foliage:
     cell = height / GRID
     region = _region([line for line, leaf in zip(rest, leafy, strict=True) if leaf], low, points.max(0), cell)
     leafy &= np.array([_within(line, region, low, cell) >= 0.5 * WITHIN for line in rest])
-    left = bridged(_freed([line for line, leaf in zip(rest, leafy, strict=True) if not leaf]), pen, dashes=False)
+    left = bridged(_freed([line for line, leaf in zip(rest, leafy, strict=True) if not leaf]), pen)
     wood = [line for line in left if _is_limb(line, height) or _within(line, region, low, cell) < WITHIN]
     if not wood:
         return Foliage(rest, 0, int(is_hatch.sum()), [])

@@ -176,11 +176,11 @@ def _touch(lines: list[Traced], through: dict[int, list[int]], web: Web) -> None
                 lines[k].grow(side, target[None])
 
 
-def end_direction(line: Traced, side: int) -> Float[np.ndarray, " 2"]:
-    """Unit direction in which a line leaves at its first (0) or last (1) point."""
+def end_direction(line: Traced, side: int, over: float = 1.5) -> Float[np.ndarray, " 2"]:
+    """Unit direction in which a line leaves at its first (0) or last (1) point, taken over so many of its widths."""
     points = line.points if side == 0 else line.points[::-1]
     s = np.r_[0.0, np.cumsum(np.hypot(*np.diff(points, axis=0).T))]
-    reach = min(s[-1], max(4.0, 1.5 * float(line.width[0 if side == 0 else -1])))
+    reach = min(s[-1], max(4.0, over * float(line.width[0 if side == 0 else -1])))
     step = points[0] - [np.interp(reach, s, points[:, k]) for k in (0, 1)]
     return step / max(float(np.hypot(*step)), 1e-9)
 

@@ -109,7 +109,7 @@ def _lines(ink: Ink, name: str) -> Read:
     mask = clean.mask if filled is None else filled.mask
     if filled is not None:
         web = trace(*thinned(mask), ink.pen)
-    lines = bridged(whole_lines(web, link(web, ink.pen), ink), ink.pen)
+    lines = bridged(whole_lines(web, link(web, ink.pen), ink), ink.pen, ink=ink)
     check_lines(lines, len(dotted), clean.specks, extent(mask), name)
     foliage = without_foliage(lines, ink.pen)
     drawn_on(foliage.wood, mask, ink.pen)
