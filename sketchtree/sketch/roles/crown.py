@@ -2,8 +2,9 @@
 
 A stroke is an outline by its shape if its ends nearly meet and it is round rather than a thin loop (4πA/P² of its hull
 times the part of the hull it fills ≥ ROUND; a painted one is bulky, 2A/P ≥ BULK of its size). It is a crown if it
-reaches high and at least half of the other strokes' upper ends lie in it or near it. Several smaller ones are crowns
-together: each on a limb of its own, all of them around half of the tips.
+reaches high and at least half of the other strokes' upper ends lie in it or near it. Large outlines that overlap such a
+crown are tiers of it, as a fir has; small ones on it are ornaments. Several smaller ones are crowns
+together: each on a limb of its own, all of them around half of the tips; of these some may be less closed than others.
 """
 
 import numpy as np
@@ -23,6 +24,9 @@ SMALL = 0.1  # the same where several are crowns together …
 MOST = 12  # … no more than these: else they are leaves
 HIGH = 0.6  # of the drawing's height: a crown reaches above it (a shadow on the ground does not)
 NEAR = 0.1  # of the drawing's size: a tip this near to the outline counts as inside
+TIER = 0.5  # of the crown's width: a tier is at least as wide
+ALOFT = 0.1  # of the drawing's height: tiers and ornaments keep this far from its foot
+WIDER, ALIKE = 0.6, 0.5  # widest opening of a lobe beside others that are closed, and how large it is at least, beside their middle size
 ON_GROUND = 0.08  # of its size: a dome's ends are this near to the ground line
 STANDS = 0.05  # of the drawing's height: a shape that comes this near to its foot stands on the ground
 SLIM = 2.2  # length over mean width from which such a shape is a trunk's outline
@@ -49,11 +53,13 @@ def closed_crowns(
         return []
     alone = reaches & (m.size[rows] >= LARGE * size) & (inside.mean(1) >= 0.5)
     if alone.any():
-        return _kept(m, rows, regions, alone, "a closed outline around most of the branches' tips")
+        found = _kept(m, rows, regions, alone, "a closed outline around most of the branches' tips")
+        return [*found, *_on_crowns(m, rows[~alone], [one.row for one in found if one.role == "crown"])]
     together = inside.any(1)
     enough = inside[together].any(0).mean() >= 0.5 and together.sum() <= MOST
     if enough and reaches[together].any() and (len(rows) > 1 or m.size[rows[0]] >= LARGE * size):
-        return _kept(m, rows, regions, together, "one of several closed outlines on the branches' tips")
+        found = _kept(m, rows, regions, together, "one of several closed outlines on the branches' tips")
+        return [*found, *_open_lobes(m, free, [one.row for one in found if one.role == "crown"], NEAR * size)]
     return []
 
 
@@ -70,22 +76,60 @@ def has_area(stroke: Stroke) -> bool:
     return len(outline(stroke.points)) >= 3 and shapely.convex_hull(shapely.MultiPoint(stroke.points)).area > 0
 
 
+def _on_crowns(m: Measures, rows, crowns: list[int]) -> list[Found]:
+    """What the other outlines are that lie on a crown, well above the foot: large ones its tiers, small ones ornaments."""
+    low, high = m.drawing
+    height, width = float(high[1] - low[1]), float((m.high - m.low)[crowns, 0].max())
+    area = shapely.union_all([_region(m.strokes[row].points, 0.0) for row in crowns])
+    found = []
+    above = rows[m.low[rows, 1] >= low[1] + ALOFT * height]
+    for row in sorted(above.tolist(), key=lambda row: -m.high[row, 1]):
+        shape = _region(m.strokes[row].points, 0.0)
+        if not shape.intersects(area):
+            continue
+        side = m.high[row] - m.low[row]
+        if side[0] >= TIER * width and m.size[row] >= LARGE * float((high - low).max()):
+            found.append(Found(row, "crown", "a tier of the crown: it overlaps the outline above"))
+            area = area.union(shape)
+        elif side.max() < TIER * width:
+            found.append(Found(row, "leaves", "a small closed shape on the crown", (("branch", 0.8),)))
+    return found
+
+
+def _open_lobes(m: Measures, free, lobes: list[int], near: float) -> list[Found]:
+    """Less closed outlines beside several lobes, as large as those and touching one of them."""
+    if len(lobes) < 2:
+        return []
+    middle = float(np.median(m.size[lobes]))
+    alike = free & (m.size >= ALIKE * middle) & (m.size <= middle / ALIKE) & (m.opening <= WIDER * m.size) & ~m.filled
+    alike[lobes] = False
+    rows = np.flatnonzero(alike & (m.low[:, 1] >= m.low[lobes, 1].min() - near) & (m.area > 0) & (np.diff(m.first_point) >= 4))
+    areas = shapely.union_all([_region(m.strokes[row].points, near) for row in lobes])
+    beside = [row for row in rows.tolist() if _roundness(m, np.array([row]))[0] >= ROUND and areas.intersects(shapely.LineString(m.strokes[row].points))]
+    return [Found(row, "crown", "a lobe as large as the closed ones beside it", (("branch", 0.6),)) for row in beside]
+
+
+def _roundness(m: Measures, rows) -> Float[np.ndarray, " row"]:
+    """4πA/P² of the convex hull of each outline, times the part of it that the outline fills."""
+    hull = shapely.convex_hull([shapely.MultiPoint(m.strokes[row].points) for row in rows])
+    area = np.maximum(shapely.area(hull), 1e-300)
+    return 4 * np.pi * area / shapely.length(hull) ** 2 * np.minimum(m.area[rows] / area, 1.0)
+
+
 def _outlines(m: Measures, free, size: float, ground: list[np.ndarray]):
     """Rows of the strokes that are outlines by their shape."""
     nearly = (m.opening <= OPEN * m.size) | on_ground(m, ground)
     rows = np.flatnonzero(free & (m.size >= SMALL * size) & nearly & (np.diff(m.first_point) >= 4) & (m.area > 0))
     if len(rows) == 0:
         return rows
-    hull = shapely.convex_hull([shapely.MultiPoint(m.strokes[row].points) for row in rows])
-    area, around = shapely.area(hull), shapely.length(hull)
-    compact = 4 * np.pi * area / around**2 * np.minimum(m.area[rows] / area, 1.0)
+    around = shapely.length(shapely.convex_hull([shapely.MultiPoint(m.strokes[row].points) for row in rows]))
     bulky = 2 * m.area[rows] / np.maximum(m.length[rows], around) >= BULK * m.size[rows]
     side = m.high[rows] - m.low[rows]
     low, high = m.drawing
     stands = m.low[rows, 1] <= low[1] + STANDS * (high[1] - low[1])
     slim = slenderness(m.area[rows], m.length[rows] + m.opening[rows]) >= SLIM
     trunk = stands & slim & (side[:, 1] > side[:, 0]) & (m.high[rows, 1] < high[1])
-    return rows[(compact >= ROUND) & (bulky | ~m.filled[rows]) & ~trunk]
+    return rows[(_roundness(m, rows) >= ROUND) & (bulky | ~m.filled[rows]) & ~trunk]
 
 
 def on_ground(m: Measures, ground: list[np.ndarray]) -> Bool[np.ndarray, " stroke"]:

@@ -16,6 +16,7 @@ from sketchtree.sketch.roles.found import Found
 from sketchtree.sketch.roles.masses import border, bulk_and_trunk
 from sketchtree.sketch.roles.measures import Measures
 from sketchtree.sketch.roles.scribble import Scribble, meaning, scribbles
+from sketchtree.sketch.roles.stubs import stubs
 from sketchtree.sketch.roles.table import Table
 from sketchtree.sketch.strokes import Stroke
 
@@ -57,8 +58,20 @@ def find_crowns(table: Table, ground: list[np.ndarray]) -> None:
     if not table.outlines and (alone := lone_outline(_closed_by(ground, m, np.flatnonzero(tame)))) is not None:
         table.outlines.append(outline(alone))
         table.take([Found(int(row), "crown", "a closed outline without a trunk") for row in np.flatnonzero(tame)])
+    find_stubs(table)
     for row in wild.tolist():
         _take_scribble(table, meaning(m, row, table.crown_area(), alone=not table.outlines and len(wild) == table.wood.sum()))
+
+
+def find_stubs(table: Table) -> None:
+    """Trunks drawn as stout shapes under a crown."""
+    rows = np.flatnonzero(table.free)
+    if not table.outlines or len(rows) == 0:
+        return
+    for stub in stubs(table.m, rows, table.outlines):
+        table.stubs.append((stub.row, stub.middle, stub.width))
+        table.take(list(stub.inner))
+        table.wood[stub.row] = table.free[stub.row] = False
 
 
 def _closed_by(ground: list[np.ndarray], m: Measures, rows) -> list[Stroke]:

@@ -26,6 +26,7 @@ DEEP = 0.12  # of the drawing's height: what reaches deeper below the line must 
 TOGETHER = 0.2  # of the drawing's height: roots start no farther apart
 TUFT = 0.1  # of the drawing's height: grass is smaller
 APART = 0.015  # of the drawing's height: grass does not touch a stem
+AS_THICK = 0.6  # of a stem: a line whose own thickness was measured is thinner than that where it is the ground
 BROAD = 1.2  # of the width of the rest: a wider painted area at the foot is ground, no shadow
 
 
@@ -132,6 +133,8 @@ def _stood_on(m: Measures, row: int, standing: Stems, height: float) -> str:
     near = shapely.distance(shapely.points(standing.foot), shape) <= AT_FOOT * height if len(at) else np.zeros(0, bool)
     near |= over & (np.abs(standing.foot[:, 1] - at) <= AT_FOOT * height)
     feet = standing.foot[near & rising]
+    if _as_thick(m, row, standing.row[near & rising]):
+        return ""
     if len(feet) == 0:
         return "a level line that the tree passes through, roots below" if _rooted(m, row, height, deep) else ""
     passes = bool((feet[:, 0].min() - m.low[row, 0] >= BESIDE * height) and (m.high[row, 0] - feet[:, 0].max() >= BESIDE * height))
@@ -139,6 +142,12 @@ def _stood_on(m: Measures, row: int, standing: Stems, height: float) -> str:
     if deep > DEEP * height and not (passes and _rootlike(m, row, height)):
         return ""
     return "a level line that a stem stands on" if passes or keeps_low else ""
+
+
+def _as_thick(m: Measures, row: int, on_it: Int[np.ndarray, " stem"]) -> bool:
+    """Whether the thickness of a line was measured, and is that of a limb beside what stands on it."""
+    stem = max((m.strokes[k].width or 0.0 for k in on_it), default=0.0)
+    return bool(m.strokes[row].wood and stem and m.strokes[row].width >= AS_THICK * stem)
 
 
 def _rooted(m: Measures, row: int, height: float, deep: float) -> bool:

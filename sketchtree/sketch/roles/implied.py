@@ -1,7 +1,7 @@
 """What trunk does a drawing imply that shows none? A bush is a crown on the ground; a fir's trunk runs up through its outline.
 
 Under a crown with no branch at all a stem stands on the ground, below the middle of the crown, and ends in it. In a
-pointed crown with nothing drawn inside it, the trunk below is carried on to near the top.
+pointed crown with nothing drawn inside it (tiers that overlap are one), the trunk below is carried on to near the top.
 """
 
 import numpy as np
@@ -26,7 +26,7 @@ def implied_stems(
     for points in sorted(outlines, key=lambda points: tuple(points.min(0))):
         x = float(shapely.make_valid(shapely.Polygon(points)).centroid.x)
         bottom, top = float(points[:, 1].min()), float(points[:, 1].max())
-        foot = min(bottom, float(level_at(ground, x))) if ground else bottom
+        foot = float(level_at(ground, x)) if ground else bottom
         stem = np.array([[x, foot], [x, foot + STEM * (top - foot)]])
         lines.append(Line(row, stroke_id, stem, np.full(2, np.nan)))
     many = "stems were put" if len(lines) > 1 else "one stem was put"
@@ -41,6 +41,13 @@ def carried_on(
     if not more:
         return lines, []
     return [*lines, *more], ["Nothing is drawn inside the pointed crown: the trunk was carried on to near its top. Draw it inside the crown to say otherwise."]
+
+
+def merged(outlines: list[Float[np.ndarray, "point 2"]]) -> list[Float[np.ndarray, "point 2"]]:
+    """The outlines, those that overlap (the tiers of a fir) as one."""
+    area = shapely.union_all([shapely.make_valid(shapely.Polygon(points)) for points in outlines])
+    pieces = [piece for piece in shapely.get_parts(area) if piece.geom_type == "Polygon"]
+    return [shapely.get_coordinates(piece.exterior)[:-1] for piece in pieces] if len(pieces) < len(outlines) else outlines
 
 
 def _leader(lines: list[Line], points: Float[np.ndarray, "point 2"], row: int, stroke_id: str) -> Line | None:

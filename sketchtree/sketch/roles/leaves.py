@@ -6,6 +6,7 @@ people draw lobes of foliage; so are several short dashes in a crown without lim
 
 import numpy as np
 import shapely
+import shapely.ops
 from jaxtyping import Bool
 
 from sketchtree.sketch.roles.brush import slenderness
@@ -44,7 +45,7 @@ def marks_inside(m: Measures, free: Bool[np.ndarray, " stroke"], crown, wood: Bo
     lines = m.shapes(rows)
     rows = rows[shapely.length(shapely.intersection(lines, crown)) >= 0.9 * shapely.length(lines)]
     bowed = arcs[rows]
-    loose = _loose(m, rows, wood & ~m.filled & ~_mask(len(m), rows[bowed]), LOOSE * height)
+    loose = _loose(m, rows, bowed, wood & ~m.filled, LOOSE * height)
     found = [Found(int(row), "leaves", "an arc inside the crown that touches no branch", (("branch", 0.5),)) for row in rows[loose & bowed]]
     dashes = rows[loose & ~bowed]
     inner = np.flatnonzero(wood & ~_mask(len(m), rows[loose]))
@@ -54,15 +55,23 @@ def marks_inside(m: Measures, free: Bool[np.ndarray, " stroke"], crown, wood: Bo
     return found
 
 
-def _loose(m: Measures, rows, wood: Bool[np.ndarray, " stroke"], reach: float) -> Bool[np.ndarray, " row"]:
-    """Which of these strokes touch none of the wood but themselves with either end."""
-    others = np.flatnonzero(wood)
-    tree = shapely.STRtree(m.shapes(others))
-    ends = shapely.points(np.concatenate([m.first[rows], m.last[rows]]))
-    end, other = tree.query(ends, predicate="dwithin", distance=reach)
-    loose = np.ones(len(rows), bool)
-    loose[end[rows[end % len(rows)] != others[other]] % len(rows)] = False
-    return loose
+def _loose(m: Measures, rows, bowed, wood: Bool[np.ndarray, " stroke"], reach: float) -> Bool[np.ndarray, " row"]:
+    """Which of these strokes touch no branch with either end. The bowed ones are branches only where they touch one
+    themselves, and bear others only along their length: lobes of foliage touch end to end."""
+    found, loose = np.zeros(len(rows), bool), np.ones(len(rows), bool)
+    branches = m.shapes(np.flatnonzero(wood & ~_mask(len(m), rows[bowed])))
+    while True:
+        tree = shapely.STRtree(branches)
+        ends = shapely.points(np.concatenate([m.first[rows], m.last[rows]]))
+        end, other = tree.query(ends, predicate="dwithin", distance=reach)
+        own = shapely.equals(branches[other], m.shapes(rows)[end % len(rows)])
+        loose[end[~own] % len(rows)] = False
+        new = bowed & ~loose & ~found
+        if not new.any():
+            return loose
+        found |= new
+        inner = [shapely.ops.substring(line, 2 * reach, line.length - 2 * reach) for line in m.shapes(rows[new]) if line.length > 5 * reach]
+        branches = np.array(inner, object)
 
 
 def _mask(count: int, rows) -> Bool[np.ndarray, " stroke"]:

@@ -18,7 +18,7 @@ from sketchtree.sketch.roles.crowns import find_crowns
 from sketchtree.sketch.roles.found import role_warnings
 from sketchtree.sketch.roles.ground import grass, ground_lines
 from sketchtree.sketch.roles.hatching import hatching
-from sketchtree.sketch.roles.implied import carried_on, implied_stems
+from sketchtree.sketch.roles.implied import carried_on, implied_stems, merged
 from sketchtree.sketch.roles.ink import find_ink, read_ink
 from sketchtree.sketch.roles.leaves import leaf_shapes, marks_inside
 from sketchtree.sketch.roles.page import cuts_of, frames
@@ -63,14 +63,15 @@ def sort_strokes(sketch: Sketch) -> Sorted:
     _find_leaves(table)
     wood = wood_lines(table.m, np.flatnonzero(table.wood).tolist(), table.legs, table.pieces, table.outlines)
     table.add_rims(wood)
-    trunks = trunks_of_edges(wood.lines, table.outlines)
+    stout = [Line(row, sketch.strokes[row].id, middle, np.full(2, width)) for row, middle, width in table.stubs]
+    trunks = trunks_of_edges([*wood.lines, *stout], table.outlines)
     lines, sides = trunks.lines, [*wood.sides, *trunks.sides]
     table.add_bark([*wood.bark, *trunks.bark], lines)
     stem_warnings = []
     if not lines and table.outlines:
         lines, stem_warnings = implied_stems(table.outlines, ground, *_owner(table))
     elif table.outlines:
-        lines, stem_warnings = carried_on(lines, table.outlines, *_owner(table))
+        lines, stem_warnings = carried_on(lines, merged(table.outlines), *_owner(table))
     rooted = roots_apart(lines, ground, table.named_roots)
     cuts, cut_warnings = cuts_of([*rooted.above, *rooted.below], sketch.page)
     roles = tuple(table.found[row].named(sketch.strokes[row].id) for row in sorted(table.found))
@@ -113,5 +114,5 @@ def _find_leaves(table: Table) -> None:
         table.take(marks_inside(table.m, table.free, table.crown_area(0.02 * height), table.wood, height))
     table.take(hatching(table.m, table.free, table.wood, height))
     leaves = leaf_shapes(table.m, table.free, height)
-    if len(leaves) < table.wood.sum():
+    if len(leaves) < table.wood.sum() or table.stubs:
         table.take(leaves)

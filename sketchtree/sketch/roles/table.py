@@ -35,6 +35,7 @@ class Table:
     outlines: list[np.ndarray] = field(default_factory=list)  # of crowns
     legs: dict[int, tuple[np.ndarray, ...]] = field(default_factory=dict)  # wood in strokes that drew a crown too
     pieces: list[tuple[int, Stroke]] = field(default_factory=list)  # of painted strokes that are wood only in part
+    stubs: list[tuple[int, np.ndarray, float]] = field(default_factory=list)  # stout trunks: row, middle line, width
     inks: list[tuple[int, list[int]]] = field(default_factory=list)  # painted paths that are the lines of a drawing, their areas
     parts: list[Part] = field(default_factory=list)
     named_roots: set[int] = field(default_factory=set)

@@ -110,7 +110,7 @@ def _side(line: Line, row: int, height: float, crowns) -> _Side:
     ends = ends[ends >= 4]
     if len(ends) == 0:
         return _Side(line, (row,), ())
-    top = float(s[ends[0]])
+    top = float(s[ends[0] - 1 if deep[ends[0]] else ends[0]])
     return _Side(line.cut(0.0, top), (row,), (line.cut(top, line.length),) if top < line.length else ())
 
 
