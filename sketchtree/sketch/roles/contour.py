@@ -30,6 +30,7 @@ LARGE = 0.35  # least size, of the drawing's
 HIGH = 0.9  # of the drawing's height: its top is above
 NEAR = 0.06  # of the drawing's size: a point no farther outside is inside
 MEET = 0.1  # of the drawing's size: ends no farther apart than this meet
+PIECE = 0.25  # of the opening: a stroke that closes it is as long
 LEVEL = 0.3  # of its width: how much higher one end of an arc lies than the other; stems side by side are no outline
 INNER = 0.15  # of its width: the trunk stands at least this far from either side
 LEG = 0.12  # of the drawing's height: how far the trunk reaches below the outline, and its feet from the ground
@@ -99,8 +100,28 @@ def _of_way(rows: tuple[int, ...], way, drawn: list, size: float) -> Contour | N
         outline, legs = way[low : high + 1], [leg for leg in (way[: low + 1], way[high:]) if len(leg) > 1]
         if _is_round(outline) and _crowns(outline, [*legs, *others], size):
             kept = [leg for leg in legs if np.ptp(leg, axis=0).max() > 0.5 * NEAR * size]
-            return Contour(outline, {rows[0]: tuple(kept), **{row: () for row in rows[1:]}})
+            closing = _closing(outline, {k: drawn[k] for k in range(len(drawn)) if k not in rows}, size)
+            outline = np.vstack([outline, *closing.values()])
+            return Contour(outline, {rows[0]: tuple(kept), **{row: () for row in [*rows[1:], *closing]}})
     return None
+
+
+def _closing(outline, others: dict[int, Float[np.ndarray, "point 2"]], size: float) -> dict[int, Float[np.ndarray, "point 2"]]:
+    """The strokes that close the outline's opening: both their ends lie on it, one after the other. In order, from its end to its start."""
+    begin, end = outline[-1], outline[0]
+    gap = float(np.hypot(*(end - begin)))
+    if gap < MEET * size:
+        return {}
+    way = (end - begin) / gap
+    found = []
+    for row, points in others.items():
+        s, off = (points - begin) @ way, np.abs((points - begin) @ np.array([-way[1], way[0]]))
+        points, s, off = (points, s, off) if s[0] <= s[-1] else (points[::-1], s[::-1], off[::-1])
+        if off[[0, -1]].max() <= MEET * size and s[0] > -MEET * size and s[-1] < gap + MEET * size and s[-1] - s[0] >= max(PIECE * gap, 2 * off.max()):
+            found.append((float(s[0]), float(s[-1]), row, points))
+    found.sort(key=lambda piece: piece[:2])
+    apart = [piece for k, piece in enumerate(found) if k == 0 or piece[0] >= found[k - 1][1] - MEET * size]
+    return {row: points for _, _, row, points in apart}
 
 
 def _roundest(way: Float[np.ndarray, "point 2"], size: float, ground: float, widest: float) -> Iterator[tuple[int, int]]:

@@ -92,7 +92,7 @@ def _on_crowns(m: Measures, rows, crowns: list[int]) -> list[Found]:
             found.append(Found(row, "crown", "a tier of the crown: it overlaps the outline above"))
             area = area.union(shape)
         elif side.max() < TIER * width:
-            found.append(Found(row, "leaves", "a small closed shape on the crown", (("branch", 0.8),)))
+            found.append(Found(row, "leaves", "a small closed shape on the crown", () if m.filled[row] else (("branch", 0.8),)))
     return found
 
 

@@ -78,7 +78,7 @@ def grass(m: Measures, free: Bool[np.ndarray, " stroke"], lines: list[np.ndarray
         lowest = shapely.Point(points[np.argmin(points[:, 1])])
         near = lowest.distance(ground) <= 0.5 * AT_FOOT * height or _shape(m, row).distance(ground) <= 0.2 * AT_FOOT * height
         if near and (m.filled[row] or _shape(m, row).distance(large) > APART * height):
-            found.append(Found(int(row), "ground", "a small mark on the ground line, apart from every stem", (("branch", 0.5),)))
+            found.append(Found(int(row), "ground", "a small mark on the ground line, apart from every stem", () if m.filled[row] else (("branch", 0.5),)))
     return found
 
 

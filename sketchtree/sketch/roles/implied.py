@@ -13,6 +13,7 @@ from sketchtree.sketch.roles.ground import level_at
 
 TOP, SLENDER = 0.15, 0.4  # of its height the top part of a pointed crown, and how wide that is, of its width
 BELOW = 0.45  # of its height: it is widest below
+BROAD = 0.8  # of its width: it is at least as high
 EMPTY = 0.35  # of its height: nothing is drawn above
 REACHES = 0.92  # of the way to the top that a trunk is carried on
 STEM = 0.6  # of the way from the ground to the crown's top that an implied stem rises
@@ -56,7 +57,7 @@ def _leader(lines: list[Line], points: Float[np.ndarray, "point 2"], row: int, s
     width, height = right - left, high - low
     upper = points[points[:, 1] >= high - TOP * height]
     widest = points[np.argmax(points[:, 0]), 1], points[np.argmin(points[:, 0]), 1]
-    pointed = np.ptp(upper[:, 0]) <= SLENDER * width and max(widest) <= low + BELOW * height and height >= width
+    pointed = np.ptp(upper[:, 0]) <= SLENDER * width and max(widest) <= low + BELOW * height and height >= BROAD * width
     tips = [(line.points[np.argmax(line.points[:, 1])], line) for line in lines]
     under = [tip for tip, _ in tips if left + 0.25 * width <= tip[0] <= right - 0.25 * width and tip[1] >= low - 0.2 * height]
     if not pointed or len(under) != 1 or under[0][1] > low + EMPTY * height:

@@ -32,7 +32,7 @@ def leaf_shapes(m: Measures, free: Bool[np.ndarray, " stroke"], height: float) -
     rows = np.flatnonzero(loops & ~slender & (m.size > 0))
     if len(rows) < SEVERAL:
         return []
-    return [Found(int(row), "leaves", "one of several small closed shapes", (("branch", 0.8),)) for row in rows]
+    return [Found(int(row), "leaves", "one of several small closed shapes", () if m.filled[row] else (("branch", 0.8),)) for row in rows]
 
 
 def marks_inside(m: Measures, free: Bool[np.ndarray, " stroke"], crown, wood: Bool[np.ndarray, " stroke"], height: float) -> list[Found]:

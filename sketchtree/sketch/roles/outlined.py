@@ -26,6 +26,7 @@ HABIT = (2, 0.35)  # pairs, and their part of all that is drawn: two limbs' tips
 LIKE = 0.5  # least ratio of the lengths of two sides
 SHUT = 0.6  # an outline whose ends come this near, of its mean width, is as good as closed
 WITHIN = 0.9  # least part of a line inside the outline of a limb that makes it bark
+PINCHED = 0.5  # of its middle width: an outline that is no wider where its stroke begins, in its middle part, is two limbs from there
 LOOSE = 2.5  # widest opening of an outline at the foot, of its mean width
 
 
@@ -45,7 +46,7 @@ def limbs_of_outlines(lines: list[Line], closed: list[bool]) -> Outlined:
     height = extent(lines)
     lines, areas = _single_outlines(lines, closed, height)
     inside = shapely.union_all(list(areas.values()))
-    bark = [k for k, line in enumerate(lines) if areas and k not in areas and line.shape.intersection(inside).length >= WITHIN * line.length]
+    bark = [k for k, line in enumerate(lines) if areas and not any(line.row == lines[j].row for j in areas) and line.shape.intersection(inside).length >= WITHIN * line.length]
     kept, sides = _pairs([line for k, line in enumerate(lines) if k not in bark], height)
     return Outlined(kept, sides, [lines[k] for k in bark])
 
@@ -61,14 +62,25 @@ def _single_outlines(lines: list[Line], closed: list[bool], height: float) -> tu
         return lines, {}
     found = middles(np.array([even_border(lines[k].points) for k in rows]))
     result, areas = list(lines), {}
+    more: list[Line] = []
     for n, k in enumerate(rows):
         gap = opening[k] / max(float(found.width[n].mean()), 1e-300)
         whole = closed[k] or gap <= SHUT
         if _is_limb(found, n, np.inf if whole else NARROW, height) and (whole or gap <= LOOSE):
-            result[k] = _middle_line(lines[k], found, n, height)
+            result[k], *others = _parted(_middle_line(lines[k], found, n, height), 0.5 * (lines[k].points[0] + lines[k].points[-1]))
+            more += others
             if whole:
                 areas[int(k)] = shapely.make_valid(shapely.Polygon(lines[k].points)).buffer(WIDE * height)
-    return result, areas
+    return result + more, areas
+
+
+def _parted(middle: Line, start: Float[np.ndarray, " 2"]) -> list[Line]:
+    """Two limbs where the middle line of an outline is pinched at the place where its stroke begins and ends: both start there."""
+    s = float(shapely.line_locate_point(middle.shape, shapely.Point(start)))
+    near = middle.cut(max(s - 0.05 * middle.length, 0.0), min(s + 0.05 * middle.length, middle.length))
+    if not 0.2 * middle.length <= s <= 0.8 * middle.length or near.width.min() > PINCHED * np.median(middle.width):
+        return [middle]
+    return [middle.cut(0.0, s).reversed(), middle.cut(s, middle.length)]
 
 
 def _pairs(lines: list[Line], height: float) -> tuple[list[Line], list[tuple[Line, Line]]]:
