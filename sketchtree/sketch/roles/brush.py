@@ -22,6 +22,7 @@ BULGE = 2.6  # greatest width of a stroke, of its middle width
 STRAY = 0.12  # or this part of its length, where that is more
 FOLLOWS = 0.82  # least length of the middle line and width together, of half the border: the middle of unlike halves cuts corners
 POINTED = 1.0  # greatest slope of its width towards the end of a stroke: where it falls faster, the end is blunt
+END = 0.75  # of its width near a blunt end, below which a step lies on the end itself
 BATCH = 256  # shapes worked on at once
 
 
@@ -88,6 +89,14 @@ def blunt(points: Float[np.ndarray, "step 2"], width: Float[np.ndarray, " step"]
     A border is parted at one point, so that its middle starts with a width of 0, however wide the stroke ends."""
     s = np.r_[0.0, np.cumsum(np.hypot(*np.diff(points, axis=0).T))]
     return (width[None] - POINTED * np.abs(s[:, None] - s[None])).max(1)
+
+
+def squared(points: Float[np.ndarray, "step 2"], width: Float[np.ndarray, " step"]):
+    """(points, widths) without the steps along blunt ends, whose middle runs from a corner to the middle of the end."""
+    full = blunt(points, width)
+    inner = np.flatnonzero(width >= END * full)
+    low, high = (int(inner[0]), int(inner[-1])) if len(inner) > 1 else (0, len(width) - 1)
+    return points[low : high + 1], full[low : high + 1]
 
 
 def simplified(points: Float[np.ndarray, "step 2"], width: Float[np.ndarray, " step"], tolerance: float):

@@ -3,10 +3,12 @@
 A level line is the ground if a stem stands on it: the lower end of a stroke that rises from there through a good part of
 the drawing. A limb fails: it starts higher up its stem. What lies on one side of the stem only must keep as low as
 its foot, and the drawing may go on below the line only as roots do: less deep than the tree is tall, in several lines or painted.
+One that is drawn in two pieces, on both sides of what passes through it, is the ground if what lies below is like roots, and less wide.
 With a line found, the small things that stand on it away from every stem are grass.
 """
 
 from dataclasses import dataclass
+from itertools import combinations
 
 import numpy as np
 import shapely
@@ -23,9 +25,13 @@ AT_FOOT = 0.05  # of the drawing's height: a stem ends this near to the line it 
 RISES = 0.25  # of the drawing's height: what goes up less from the line is no stem
 BESIDE = 0.03  # of the drawing's height: a line that goes on this far on both sides of the foot passes under it
 DEEP = 0.12  # of the drawing's height: what reaches deeper below the line must look like roots
+ROOTS = 3  # lines below a ground in two pieces
 TOGETHER = 0.2  # of the drawing's height: roots start no farther apart
 TUFT = 0.1  # of the drawing's height: grass is smaller
 APART = 0.015  # of the drawing's height: grass does not touch a stem
+BROKEN = 0.12  # of the drawing's height: widest gap between two pieces of one line …
+STRAIGHT = 0.04  # … and how far they stray from one height
+ACROSS = 0.6  # of the drawing's width: such a line is wider
 AS_THICK = 0.6  # of a stem: a line whose own thickness was measured is thinner than that where it is the ground
 BROAD = 1.2  # of the width of the rest: a wider painted area at the foot is ground, no shadow
 
@@ -61,7 +67,26 @@ def ground_lines(m: Measures, free: Bool[np.ndarray, " stroke"], wood: Bool[np.n
         reason = _stood_on(m, int(row), standing, height)
         if reason:
             found.append(Found(int(row), "ground", reason, (("branch", 0.5),)))
-    return found
+    return found or _in_two_pieces(m, np.flatnonzero(flat), height)
+
+
+def _in_two_pieces(m: Measures, rows: Int[np.ndarray, " row"], height: float) -> list[Found]:
+    """The two level lines on both sides of a stem that goes on below them as roots."""
+    side, level = m.high - m.low, 0.5 * (m.low + m.high)[:, 1]
+    straight = rows[side[rows, 1] <= STRAIGHT * height]
+    everything = m.drawing[1] - m.drawing[0]
+    for a, b in combinations(straight[np.argsort(m.low[straight, 0], kind="stable")].tolist(), 2):
+        gap, left, right = m.low[b, 0] - m.high[a, 0], m.low[a, 0], m.high[b, 0]
+        below = np.flatnonzero((m.high[:, 1] <= min(m.low[a, 1], m.low[b, 1]) + STRAIGHT * height) & (m.size > STRAIGHT * height))
+        below = below[(below != a) & (below != b)]
+        if abs(level[a] - level[b]) > STRAIGHT * height or not -STRAIGHT * height <= gap <= BROKEN * height or len(below) < ROOTS:
+            continue
+        deep = level[a] - m.low[below, 1].min() >= DEEP * height
+        wider = m.low[below, 0].min() >= left and m.high[below, 0].max() <= right
+        if deep and wider and right - left >= ACROSS * everything[0]:
+            reason = "one of two pieces of a level line that the tree passes through, roots below"
+            return [Found(row, "ground", reason, (("branch", 0.5),)) for row in (a, b)]
+    return []
 
 
 def grass(m: Measures, free: Bool[np.ndarray, " stroke"], lines: list[np.ndarray], wood: Bool[np.ndarray, " stroke"]) -> list[Found]:
@@ -73,10 +98,12 @@ def grass(m: Measures, free: Bool[np.ndarray, " stroke"], lines: list[np.ndarray
     ground = shapely.union_all([shapely.LineString(line) for line in lines])
     large = shapely.union_all([_shape(m, row) for row in np.flatnonzero(wood & (m.size > TUFT * height))])
     found = []
-    for row in np.flatnonzero(small):
+    upward = np.flatnonzero(small)[np.argsort(m.low[small, 1], kind="stable")]
+    for row in upward.tolist():
         points = m.strokes[row].points
         lowest = shapely.Point(points[np.argmin(points[:, 1])])
         near = lowest.distance(ground) <= 0.5 * AT_FOOT * height or _shape(m, row).distance(ground) <= 0.2 * AT_FOOT * height
+        near = near or any(_shape(m, row).distance(_shape(m, one.row)) <= 0.5 * AT_FOOT * height for one in found)
         if near and (m.filled[row] or _shape(m, row).distance(large) > APART * height):
             found.append(Found(int(row), "ground", "a small mark on the ground line, apart from every stem", () if m.filled[row] else (("branch", 0.5),)))
     return found

@@ -13,7 +13,7 @@ from jaxtyping import Float, Int
 from scipy.spatial import cKDTree
 
 from sketchtree.sketch.joining.lines import Line, extent
-from sketchtree.sketch.roles.brush import Middles, blunt, even_border, middles, simplified
+from sketchtree.sketch.roles.brush import Middles, even_border, middles, simplified, squared
 
 MEET = 0.015  # of H: the two sides meet at the tip
 FREE = 0.02  # of H: and nothing else comes nearer to it
@@ -121,7 +121,7 @@ def _is_limb(found: Middles, n: int, limit: float, height: float) -> bool:
 
 
 def _middle_line(line: Line, found: Middles, n: int, height: float) -> Line:
-    points, width = simplified(found.points[n], blunt(found.points[n], found.width[n]), 1e-3 * height)
+    points, width = simplified(*squared(found.points[n], found.width[n]), 1e-3 * height)
     return Line(line.row, line.id, points, width)
 
 

@@ -4,7 +4,8 @@ The medial axis of the outline (Blum 1967), from the Voronoi diagram of points a
 shape, each with its distance r to the outline. The longest way through it is a line of width 2r; then, again and again,
 the longest side way, as long as it reaches well out of the disc it starts in (what is shorter is a corner or a bump of
 the outline). At an end the axis forks into the corners: it is cut back to where r falls no faster than FORK and
-drawn straight on to the outline.
+drawn straight on to the outline. Where the foot of a trunk flares, the axis forks into short legs: they
+are left out, and the trunk runs straight on to the ground between them.
 """
 
 import dataclasses
@@ -23,6 +24,8 @@ SAMPLES = 800  # points along an outline
 FORK = 0.35  # fall of r along the axis above which it runs into a corner
 REACHES = 1.6  # a side way must be longer than this many r where it starts …
 LEAST = 0.02  # … and than this of the shape's size
+LEG = 2.5  # of the trunk's width: longer legs are no flare of its foot
+SPREADS = 0.35  # least run to the side of a leg, of its length
 COMPACT = 0.45  # 4πA/P² of a shape, above which it is a blob and no limb
 
 
@@ -67,7 +70,8 @@ def middle_lines(row: int, outer: Stroke, holes: list[Stroke]) -> list[Line]:
     points, radius, graph = _medial_axis(shape)
     if len(points) < 3:
         return []
-    return [_line(row, outer.id, points[way], radius[way], shape, free, size) for way, free in _ways(points, radius, graph, size)]
+    lines = [_line(row, outer.id, points[way], radius[way], shape, free, size) for way, free in _ways(points, radius, graph, size)]
+    return unflared(lines, float(outer.points[:, 1].min()))
 
 
 def _polygon(strokes: list[Stroke]) -> shapely.Polygon:
@@ -139,6 +143,32 @@ def _line(row: int, stroke_id: str, points, radius, shape: shapely.Polygon, free
     if free_foot and (foot := _to_outline(line.reversed(), shape)) is not None:
         points, width = np.vstack([foot, points]), np.r_[width[0], width]
     return dataclasses.replace(line, points=points, width=width)
+
+
+def unflared(lines: list[Line], ground: float) -> list[Line]:
+    """The lines of a shape, the trunk first, without the legs into which its foot flares."""
+    trunk, *sides = lines
+    legs, fork = [], 0.0
+    for side in sides:
+        s = float(shapely.line_locate_point(trunk.shape, shapely.Point(side.points[0])))
+        reach = LEG * float(np.interp(s, trunk.along, trunk.width))
+        if s <= reach and side.length <= reach and _is_leg(side.points[[-1, 0]]) and _is_leg(np.array([trunk.points[0], trunk.at(s)])):
+            legs.append(side)
+            fork = max(fork, s)
+    feet = np.array([trunk.points[0, 0], *(leg.points[-1, 0] for leg in legs)])
+    start = trunk.at(fork)
+    if not legs or not feet.min() < start[0] < feet.max():
+        return lines
+    rest = trunk.cut(fork, trunk.length)
+    foot = np.array([0.5 * (feet.min() + feet.max()), ground])
+    trunk = dataclasses.replace(rest, points=np.vstack([foot, rest.points]), width=np.r_[rest.width[0], rest.width])
+    return [trunk, *(side for side in sides if not any(side is leg for leg in legs))]
+
+
+def _is_leg(way: Float[np.ndarray, "2 2"]) -> bool:
+    """Whether a way from its foot to where it starts falls to one side."""
+    foot, start = way
+    return bool(foot[1] < start[1] and abs(foot[0] - start[0]) >= SPREADS * np.hypot(*(foot - start)))
 
 
 def _corner_free(points, radius) -> int:
