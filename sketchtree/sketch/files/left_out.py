@@ -9,6 +9,7 @@ _PLURAL = {
     "a shape outside its clip": "{} shapes outside their clips",
     "a shape without fill or stroke": "{} shapes without fill or stroke",
     "a clone of nothing": "{} clones of nothing",
+    "a clone of what it lies in": "{} clones of what they lie in",
     "an embedded page": "{} embedded pages",
     "a spoilt record": "{} spoilt records",
 }

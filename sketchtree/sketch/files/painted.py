@@ -44,11 +44,11 @@ class _Scope(NamedTuple):
     style: Style = MappingProxyType({})
     naming: Naming = Naming()
     depth: int = 0
-    uses: tuple[str, ...] = ()
+    cloned: bool = False  # inside what a `use` draws
     clip: Area | None = None
     ghost: bool = False  # geometry counts, paint does not: the shapes of a clip path
     group: str | None = None  # the name of the group around
-    given: Mapping[str, str] = MappingProxyType({})  # width and height of the `use` that draws this symbol
+    given: Mapping[str, str] | None = None  # width and height of the `use` that draws this very element
 
 
 class Walk:
@@ -68,6 +68,7 @@ class Walk:
         self.elsewhere: dict[str, int] = {}  # `use` of other files
         self._found: list[Shape] = []
         self._cloned = 0
+        self._open: set[Element] = set()  # the elements around the one that is looked at
         self._strokes = self._points = 0
         self._boxes: dict[Element, Box] = {}
         self._outlines: dict[tuple[Element, View], list[Subpath]] = {}
@@ -94,7 +95,7 @@ class Walk:
         return self._apart(node, _Scope(self.view, matrix, style, depth=2))
 
     def fill_box(self, element: Element) -> Box:
-        """Bounding box of an element in its own coordinates, line widths and clips left out."""
+        """Bounding box of an element in its own coordinates (those of what it draws, for a `use`), line widths and clips left out."""
         if element not in self._boxes:
             self._boxes[element] = (0.0, 0.0, 0.0, 0.0)  # what it is to its own descendants, should they ask
             paths = [path for shape in self._apart(element, _Scope(self.view, depth=2, ghost=True), itself=True) for path in shape.paths]
@@ -107,7 +108,9 @@ class Walk:
         if attribute is None and not style.keys() & _MOVES:
             return IDENTITY
         if style.get("transform-box") in ("fill-box", "content-box", "stroke-box", "border-box"):
-            box = self.fill_box(element)
+            x, y, width, height = self.fill_box(element)
+            shift = self._shift(element, self.view)
+            box = (x + shift[0], y + shift[1], width, height)
         else:
             box = (0.0, 0.0, *self.view[:2])
         try:
@@ -129,45 +132,53 @@ class Walk:
 
     @contextmanager
     def _aside(self) -> Iterator[list[Shape]]:
-        kept = self._found, self.left_out, self._strokes
-        self._found, self.left_out = [], LeftOut()
+        kept = self._found, self.left_out, self._strokes, self._open
+        self._found, self.left_out, self._open = [], LeftOut(), set()
         try:
             yield self._found
         finally:
-            self._found, self.left_out, self._strokes = kept
+            self._found, self.left_out, self._strokes, self._open = kept
 
     def _element(self, element: Element, scope: _Scope) -> None:
         tag = local_name(element.tag)
-        if tag not in _PAINTED or (tag == "symbol" and not scope.uses):
+        if tag not in _PAINTED or (tag == "symbol" and scope.given is None):
             if tag in _OTHER:
                 self.left_out.add(_OTHER[tag])
+            return
+        if element in self._open:
+            self.left_out.add("a clone of what it lies in")
             return
         self._guard(scope)
         style = self.cascade.style(element, scope.style)
         if style.get("display", "").lower() == "none" or fraction(style.get("opacity", "1")) <= 0.0 or not _fits(element):
             self._hide(element, scope)
             return
-        is_root = element is self.root
-        naming = scope.naming if is_root else scope.naming.within(element, is_group=tag not in SHAPES)
-        own = IDENTITY if is_root else self.matrix(element, style)
-        matrix = scope.matrix if own is IDENTITY else scope.matrix @ own
-        clip = scope.clip
-        if "clip-path" in style or "mask" in style:
-            clip = both(clip, self.clips.region(element, style, matrix))
-        group = scope.group if tag in SHAPES or is_root else element.get(LABEL) or element.get("id")
         view = scope.view
         if "font-size" in style:
             view = view.with_letters(style["font-size"])
             style["font-size"] = repr(view.em)
-        inner = _Scope(view, matrix, style, naming, scope.depth + 1, scope.uses, clip, scope.ghost, group)
+        is_root = element is self.root
+        naming = scope.naming if is_root else scope.naming.within(element, is_group=tag not in SHAPES)
+        own = IDENTITY if is_root else self.matrix(element, style)
+        matrix = scope.matrix if own is IDENTITY else scope.matrix @ own
+        if tag == "use" and (shift := self._shift(element, view)) != (0.0, 0.0):
+            matrix = matrix @ translation(*shift)
+        clip = scope.clip
+        if "clip-path" in style or "mask" in style:
+            clip = both(clip, self.clips.region(element, style, matrix))
+        group = scope.group if tag in SHAPES or is_root else element.get(LABEL) or element.get("id")
+        inner = _Scope(view, matrix, style, naming, scope.depth + 1, scope.cloned, clip, scope.ghost, group)
         if tag in SHAPES:
             self._shape(element, inner, style)
-        elif tag == "use":
+            return
+        self._open.add(element)
+        if tag == "use":
             self._use(element, inner)
         else:
             self._group(element, tag, inner, scope.given)
+        self._open.remove(element)
 
-    def _group(self, element: Element, tag: str, scope: _Scope, given: Mapping[str, str]) -> None:
+    def _group(self, element: Element, tag: str, scope: _Scope, given: Mapping[str, str] | None) -> None:
         if tag == "symbol" or (tag == "svg" and element is not self.root):
             matrix, port, view = nested(element, scope.view, self.name, given)
             clip = scope.clip
@@ -191,12 +202,15 @@ class Walk:
             self.elsewhere[target] = self.elsewhere.get(target, 0) + 1
         elif target[1:] not in self.by_id:
             self.left_out.add("a clone of nothing")
-        elif target not in scope.uses:
-            x, y = (user_length(attributes.get(a, "0"), i, element, scope.view, self.name) for i, a in enumerate("xy"))
+        else:
             given = {side: attributes[side] for side in ("width", "height") if side in attributes}
-            shifted = scope.matrix if x == y == 0 else scope.matrix @ translation(x, y)
-            inner = scope._replace(matrix=shifted, uses=(*scope.uses, target), given=given)
-            self._element(self.by_id[target[1:]], inner)
+            self._element(self.by_id[target[1:]], scope._replace(cloned=True, given=given))
+
+    def _shift(self, element: Element, view: View) -> tuple[float, float]:
+        """x and y of a `use`, which move what it draws, and its clip, after its own transform."""
+        if local_name(element.tag) != "use":
+            return 0.0, 0.0
+        return tuple(user_length(element.get(a, "0"), i, element, view, self.name) for i, a in enumerate("xy"))
 
     def _shape(self, element: Element, scope: _Scope, style: Style) -> None:
         line = seen(style.get("stroke", "none"), style.get("stroke-opacity", "1"), style, self.by_id)
@@ -264,7 +278,7 @@ class Walk:
         elif style.keys() & GEOMETRY:
             attributes = {**attributes, **geometry(style)}
         try:
-            if not scope.uses or attributes is not element.attrib:
+            if not scope.cloned or attributes is not element.attrib:
                 return transformed(subpaths(local_name(element.tag), attributes, scope.view), scope.matrix)
             if (element, scope.view) not in self._outlines:
                 self._outlines[element, scope.view] = subpaths(local_name(element.tag), attributes, scope.view)
@@ -273,7 +287,7 @@ class Walk:
             raise at(element, self.name, error) from None
 
     def _hide(self, element: Element, scope: _Scope) -> None:
-        count = 1 if scope.uses else sum(local_name(part.tag) in SHAPES or local_name(part.tag) == "use" for part in element.iter())
+        count = 1 if scope.cloned else sum(local_name(part.tag) in SHAPES or local_name(part.tag) == "use" for part in element.iter())
         self.left_out.add("a hidden shape", count)
 
     def _count(self, strokes: int, points: int) -> None:
@@ -287,7 +301,7 @@ class Walk:
             )
 
     def _guard(self, scope: _Scope) -> None:
-        self._cloned += bool(scope.uses)
+        self._cloned += scope.cloned
         if scope.depth > DEEPEST or self._cloned > 2 * self.max_strokes + _MOST_CLONED:
             raise too_deep(self.name)
 

@@ -148,3 +148,10 @@ def test_a_mask_that_is_dark_hides_all():
 def test_a_mask_with_a_picture_shows_all_and_is_told():
     sketch = sketch_of(MASK.format("", '<image href="a.png"/>') + LINE.format('mask="url(#m)"'))
     assert len(sketch) == 1 and "'m' holds text or a picture" in sketch.warnings[0]
+
+
+def test_the_clip_of_a_clone_moves_with_its_x_and_y():
+    clip = '<clipPath id="c"><rect x="20" width="40" height="100"/></clipPath><defs><path id="p" d="M0 50H100" stroke="black"/></defs>'
+    assert spans(clip + '<use href="#p" x="10" clip-path="url(#c)"/>') == [(30, 70)]
+    box = '<clipPath id="c" clipPathUnits="objectBoundingBox"><rect x=".2" y="-9" width=".4" height="99"/></clipPath><defs><path id="p" d="M0 50L100 51" stroke="black"/></defs>'
+    assert spans(box + '<use href="#p" x="10" clip-path="url(#c)"/>') == [(30, 70)]

@@ -181,7 +181,8 @@ def test_clones_of_clones_without_end_are_refused_in_time():
 
 def test_clones_in_a_ring_end():
     ring = '<g id="a"><use href="#b"/></g><g id="b"><use href="#c"/></g><g id="c"><use href="#a"/>' + BARE + "</g>"
-    assert len(sketch_of(ring)) == 4
+    sketch = sketch_of(ring)
+    assert len(sketch) == 3 and sketch.warnings == ("3 clones of what they lie in were left out.",)
 
 
 def test_boxes_of_nested_groups_are_worked_out_once():
@@ -231,3 +232,27 @@ def test_a_closed_outline_that_is_turned_does_not_repeat_its_first_point():
     for shape in ('<rect x="3" y="7" width="50" height="20"', '<path d="M3 7H53V27H3L3 7Z"', '<polygon points="3,7 53,7 53,27 3,27"'):
         outline = only(f'{shape} transform="rotate(30) scale(1.7 .9)" fill="none" stroke="red"/>')
         assert outline.closed and len(outline.points) == 4
+
+
+def test_a_symbol_is_painted_only_where_a_use_names_it():
+    inner = f'<symbol id="inner">{LINE.format("id=%s" % repr("b"))}</symbol>'
+    assert ids(f'<symbol id="outer">{inner}{NAMED}</symbol><use href="#outer"/>') == ["a"]
+    assert ids(f'<symbol id="outer">{inner}{NAMED}<use href="#inner"/></symbol><use href="#outer"/>') == ["a", "b"]
+
+
+@pytest.mark.parametrize(
+    "body",
+    [
+        f'<g id="g">{NAMED}<use href="#g" x="5"/></g>',
+        f'<g id="g">{NAMED}<g><use href="#g" x="5"/></g></g>',
+        f'<g id="g">{NAMED}<use id="u" href="#g"/></g>',
+    ],
+)
+def test_a_clone_of_what_it_lies_in_is_left_out_and_counted(body):
+    sketch = sketch_of(body)
+    assert [s.id for s in sketch.strokes] == ["a"] and sketch.warnings == ("A clone of what it lies in was left out.",)
+
+
+def test_clones_that_lead_to_themselves_through_others_end():
+    sketch = sketch_of(f'<g id="g">{NAMED}<use id="u" href="#g"/></g><use href="#u"/>')
+    assert [s.id for s in sketch.strokes] == ["a", "a-2"] and sketch.warnings == ("2 clones of what they lie in were left out.",)

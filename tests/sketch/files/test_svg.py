@@ -71,7 +71,7 @@ def test_a_use_of_another_file_is_left_out_and_reported():
 
 
 def test_a_use_of_itself_ends():
-    assert len(strokes_of(f'<g id="a"><use href="#a"/>{LINE.format("")}</g>')) == 2
+    assert len(strokes_of(f'<g id="a"><use href="#a"/>{LINE.format("")}</g>')) == 1
 
 
 def test_a_nested_svg_fits_its_view_box():
