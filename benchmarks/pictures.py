@@ -105,6 +105,8 @@ class Likeness:
 
     found: float  # share of the drawn length that lies within NEAR of something read
     extra: float  # share of the read length that lies farther than NEAR from anything drawn
+    whole: float  # share of the drawn length that the one best stroke for each drawn one covers: no limb in pieces
+    pure: float  # share of the read length that lies along the one drawn stroke it fits best: no two limbs in one
     ways: float  # share of the limbs whose way to the ground passes their junction and goes on along their parent
     limbs: tuple[int, int]  # drawn, read
     crowns: tuple[int, int]  # drawn, read
@@ -119,8 +121,9 @@ def likeness(strokes: tuple[Sketch, Sketch], graphs: tuple[SketchGraph, SketchGr
     read_curves = [_ring(stroke) for stroke in strokes[1].strokes]
     found = _share_near(true_curves, read_curves, NEAR * h)
     extra = 1.0 - _share_near(read_curves, true_curves, NEAR * h)
+    whole, pure = _share_of_best(true_curves, read_curves, NEAR * h), _share_of_best(read_curves, true_curves, NEAR * h)
     ways = _ways(truth, read, scale, corner, h)
-    return Likeness(found, extra, ways, (len(truth.limb_id), len(read.limb_id)), (len(truth.crown), len(read.crown)))
+    return Likeness(found, extra, whole, pure, ways, (len(truth.limb_id), len(read.limb_id)), (len(truth.crown), len(read.crown)))
 
 
 def _ring(stroke: Stroke):
@@ -134,15 +137,31 @@ def _placed(points, scale: float, corner):
 def _share_near(curves, others, reach: float) -> float:
     lines = shapely.union_all([shapely.LineString(c) for c in others if len(c) > 1])
     total = near = 0.0
-    for curve in curves:
-        if len(curve) < 2:
-            continue
-        line = shapely.LineString(curve)
-        n = max(2, int(line.length))
-        at = shapely.line_interpolate_point(line, (np.arange(n) + 0.5) / n, normalized=True)
-        total += line.length
-        near += line.length * float(np.mean(shapely.distance(at, lines) <= reach))
+    for length, at in _along_each(curves):
+        total += length
+        near += length * float(np.mean(shapely.distance(at, lines) <= reach))
     return near / total
+
+
+def _share_of_best(curves, others, reach: float) -> float:
+    """Share of the curves' length that lies near one of the others, for each the one it keeps to longest."""
+    lines = np.array([shapely.LineString(c) for c in others if len(c) > 1])
+    tree = shapely.STRtree(lines)
+    total = near = 0.0
+    for length, at in _along_each(curves):
+        total += length
+        _, beside = tree.query(at, predicate="dwithin", distance=reach)
+        near += length * float(np.bincount(beside, minlength=1).max()) / len(at)
+    return near / total
+
+
+def _along_each(curves):
+    """(length, points a unit apart along it) of every curve."""
+    for curve in curves:
+        if len(curve) > 1:
+            line = shapely.LineString(curve)
+            n = max(2, int(line.length))
+            yield line.length, shapely.line_interpolate_point(line, (np.arange(n) + 0.5) / n, normalized=True)
 
 
 def _ways(truth: SketchGraph, read: SketchGraph, scale: float, corner, h: float) -> float:

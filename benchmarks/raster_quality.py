@@ -6,6 +6,8 @@ One line a medium, means over the drawings:
 
     found   share of the drawn strokes' length within 1 % H of a stroke that was read
     extra   share of the length of those farther than that from any that was drawn
+    whole   share of the drawn length that the one best stroke read for each drawn one covers: limbs in one piece
+    pure    share of the read length that lies along the one drawn stroke it fits best: limbs not mixed up
     ways    share of the limbs whose way to the ground passes their junction and goes on along their parent
 """
 
@@ -40,7 +42,7 @@ def main() -> None:
     parser.add_argument("--media", nargs="+", default=[medium.name for medium in MEDIA])
     parser.add_argument("--each", action="store_true", help="a line for every drawing")
     given = parser.parse_args()
-    print(f"{'medium':>8} {'found':>7} {'extra':>7} {'ways':>7} {'limbs':>11} {'crowns':>8} {'s':>6}")
+    print(f"{'medium':>8} {'found':>7} {'extra':>7} {'whole':>7} {'pure':>7} {'ways':>7} {'limbs':>11} {'crowns':>8} {'s':>6}")
     for medium in (m for m in MEDIA if m.name in given.media):
         start = time.process_time()
         rows = [compare(path, medium, given.size, given.pen) for path in given.drawings]
@@ -51,9 +53,9 @@ def main() -> None:
 
 
 def _line(name: str, rows: list[Likeness], seconds: float) -> str:
-    found, extra, ways = (100 * np.mean([getattr(row, key) for row in rows]) for key in ("found", "extra", "ways"))
+    found, extra, whole, pure, ways = (100 * np.mean([getattr(row, key) for row in rows]) for key in ("found", "extra", "whole", "pure", "ways"))
     limbs, crowns = (np.sum([getattr(row, key) for row in rows], axis=0) for key in ("limbs", "crowns"))
-    return f"{name:>8} {found:6.1f}% {extra:6.1f}% {ways:6.1f}% {limbs[0]:5d}/{limbs[1]:5d} {crowns[0]:3d}/{crowns[1]:3d} {seconds:7.2f}"
+    return f"{name:>8} {found:6.1f}% {extra:6.1f}% {whole:6.1f}% {pure:6.1f}% {ways:6.1f}% {limbs[0]:5d}/{limbs[1]:5d} {crowns[0]:3d}/{crowns[1]:3d} {seconds:7.2f}"
 
 
 if __name__ == "__main__":

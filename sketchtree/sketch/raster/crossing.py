@@ -18,6 +18,7 @@ STRAIGHT = np.radians(28)  # the same over a bridge
 APART = np.radians(8)  # least angle between two lines that cross
 WIDTH = 0.5  # radians for a width e times as large
 REACH = 5.0  # half widths beyond the joint's ink over which a direction is taken
+SWOLLEN = 1.25  # of a line's half width: where it is wider, from the joint on, it is one ink with its neighbour
 BRIDGE = 7.0  # half widths: a bridge is no longer
 RING = 12.0  # half widths: a shorter loop is not drawn in one line
 
@@ -62,8 +63,9 @@ def arm(edge: Edge, side: int, pen: float, skip: float) -> Arm:
     points, half = (edge.points, edge.half) if side == 0 else (edge.points[::-1], edge.half[::-1])
     s = np.zeros(len(points))
     np.cumsum(np.hypot(*np.diff(points, axis=0).T), out=s[1:])
-    skip = min(skip, 0.4 * s[-1])
     width = float(half.mean())
+    swollen = half > SWOLLEN * max(float(np.median(half)), 0.5 * pen)
+    skip = min(max(skip, float(s[np.argmin(swollen)])), 0.4 * s[-1])
     far = min(skip + REACH * max(0.5 * pen, width), s[-1])
     x, y = np.interp([skip, far], s, points[:, 0]), np.interp([skip, far], s, points[:, 1])
     norm = max(float(np.hypot(x[1] - x[0], y[1] - y[0])), 1e-9)
