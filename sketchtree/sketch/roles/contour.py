@@ -1,7 +1,7 @@
 """Which part of a drawing is one contour around a crown? "Lollipops": a round outline on a trunk.
 
 The outline may run on into the trunk's side, stay open where the trunk enters, or be drawn in two strokes. Of
-every stroke (then of two that meet end to end) the part is sought that is roundest once its opening is closed,
+every stroke (then of two that meet end to end, then of a chain from one foot of the trunk to the other) the part is sought that is roundest once its opening is closed,
 
     4πA / (P + 2d)²      A area, P length of the part, d its opening
 
@@ -22,6 +22,7 @@ from sketchtree.sketch.strokes import Stroke
 SAMPLES = 128  # points along a stroke at which it may be cut
 MANY = 24  # strokes: fuller drawings are of branches
 OPEN = 0.6  # widest opening, of the outline's larger side
+FEW, SKIP = 6, 0.4  # strokes of a drawing in which a chain is looked for, and its one wide gap, of the drawing's size
 CLOSED = 0.2  # the same where two strokes make it: two fronds from one trunk leave more
 GATE = 0.45  # under a wider opening the trunk ends below the outline's middle: else it carries an arching limb
 ROUND = 0.08  # least 4πA / (P + 2d)², lobes and all
@@ -54,7 +55,7 @@ def contour(strokes: list[Stroke]) -> Contour | None:
     drawn = [_evenly(p) if len(p) > 2 else p for p in points]
     size = float(np.ptp(np.concatenate(points), axis=0).max())
     ways = [((k,), drawn[k]) for k in range(len(points))]
-    for rows in (ways, _pairs(drawn, size)):
+    for rows in (ways, _pairs(drawn, size), _chains(drawn, size)):
         found = [c for way in rows if (c := _of_way(*way, drawn, size)) is not None]
         if found:
             return max(found, key=lambda c: shapely.Polygon(c.outline).convex_hull.area)
@@ -90,20 +91,52 @@ def _pairs(drawn: list, size: float) -> list[tuple[tuple[int, int], Float[np.nda
     return found
 
 
+def _chains(drawn: list, size: float) -> list[tuple[tuple[int, ...], Float[np.ndarray, "point 2"]]]:
+    """Three or more strokes end to end, both ends on the ground, of few strokes: one gap among them may be wide."""
+    if not 3 <= len(drawn) <= FEW:
+        return []
+    ground = min(float(line[:, 1].min()) for line in drawn) + LEG * size
+    found = []
+
+    def extend(rows: tuple[int, ...], way, skipped: bool) -> None:
+        if len(rows) >= 3 and way[-1, 1] <= ground and rows[0] < rows[-1]:
+            found.append((rows, way))
+        for k in range(len(drawn)):
+            for line in (drawn[k], drawn[k][::-1]) if k not in rows else ():
+                gap = float(np.hypot(*(line[0] - way[-1])))
+                if gap <= MEET * size or (gap <= SKIP * size and not skipped and min(gap, way[-1, 1] - ground, line[0, 1] - ground) > 0):
+                    extend((*rows, k), np.vstack([way, line]), skipped or gap > MEET * size)
+
+    for k, line in enumerate(drawn):
+        for turned in (line, line[::-1]):
+            if turned[0, 1] <= ground:
+                extend((k,), turned, False)
+    return found
+
+
 def _of_way(rows: tuple[int, ...], way, drawn: list, size: float) -> Contour | None:
     """The crown that these strokes, end to end, draw with some part of them."""
     if len(way) < 6 or not np.ptp(way, axis=0).max() > LARGE * size:
         return None
     ground = min(float(line[:, 1].min()) for line in drawn) + LEG * size
     others = [drawn[k] for k in range(len(drawn)) if k not in rows]
-    for low, high in _roundest(way, size, ground, OPEN if len(rows) == 1 else CLOSED):
+    for low, high in _roundest(way, size, ground, CLOSED if len(rows) == 2 else OPEN):
         outline, legs = way[low : high + 1], [leg for leg in (way[: low + 1], way[high:]) if len(leg) > 1]
+        if len(rows) > 2 and len(legs) < 2:
+            continue
         if _is_round(outline) and _crowns(outline, [*legs, *others], size):
-            kept = [leg for leg in legs if np.ptp(leg, axis=0).max() > 0.5 * NEAR * size]
+            kept = {row: tuple(leg for leg in of_row if np.ptp(leg, axis=0).max() > 0.5 * NEAR * size) for row, of_row in _by_row(rows, legs).items()}
             closing = _closing(outline, {k: drawn[k] for k in range(len(drawn)) if k not in rows}, size)
             outline = np.vstack([outline, *closing.values()])
-            return Contour(outline, {rows[0]: tuple(kept), **{row: () for row in [*rows[1:], *closing]}})
+            return Contour(outline, kept | {row: () for row in closing})
     return None
+
+
+def _by_row(rows: tuple[int, ...], legs: list) -> dict[int, list]:
+    """The legs by the strokes that drew them: those of a chain belong to its first and last."""
+    if len(rows) < 3:
+        return {rows[0]: legs} | {row: [] for row in rows[1:]}
+    return {row: [] for row in rows} | {rows[0]: legs[:1], rows[-1]: legs[1:]}
 
 
 def _closing(outline, others: dict[int, Float[np.ndarray, "point 2"]], size: float) -> dict[int, Float[np.ndarray, "point 2"]]:
