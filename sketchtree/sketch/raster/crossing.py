@@ -13,13 +13,14 @@ import numpy as np
 
 from sketchtree.sketch.raster.tracing import Edge, Web
 
-BEND = np.radians(42)  # greatest turn of a line that goes on through a joint
+BEND = np.radians(36)  # greatest turn of a line that goes on through a joint
 STRAIGHT = np.radians(28)  # the same over a bridge
 APART = np.radians(8)  # least angle between two lines that cross
 WIDTH = 0.5  # radians for a width e times as large
-REACH = 5.0  # half widths beyond the joint's ink over which a direction is taken
+REACH = 9.0  # half widths beyond the joint's ink over which a direction is taken
 SWOLLEN = 1.25  # of a line's half width: where it is wider, from the joint on, it is one ink with its neighbour
 BRIDGE = 7.0  # half widths: a bridge is no longer
+HUB = 6  # lines in one joint, from which none goes on: they spread from there, as fronds do from a palm's head
 RING = 12.0  # half widths: a shorter loop is not drawn in one line
 
 End = tuple[int, int]  # (edge, 0 at its node a or 1 at its node b)
@@ -51,7 +52,7 @@ def link(web: Web, pen: float) -> Links:
     crossed = {node for key in bridges for node in (web.edges[key].a, web.edges[key].b)}
     onward: dict[End, End] = {}
     for node in sorted(web.at):
-        if node not in crossed and web.degree(node) > 1:
+        if node not in crossed and 1 < web.degree(node) < HUB:
             onward.update(_pairs(web, arms, node))
     for pairs in bridges.values():
         onward.update({a: b for pair in pairs for a, b in (pair, pair[::-1])})
