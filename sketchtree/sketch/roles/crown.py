@@ -20,6 +20,7 @@ OPEN = 0.35  # widest opening of a nearly closed outline, of its larger side
 ROUND = 0.2  # least 4πA/P² of the outline's convex hull, times its share of the hull's area
 BULK = 0.14  # least 2A/P of a painted crown, of its larger side: trunks and limbs are thinner
 LARGE = 0.3  # least size of a crown, of the drawing's
+SHUT, SHUT_LARGE = 0.1, 0.2  # of its side, an opening that is as good as none; of the drawing's, the least size then
 SMALL = 0.1  # the same where several are crowns together …
 MOST = 12  # … no more than these: else they are leaves
 HIGH = 0.6  # of the drawing's height: a crown reaches above it (a shadow on the ground does not)
@@ -29,7 +30,8 @@ ALOFT = 0.1  # of the drawing's height: tiers and ornaments keep this far from i
 WIDER, ALIKE = 0.6, 0.5  # widest opening of a lobe beside others that are closed, and how large it is at least, beside their middle size
 ON_GROUND = 0.08  # of its size: a dome's ends are this near to the ground line
 STANDS = 0.05  # of the drawing's height: a shape that comes this near to its foot stands on the ground
-SLIM = 2.2  # length over mean width from which such a shape is a trunk's outline
+SLIM = 2.2  # length over mean width from which such a shape is a trunk's outline …
+TRUNK = 0.6  # … or if it is no wider than this, of the widest outline, and no larger
 
 
 def closed_crowns(
@@ -51,7 +53,8 @@ def closed_crowns(
     reaches = m.high[rows, 1] >= level
     if len(tips) == 0:
         return []
-    alone = reaches & (m.size[rows] >= LARGE * size) & (inside.mean(1) >= 0.5)
+    large = m.size[rows] >= np.where(m.opening[rows] <= SHUT * m.size[rows], SHUT_LARGE, LARGE) * size
+    alone = reaches & large & (inside.mean(1) >= 0.5)
     if alone.any():
         found = _kept(m, rows, regions, alone, "a closed outline around most of the branches' tips")
         return [*found, *_on_crowns(m, rows[~alone], [one.row for one in found if one.role == "crown"])]
@@ -81,19 +84,17 @@ def _on_crowns(m: Measures, rows, crowns: list[int]) -> list[Found]:
     low, high = m.drawing
     height, width = float(high[1] - low[1]), float((m.high - m.low)[crowns, 0].max())
     area = shapely.union_all([_region(m.strokes[row].points, 0.0) for row in crowns])
-    found = []
-    above = rows[m.low[rows, 1] >= low[1] + ALOFT * height]
-    for row in sorted(above.tolist(), key=lambda row: -m.high[row, 1]):
-        shape = _region(m.strokes[row].points, 0.0)
-        if not shape.intersects(area):
-            continue
-        side = m.high[row] - m.low[row]
-        if side[0] >= TIER * width and m.size[row] >= LARGE * float((high - low).max()):
-            found.append(Found(row, "crown", "a tier of the crown: it overlaps the outline above"))
-            area = area.union(shape)
-        elif side.max() < TIER * width:
-            found.append(Found(row, "leaves", "a small closed shape on the crown", () if m.filled[row] else (("branch", 0.8),)))
-    return found
+    above = rows[m.low[rows, 1] >= low[1] + ALOFT * height].tolist()
+    shapes = {row: _region(m.strokes[row].points, 0.0) for row in above}
+    side = m.high - m.low
+    wide = [row for row in above if side[row, 0] >= TIER * width and m.size[row] >= LARGE * float((high - low).max())]
+    tiers: list[int] = []
+    while touching := [row for row in wide if row not in tiers and shapes[row].intersects(area)]:
+        tiers += touching
+        area = area.union(shapely.union_all([shapes[row] for row in touching]))
+    small = [row for row in above if side[row].max() < TIER * width and row not in tiers and shapes[row].intersects(area)]
+    found = [Found(row, "crown", "a tier of the crown: it overlaps the outline beside it") for row in tiers]
+    return found + [Found(row, "leaves", "a small closed shape on the crown", () if m.filled[row] else (("branch", 0.8),)) for row in small]
 
 
 def _open_lobes(m: Measures, free, lobes: list[int], near: float) -> list[Found]:
@@ -119,7 +120,7 @@ def _roundness(m: Measures, rows) -> Float[np.ndarray, " row"]:
 def _outlines(m: Measures, free, size: float, ground: list[np.ndarray]):
     """Rows of the strokes that are outlines by their shape."""
     nearly = (m.opening <= OPEN * m.size) | on_ground(m, ground)
-    rows = np.flatnonzero(free & (m.size >= SMALL * size) & nearly & (np.diff(m.first_point) >= 4) & (m.area > 0))
+    rows = np.flatnonzero(free & (m.size >= SMALL * size) & nearly & (np.diff(m.first_point) >= 4 - m.closed) & (m.area > 0))
     if len(rows) == 0:
         return rows
     around = shapely.length(shapely.convex_hull([shapely.MultiPoint(m.strokes[row].points) for row in rows]))
@@ -127,8 +128,9 @@ def _outlines(m: Measures, free, size: float, ground: list[np.ndarray]):
     side = m.high[rows] - m.low[rows]
     low, high = m.drawing
     stands = m.low[rows, 1] <= low[1] + STANDS * (high[1] - low[1])
-    slim = slenderness(m.area[rows], m.length[rows] + m.opening[rows]) >= SLIM
-    trunk = stands & slim & (side[:, 1] > side[:, 0]) & (m.high[rows, 1] < high[1])
+    slim = slenderness(m.area[rows], m.around[rows]) >= SLIM
+    stout = (side[:, 0] <= TRUNK * side[:, 0].max()) & (m.area[rows] <= TRUNK * m.area[rows].max())
+    trunk = stands & (m.high[rows, 1] < high[1]) & ((slim & (side[:, 1] > side[:, 0])) | stout)
     return rows[(_roundness(m, rows) >= ROUND) & (bulky | ~m.filled[rows]) & ~trunk]
 
 

@@ -57,7 +57,7 @@ def stems(m: Measures, rows: Int[np.ndarray, " row"]) -> Stems:
 def ground_lines(m: Measures, free: Bool[np.ndarray, " stroke"], wood: Bool[np.ndarray, " stroke"]) -> list[Found]:
     """The level lines that a stem stands on. `free`: strokes not yet known; `wood`: strokes that may be stems."""
     height = _height(m, wood)
-    flat = free & ~m.closed & _level(m, height)
+    flat = free & ~m.closed & (m.opening >= 0.5 * (m.high - m.low)[:, 0]) & _level(m, height)
     if not flat.any() or height <= 0:
         return []
     standing = stems(m, np.flatnonzero(wood & ~flat))

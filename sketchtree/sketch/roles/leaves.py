@@ -28,7 +28,7 @@ LOOSE = 0.02  # of the drawing's height: it keeps this far from every branch, at
 def leaf_shapes(m: Measures, free: Bool[np.ndarray, " stroke"], height: float) -> list[Found]:
     """The small closed shapes, where there are several."""
     loops = free & (m.size <= LEAF * height) & (m.opening <= OPEN * m.size) & (m.area >= PLUMP * np.maximum(m.length, 1e-300) ** 2)
-    slender = m.filled & (slenderness(m.area, m.length) > SHORT)
+    slender = m.filled & (slenderness(m.area, m.around) > SHORT)
     rows = np.flatnonzero(loops & ~slender & (m.size > 0))
     if len(rows) < SEVERAL:
         return []

@@ -91,6 +91,11 @@ class Measures:
         return np.where(self.closed, 0.0, apart)
 
     @cached_property
+    def around(self) -> Float[np.ndarray, " stroke"]:
+        """Length of each stroke with its closing piece."""
+        return self.length + np.hypot(*(self.first - self.last).T)
+
+    @cached_property
     def closed(self) -> Bool[np.ndarray, " stroke"]:
         """Strokes that the file closes, or that are painted."""
         return np.array([stroke.closed or stroke.filled for stroke in self.strokes])

@@ -17,9 +17,10 @@ from scipy.sparse.csgraph import connected_components
 from sketchtree.sketch.joining.lines import Line
 from sketchtree.sketch.roles.ground import level_at
 
-DEPTH = 0.03  # of H: what goes less deep below the ground is the foot of a stem
+DEPTH, WHOLLY = 0.05, 0.02  # of H: what goes less deep below the ground is the foot of a stem; the same of a line that starts there
 TOUCH = 0.04  # of H: roots hang together over gaps up to this
 FOOT = 0.06  # of H: a root starts this near to the foot of a stem
+BASE = 0.2  # of H: … or between two feet that are no farther apart: the sides of one trunk
 FALLS = 0.3  # least fall of a root, of the distance between its ends
 KEEPS = 0.02  # of H: a root rises no more than this over the foot
 TALL = 0.3  # of H: least rise of the line whose foot it is
@@ -36,14 +37,17 @@ class Rooted:
     found: bool = False  # by shape: the report should say so
 
 
-def roots_apart(lines: list[Line], ground: list[Float[np.ndarray, "point 2"]], named: set[int]) -> Rooted:
-    """The lines of the wood, roots apart. `named`: rows of the strokes whose names say that they are roots."""
+def roots_apart(
+    lines: list[Line], ground: list[Float[np.ndarray, "point 2"]], named: set[int], crowns: list[Float[np.ndarray, "point 2"]] | None = None
+) -> Rooted:
+    """The lines of the wood, roots apart. `named`: rows of the strokes whose names say that they are roots;
+    `crowns`: outlines, for the tree's height."""
     above, below = [line for line in lines if line.row not in named], [line for line in lines if line.row in named]
     if not above:
         return Rooted(lines, [])
     if below:
         return Rooted(above, below)
-    height = _height(above)
+    height = _height([line.points for line in above] + list(crowns or []))
     if ground:
         return _under_lines(above, ground, height)
     return _from_a_foot(above, height)
@@ -58,11 +62,18 @@ def _under_lines(lines: list[Line], ground: list, height: float) -> Rooted:
     feet = [point for over, _ in parts for part in over for point in part.points[[0, -1]]]
     feet = np.array(feet).reshape(-1, 2)
     feet = feet[np.abs(feet[:, 1] - level_at(ground, feet[:, 0])) <= TOUCH * height]
-    held = _hanging_on([part for _, part in under], feet, height)
+    held = _hanging_on([part for _, part in under], _with_bases(feet, height), height)
     rooted = {k for (k, _), yes in zip(under, held, strict=True) if yes}
     above = [part for k, line in enumerate(lines) for part in (parts[k][0] if k in rooted else [line])]
     below = [part for (k, part) in under if k in rooted]
     return Rooted(above, below, found=True) if above and below else Rooted(lines, [])
+
+
+def _with_bases(feet: Float[np.ndarray, "foot 2"], height: float) -> Float[np.ndarray, "foot 2"]:
+    """The feet, and the middles between neighbours that may be the two sides of one trunk."""
+    feet = feet[np.argsort(feet[:, 0], kind="stable")]
+    near = np.hypot(*np.diff(feet, axis=0).T) <= BASE * height
+    return np.concatenate([feet, 0.5 * (feet[1:] + feet[:-1])[near]])
 
 
 def _cut_at(line: Line, ground: list, height: float) -> tuple[list[Line], list[Line]]:
@@ -71,7 +82,7 @@ def _cut_at(line: Line, ground: list, height: float) -> tuple[list[Line], list[L
     points = line.at(s)
     depth = level_at(ground, points[:, 0]) - points[:, 1]
     runs = np.r_[0, np.flatnonzero(np.diff(depth > 0)) + 1]
-    deep = np.maximum.reduceat(depth, runs) > DEPTH * height
+    deep = np.maximum.reduceat(depth, runs) > (DEPTH if depth.min() < -WHOLLY * height else WHOLLY) * height
     low = np.repeat(deep, np.diff(np.r_[runs, len(s)]))
     turns = np.flatnonzero(np.diff(low))
     crossing = s[turns] + (s[turns + 1] - s[turns]) * depth[turns] / (depth[turns] - depth[turns + 1])
@@ -121,6 +132,5 @@ def _falls_from(line: Line, foot: list[float], height: float) -> bool:
     return bool(falls and np.hypot(*(first - foot)) <= FOOT * height)
 
 
-def _height(lines: list[Line]) -> float:
-    points = np.concatenate([line.points for line in lines])
-    return float(np.ptp(points, axis=0).max())
+def _height(lines: list[Float[np.ndarray, "point 2"]]) -> float:
+    return float(np.ptp(np.concatenate(lines), axis=0).max())

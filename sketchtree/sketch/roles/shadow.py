@@ -14,7 +14,7 @@ from sketchtree.sketch.roles.measures import Measures
 FLAT = 1.4  # least width over height
 LOW = 0.35  # of the drawing's height: its top lies below
 WIDE = 0.1  # of the drawing's height: a narrower shape is no shadow
-TALL = 0.3  # of the drawing's height: the stem rises at least so far over it
+TALL = 0.2  # of the drawing's height: the stem rises at least so far over it
 OPEN = 0.25  # widest opening, of its larger side
 BESIDE = 0.15  # of its own size: a foot this near is at its edge
 

@@ -23,7 +23,7 @@ from sketchtree.sketch.roles.ink import find_ink, read_ink
 from sketchtree.sketch.roles.leaves import leaf_shapes, marks_inside
 from sketchtree.sketch.roles.page import cuts_of, frames
 from sketchtree.sketch.roles.remarks import root_warnings, side_warnings
-from sketchtree.sketch.roles.roots import roots_apart
+from sketchtree.sketch.roles.roots import Rooted, roots_apart
 from sketchtree.sketch.roles.shadow import shadows
 from sketchtree.sketch.roles.table import Part, Table, named_table
 from sketchtree.sketch.roles.trunk_edges import trunks_of_edges
@@ -64,15 +64,16 @@ def sort_strokes(sketch: Sketch) -> Sorted:
     wood = wood_lines(table.m, np.flatnonzero(table.wood).tolist(), table.legs, table.pieces, table.outlines)
     table.add_rims(wood)
     stout = [Line(row, sketch.strokes[row].id, middle, np.full(2, width)) for row, middle, width in table.stubs]
-    trunks = trunks_of_edges([*wood.lines, *stout], table.outlines)
+    rooted = roots_apart([*wood.lines, *stout], ground, table.named_roots, table.outlines) if ground or table.named_roots else Rooted([*wood.lines, *stout], [])
+    trunks = trunks_of_edges(rooted.above, table.outlines)
     lines, sides = trunks.lines, [*wood.sides, *trunks.sides]
-    table.add_bark([*wood.bark, *trunks.bark], lines)
+    table.add_bark([*wood.bark, *trunks.bark], [*lines, *rooted.below])
     stem_warnings = []
     if not lines and table.outlines:
         lines, stem_warnings = implied_stems(table.outlines, ground, *_owner(table))
     elif table.outlines:
         lines, stem_warnings = carried_on(lines, merged(table.outlines), *_owner(table))
-    rooted = roots_apart(lines, ground, table.named_roots)
+    rooted = Rooted(lines, rooted.below, rooted.found) if rooted.below else roots_apart(lines, ground, table.named_roots, table.outlines)
     cuts, cut_warnings = cuts_of([*rooted.above, *rooted.below], sketch.page)
     roles = tuple(table.found[row].named(sketch.strokes[row].id) for row in sorted(table.found))
     return Sorted(

@@ -40,7 +40,7 @@ def stubs(m: Measures, rows: Int[np.ndarray, " row"], crowns: list[Float[np.ndar
     size, side = float((high - low).max()), m.high - m.low
     crown = shapely.union_all([shapely.make_valid(shapely.Polygon(points)).buffer(NEAR * size) for points in crowns])
     width = crown.bounds[2] - crown.bounds[0] - 2 * NEAR * size
-    slim = slenderness(m.area, m.length + m.opening) >= np.where(m.filled, SLIM[1], SLIM[0])
+    slim = slenderness(m.area, m.around) >= np.where(m.filled, SLIM[1], SLIM[0])
     fits = (m.low[:, 1] <= low[1] + STANDS * (high[1] - low[1])) & (side[:, 0] <= NARROW * width) & ~slim
     fits &= (m.opening <= OPEN * m.size) & (m.area >= SOLID * side.prod(1)) & (m.area > 0) & (np.diff(m.first_point) >= 3)
     found: list[Stub] = []

@@ -58,7 +58,34 @@ class _Side:
 
 
 def trunks_of_edges(lines: list[Line], crowns: list[Float[np.ndarray, "point 2"]]) -> Trunks:
-    """The lines with the sides of a trunk replaced by their middle. `crowns`: outlines found so far."""
+    """The lines with the sides of trunks replaced by their middle. `crowns`: outlines found so far; trees that stand
+    side by side, each under crowns of its own, are looked at one by one."""
+    trees = _side_by_side(lines, crowns)
+    found = [_trunk_under(*tree) for tree in trees]
+    return Trunks(*([one for trunks in found for one in getattr(trunks, name)] for name in ("lines", "sides", "bark")))
+
+
+def _side_by_side(lines: list[Line], crowns: list[Float[np.ndarray, "point 2"]]) -> list[tuple[list[Line], list]]:
+    """(lines, crowns) of every tree, where the crowns of trees share no abscissa and the feet stand below them."""
+    spans: list[list] = []  # left, right, crowns
+    for points in sorted(crowns, key=lambda points: float(points[:, 0].min())):
+        left, right = float(points[:, 0].min()), float(points[:, 0].max())
+        if spans and left <= spans[-1][1]:
+            spans[-1] = [spans[-1][0], max(right, spans[-1][1]), [*spans[-1][2], points]]
+        else:
+            spans.append([left, right, [points]])
+    if len(spans) < 2:
+        return [(lines, crowns)]
+    feet = [float(line.points[np.argmin(line.points[:, 1]), 0]) for line in lines]
+    owner = [min(range(len(spans)), key=lambda k: max(spans[k][0] - x, x - spans[k][1], 0.0)) for x in feet]
+    trees = [([line for line, mine in zip(lines, owner, strict=True) if mine == k], spans[k][2]) for k in range(len(spans))]
+    low = [min((float(line.points[:, 1].min()) for line in tree), default=np.inf) for tree, _ in trees]
+    height = extent(lines) if lines else 0.0
+    return trees if max(low) - min(low) <= ON_GROUND[True] * height else [(lines, crowns)]
+
+
+def _trunk_under(lines: list[Line], crowns: list[Float[np.ndarray, "point 2"]]) -> Trunks:
+    """The same for one tree."""
     if not lines:
         return Trunks(lines, [], [])
     height = extent(lines)
