@@ -70,6 +70,8 @@ def _words(canvas: ImageDraw.ImageDraw, words: Words) -> None:
     font = ImageFont.load_default(words.size)
     anchor = {"start": "ls", "middle": "ms", "end": "rs"}[words.anchor]
     text = "".join(c if c.isprintable() else "\N{REPLACEMENT CHARACTER}" for c in words.text)
+    if words.halo:
+        canvas.text((words.x, words.y), text, "#ffffff", font, anchor, stroke_width=2.5, stroke_fill="#ffffff")
     canvas.text((words.x, words.y), text, words.colour, font, anchor, stroke_width=0.35 if words.bold else 0)
 
 

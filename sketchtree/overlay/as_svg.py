@@ -35,6 +35,7 @@ def _disc(disc: Disc) -> str:
 
 def _words(words: Words) -> str:
     weight = ' font-weight="bold"' if words.bold else ""
+    weight += ' stroke="#ffffff" stroke-width="4" paint-order="stroke"' if words.halo else ""
     return (
         f'<text x="{words.x:.2f}" y="{words.y:.2f}" font-size="{words.size:g}" fill="{words.colour}" '
         f'text-anchor="{words.anchor}"{weight}>{escape(_printable(words.text))}</text>'

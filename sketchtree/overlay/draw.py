@@ -12,7 +12,7 @@ from sketchtree.sketch.strokes import Sketch
 LONG_SIDE = 1300.0  # pixels: the drawing's larger side
 LEAST_HEIGHT = 760.0  # pixels: room for the legend
 MARGIN = 40.0  # pixels around the drawing
-LEGEND = 420.0  # pixels: width of the legend's column
+LEGEND = 440.0  # pixels: width of the legend's column
 
 
 def overlay(
@@ -31,9 +31,8 @@ def overlay(
     tall = max(height, LEAST_HEIGHT) if explained else height
     place = Placing(low, high, MARGIN, MARGIN + (tall - height) / 2, scale)
     total = (2 * MARGIN + width + (LEGEND if explained else 0.0), 2 * MARGIN + tall)
-    marks = reading_marks(sketch, graph, place)
-    if explained:
-        marks += legend(sketch.name, graph, 2 * MARGIN + width, MARGIN, total[1] - MARGIN / 2)
+    column, listed = legend(sketch.name, graph, 2 * MARGIN + width, MARGIN, total[1] - MARGIN / 2) if explained else ([], 0)
+    marks = [*reading_marks(sketch, graph, place, numbered=listed), *column]
     return Scene(round(total[0]), round(total[1]), tuple(marks), f"How {sketch.name} was read", _underlay(underlay, place))
 
 

@@ -6,16 +6,18 @@ from collections import Counter
 import numpy as np
 
 from sketchtree.overlay.colours import DOUBT, DRAWN, ORDER, ORDER_NAME, OTHER_ROLE, ROLE, ROOT
-from sketchtree.overlay.marks import MOST_DOUBTS, doubts
+from sketchtree.overlay.doubts import doubts
 from sketchtree.overlay.scene import Disc, Path, Words
 from sketchtree.sketch.graph import SketchGraph
 
 LINE = 22.0  # pixels from one line to the next
-LETTERS = 46  # in a line of text
+LETTERS = 54  # in a line of text
+NOTES = 0.6  # of what is left of the column, at most, for notes
 
 
-def legend(name: str, graph: SketchGraph, left: float, top: float, bottom: float) -> list[Path | Disc | Words]:
-    """The marks of the column whose upper left corner is (left, top); it ends above `bottom`, saying what it leaves out."""
+def legend(name: str, graph: SketchGraph, left: float, top: float, bottom: float) -> tuple[list[Path | Disc | Words], int]:
+    """(the marks of the column whose upper left corner is (left, top), how many doubts it lists); it ends above
+    `bottom`, saying what it leaves out."""
     column = _Column(left, top + 22, bottom)
     column.text(name if len(name) <= 40 else name[:39] + "…", size=19.0, bold=True)
     column.text(counts(graph))
@@ -25,9 +27,11 @@ def legend(name: str, graph: SketchGraph, left: float, top: float, bottom: float
     column.disc_key(Disc(0, 0, 3.2, "#ffffff", "#333333", 1.3), "junction")
     column.disc_key(Disc(0, 0, 7.0, "#111111"), "where a stem meets the ground")
     column.line_key(DOUBT, "a foot that was moved to its junction", None)
-    _doubt_lines(column, graph)
-    column.list("Notes", list(graph.warnings))
-    return column.marks
+    if doubts(graph):
+        column.disc_key(Disc(0, 0, 8.5, None, DOUBT, 2.2), "a doubt; a broken line leads to the next best")
+    column.list("Notes", list(graph.warnings), bottom=column.y + NOTES * (bottom - column.y))
+    listed = column.list("Doubts: what it grows from, or may grow from", [f"{k}  {doubt.words}" for k, doubt in enumerate(doubts(graph), 1)], colour=DOUBT)
+    return column.marks, listed
 
 
 def counts(graph: SketchGraph) -> str:
@@ -56,15 +60,6 @@ def _keys(graph: SketchGraph) -> list[tuple[str, str, float | None]]:
     return [*keys, (DRAWN, "a stroke as it was drawn", None)]
 
 
-def _doubt_lines(column: "_Column", graph: SketchGraph) -> None:
-    found = doubts(graph)
-    lines = []
-    for number, doubt in enumerate(found[:MOST_DOUBTS], 1):
-        other, cost = min(doubt.alternatives, key=lambda pair: pair[1])
-        lines.append(f"{number}  {doubt.stroke} grows from {doubt.parent or 'the ground'}, or from {other} (costs {cost - doubt.cost:+.1f})")
-    column.list("Doubts", lines, colour=DOUBT, more=len(found) - len(lines))
-
-
 class _Column:
     """Lines of text from the top down; what does not fit is counted."""
 
@@ -73,7 +68,7 @@ class _Column:
         self.marks: list[Path | Disc | Words] = []
 
     def text(self, text: str, *, size: float = 15.0, bold: bool = False, colour: str = "#222222", indent: float = 0.0) -> None:
-        for k, line in enumerate(textwrap.wrap(text, LETTERS) or [""]):
+        for k, line in enumerate(textwrap.wrap(text, LETTERS - round(indent / 8)) or [""]):
             self.marks.append(Words(self.left + indent + (14.0 if k else 0.0), self.y, line, size, colour, bold=bold))
             self.y += LINE * max(1.0, size / 15.0)
 
@@ -88,15 +83,17 @@ class _Column:
         self.marks.append(Disc(self.left + 15, self.y - 5, disc.radius, disc.fill, disc.colour, disc.width))
         self.text(text, indent=42.0)
 
-    def list(self, title: str, lines: list[str], *, colour: str = "#222222", more: int = 0) -> None:
+    def list(self, title: str, lines: list[str], *, colour: str = "#222222", bottom: float = np.inf) -> int:
+        """Lists the lines under a title, as many as fit above `bottom`, and says how many do not; returns how many do."""
         if not lines:
-            return
+            return 0
+        bottom = min(bottom, self.bottom)
         self.space()
         self.text(title, bold=True, colour=colour)
         for k, line in enumerate(lines):
-            if self.y + LINE * (1 + len(textwrap.wrap(line, LETTERS))) > self.bottom:
-                more += len(lines) - k
-                break
+            rows = len(textwrap.wrap(line, LETTERS))
+            if self.y + LINE * (rows + (k + 1 < len(lines)) - 1) > bottom:
+                self.text(f"and {len(lines) - k} more: see the report's {title.partition(':')[0].lower().replace('notes', 'warnings').replace('doubts', 'attachments')}")
+                return k
             self.text(line)
-        if more:
-            self.text(f"and {more} more: see the report's attachments")
+        return len(lines)

@@ -4,7 +4,7 @@
     coloured line        a limb as it was read, an arrow head on it pointing from foot to tip
     white disc           a junction            black disc    a base, where a stem meets the ground
     short red line       how far a foot was moved to its junction
-    red ring, number     a doubtful attachment; a broken red line leads to the next best parent
+    red ring, number     a doubt; a broken red line leads to the next best parent
 """
 
 import numpy as np
@@ -12,13 +12,14 @@ import shapely
 from jaxtyping import Float
 
 from sketchtree.overlay.colours import DOUBT, DRAWN, ORDER, OTHER_ROLE, ROLE, ROOT
+from sketchtree.overlay.doubts import Doubt, doubts
 from sketchtree.overlay.scene import Disc, Path, Words
-from sketchtree.sketch.graph import Attachment, SketchGraph
+from sketchtree.sketch.graph import SketchGraph
 from sketchtree.sketch.strokes import Sketch
 
 THICK, THIN = 7.0, 2.2  # pixels: the widest and the narrowest limb drawn
+ROOM, FINEST = 90.0, 0.45  # pixels of the picture's side for the root of the limbs' number, below which marks shrink, and how far
 BRANCH_ROLES = frozenset({"crown", "obstacle", "ground"})  # shown by what the graph holds of them
-MOST_DOUBTS = 40  # numbered in the picture
 
 
 class Placing:
@@ -32,24 +33,26 @@ class Placing:
         return np.stack([self.left + (points[:, 0] - self.low[0]) * self.scale, self.top + (self.high[1] - points[:, 1]) * self.scale], 1)
 
 
-def reading_marks(sketch: Sketch, graph: SketchGraph, place: Placing) -> list[Path | Disc | Words]:
-    """Every mark of the picture, in the order of painting."""
+def reading_marks(sketch: Sketch, graph: SketchGraph, place: Placing, *, numbered: int = 0) -> list[Path | Disc | Words]:
+    """Every mark of the picture, in the order of painting; the first doubts have a number, as many as are explained."""
+    fine = _fineness(graph, place)
     return [
         *_page(sketch, place),
         *_areas(graph, place),
         *_drawn(sketch, graph, place),
-        *_limbs(graph, place),
-        *_moved_feet(sketch, graph, place),
-        *_joints(graph, place),
+        *_limbs(graph, place, fine),
+        *_moved_feet(sketch, graph, place, fine),
+        *_joints(graph, place, fine),
         *_cuts(graph, place),
-        *_doubt_marks(sketch, graph, place),
+        *_doubt_marks(sketch, graph, place, fine, numbered),
     ]
 
 
-def doubts(graph: SketchGraph) -> list[Attachment]:
-    """The doubtful attachments, the most doubtful first."""
-    found = [a for a in graph.attachments if a.doubtful]
-    return sorted(found, key=lambda a: min(cost for _, cost in a.alternatives) - a.cost)
+def _fineness(graph: SketchGraph, place: Placing) -> float:
+    """How large marks are: 1, or smaller where many limbs share the picture."""
+    points = place(np.concatenate([graph.xy, graph.curve_points]))
+    room = float(np.ptp(points, axis=0).max()) / np.sqrt(len(graph.limb_id))
+    return float(np.clip(room / ROOM, FINEST, 1.0))
 
 
 def _page(sketch: Sketch, place: Placing) -> list[Path]:
@@ -77,7 +80,7 @@ def _drawn(sketch: Sketch, graph: SketchGraph, place: Placing) -> list[Path]:
     return marks
 
 
-def _limbs(graph: SketchGraph, place: Placing) -> list[Path]:
+def _limbs(graph: SketchGraph, place: Placing, fine: float) -> list[Path]:
     """Limbs, the trunk last, so that it lies on top."""
     rows = np.flatnonzero(~graph.is_base)
     curves = {limb: [] for limb in graph.limb[rows].tolist()}
@@ -89,7 +92,7 @@ def _limbs(graph: SketchGraph, place: Placing) -> list[Path]:
         points = place(np.concatenate(curves[limb]))
         below = bool(graph.root[graph.limb_first[limb]])
         colour = ROOT if below else ORDER[min(int(order[limb]), len(ORDER) - 1)]
-        width = float(np.clip(THICK * 0.72 ** int(order[limb]), THIN, THICK))
+        width = fine * float(np.clip(THICK * 0.72 ** int(order[limb]), THIN, THICK))
         marks.append(Path(points, colour, width, 0.85, dash=9.0 if below else None))
         marks += _arrow(points, colour, width)
     return marks
@@ -107,7 +110,7 @@ def _arrow(points: Float[np.ndarray, "point 2"], colour: str, width: float) -> l
     return [Path(np.array([before - across, before + across, before + along * size * 1.1]), None, closed=True, fill=colour, fill_opacity=1.0)]
 
 
-def _moved_feet(sketch: Sketch, graph: SketchGraph, place: Placing) -> list[Path]:
+def _moved_feet(sketch: Sketch, graph: SketchGraph, place: Placing, fine: float) -> list[Path]:
     """From the end of the stroke that was drawn nearest to its junction, to the junction."""
     strokes = {stroke.id: stroke for stroke in sketch.strokes}
     marks = []
@@ -116,15 +119,15 @@ def _moved_feet(sketch: Sketch, graph: SketchGraph, place: Placing) -> list[Path
             continue
         ends = strokes[a.stroke].points[[0, -1]]
         foot = ends[np.argmin(np.hypot(*(ends - a.point).T))]
-        marks.append(Path(place([foot, a.point]), DOUBT, 2.0))
+        marks.append(Path(place([foot, a.point]), DOUBT, 2.0 * fine))
     return marks
 
 
-def _joints(graph: SketchGraph, place: Placing) -> list[Disc]:
+def _joints(graph: SketchGraph, place: Placing, fine: float) -> list[Disc]:
     first = graph.limb_first
     joint = np.unique(graph.parent[first])
     joint = joint[~graph.is_base[joint]]
-    marks = [Disc(x, y, 3.2, "#ffffff", "#333333", 1.3) for x, y in place(graph.xy[joint]).tolist()]
+    marks = [Disc(x, y, 3.2 * fine, "#ffffff", "#333333", 1.3 * fine) for x, y in place(graph.xy[joint]).tolist()]
     marks += [Disc(x, y, 8.0, "#111111", "#ffffff", 2.0) for x, y in place(graph.xy[graph.is_base]).tolist()]
     return marks
 
@@ -139,16 +142,31 @@ def _cuts(graph: SketchGraph, place: Placing) -> list[Path]:
     return marks
 
 
-def _doubt_marks(sketch: Sketch, graph: SketchGraph, place: Placing) -> list[Path | Disc | Words]:
+def _doubt_marks(sketch: Sketch, graph: SketchGraph, place: Placing, fine: float, numbered: int) -> list[Path | Disc | Words]:
     strokes = {stroke.id: stroke for stroke in sketch.strokes}
     marks: list[Path | Disc | Words] = []
-    for number, doubt in enumerate(doubts(graph)[:MOST_DOUBTS], 1):
-        x, y = place(doubt.point)[0].tolist()
-        for other, cost in doubt.alternatives[:1]:
-            if other in strokes and len(strokes[other].points) > 1:
-                line = shapely.LineString(strokes[other].points)
-                near = line.interpolate(line.project(shapely.Point(doubt.point))).coords[0]
-                marks.append(Path(np.array([(x, y), place(near)[0]]), DOUBT, 1.6, dash=4.0))
-        marks.append(Disc(x, y, 8.5, None, DOUBT, 2.2))
-        marks.append(Words(x + 10, y - 8, str(number), 14.0, DOUBT, bold=True))
+    for number, doubt in enumerate(doubts(graph), 1):
+        marks += _ways_out(doubt, strokes, place)
+        for a in doubt.attachments:
+            x, y = place(a.point if doubt.role is None else _middle(strokes[a.stroke].points))[0].tolist()
+            marks.append(Disc(x, y, 8.5 * fine, None, DOUBT, 2.2 * fine))
+            if number <= numbered:
+                marks.append(Words(x + 10 * fine, y - 8 * fine, str(number), 14.0, DOUBT, bold=True, halo=True))
     return marks
+
+
+def _ways_out(doubt: Doubt, strokes: dict, place: Placing) -> list[Path]:
+    """A broken line from a doubtful junction to the next best parent."""
+    if doubt.other not in strokes or len(strokes[doubt.other].points) < 2:
+        return []
+    (a,) = doubt.attachments
+    line = shapely.LineString(strokes[doubt.other].points)
+    near = line.interpolate(line.project(shapely.Point(a.point))).coords[0]
+    return [Path(place([a.point, near]), DOUBT, 1.6, dash=4.0)]
+
+
+def _middle(points: Float[np.ndarray, "point 2"]) -> Float[np.ndarray, " 2"]:
+    """The point half way along a stroke."""
+    if len(points) < 2:
+        return points[0]
+    return np.array(shapely.LineString(points).interpolate(0.5, normalized=True).coords[0])

@@ -43,6 +43,7 @@ class Words:
     colour: str = "#222222"
     anchor: str = "start"  # start | middle | end
     bold: bool = False
+    halo: bool = False  # white around the letters, for what lies over a drawing
 
 
 @dataclass(frozen=True, eq=False)

@@ -13,7 +13,7 @@ from sketchtree.overlay.as_svg import scene_svg
 from sketchtree.overlay.colours import DOUBT, ORDER, ROLE, ROOT
 from sketchtree.overlay.draw import LONG_SIDE, MARGIN, overlay
 from sketchtree.overlay.legend import counts
-from sketchtree.overlay.marks import doubts
+from sketchtree.overlay.doubts import doubts
 from sketchtree.overlay.scene import Disc, Path, Words
 from sketchtree.sketch.formats import read_sketch
 from sketchtree.sketch.graph import Attachment, Cut, Role
@@ -87,11 +87,11 @@ def test_doubts_are_numbered_the_most_doubtful_first(oak):
     unsure = Attachment("limb-1", "trunk", point, 0.0, 1.0, (("top", 1.9),), "a lateral")
     most = Attachment("limb-2", "trunk", point, 0.0, 1.0, (("top", 1.1), ("limb-1", 1.2)), "a lateral")
     graph = graph.replace(attachments=(sure, unsure, most))
-    assert [d.stroke for d in doubts(graph)] == ["limb-2", "limb-1"]
+    assert [d.attachments[0].stroke for d in doubts(graph)] == ["limb-2", "limb-1"]
     words = [m for m in overlay(sketch, graph).marks if isinstance(m, Words) and m.colour == DOUBT and m.bold]
-    assert [m.text for m in words] == ["1", "2", "Doubts"]
+    assert [m.text for m in words[:3]] == ["1", "2", "Doubts: what it grows from, or may grow from"]
     text = " ".join(m.text for m in overlay(sketch, graph).marks if isinstance(m, Words))
-    assert "limb-2 grows from trunk, or from top (costs +0.1)" in text
+    assert "1  limb-2: from trunk, or top (+0.1)" in text
 
 
 def test_what_is_no_branch_has_its_role_s_colour_and_a_line_in_the_legend(oak):

@@ -1,7 +1,8 @@
-"""Which part of a painted limb is really the rim of the crown? Ink around a crown often runs on into the trunk.
+"""Which strokes, and which part of a painted limb, are really the rim of the crown? Ink around a crown often runs on into the trunk.
 
 A line down the middle of a painted shape that runs along a crown's outline for a good while is the pen line around the crown;
-it is cut off where it leaves it. A limb meets the outline at an angle, or only with its tip.
+it is cut off where it leaves it. A limb meets the outline at an angle, or only with its tip. A loose stroke that follows the outline
+for all of its length is a piece of it.
 """
 
 import numpy as np
@@ -9,12 +10,38 @@ import shapely
 from jaxtyping import Bool, Float
 
 from sketchtree.sketch.joining.lines import Line
+from sketchtree.sketch.roles.found import Found
+from sketchtree.sketch.roles.measures import Measures
 
+PIECE = 0.03  # of the crown's size: a piece of the outline is at least as long, and no farther from it
+LOOSE = 0.02  # of the crown's size: it keeps this far from every branch, at both ends
 NEAR = 0.045  # of the crown's size: on the outline
 ALONG = np.cos(np.radians(35))  # and in its direction
 LONG = 0.2  # of the crown's size: least length of rim
 KEPT = 0.08  # of the crown's size: what is left of a line is dropped where it is shorter
 STEPS = 96
+
+
+def pieces_of_rims(m: Measures, free: Bool[np.ndarray, " stroke"], wood: Bool[np.ndarray, " stroke"], outlines: list[Float[np.ndarray, "point 2"]]) -> list[Found]:
+    """The loose strokes that follow an outline from end to end."""
+    found = []
+    for outline in outlines:
+        size = float(np.ptp(outline, axis=0).max())
+        ring = shapely.LinearRing(outline)
+        rows = np.flatnonzero(free & ~m.filled & (m.length >= PIECE * size))
+        near = shapely.distance(shapely.points(m.evenly[rows]), ring).max(1) <= PIECE * size
+        rows = [row for row in rows[near].tolist() if _follows(m.evenly[row], ring) and row not in (one.row for one in found)]
+        others = shapely.union_all(m.shapes(np.setdiff1d(np.flatnonzero(wood), rows)))
+        loose = shapely.distance(shapely.points(np.stack([m.first[rows], m.last[rows]], 1)), others) > LOOSE * size
+        found += [Found(row, "crown", "it runs along the crown's outline", (("branch", 0.5),)) for row, free_ends in zip(rows, loose, strict=True) if free_ends.all() or others.is_empty]
+    return found
+
+
+def _follows(points: Float[np.ndarray, "step 2"], ring: shapely.LinearRing) -> bool:
+    """Whether a stroke covers as much of the outline as it is long."""
+    at = shapely.line_locate_point(ring, shapely.points(points))
+    steps = np.abs((np.diff(at) + 0.5 * ring.length) % ring.length - 0.5 * ring.length)
+    return bool(steps.sum() >= ALONG * np.hypot(*np.diff(points, axis=0).T).sum())
 
 
 def without_rims(lines: list[Line], outlines: list[Float[np.ndarray, "point 2"]]) -> tuple[list[Line], list[Line]]:

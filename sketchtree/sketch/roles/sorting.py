@@ -23,6 +23,7 @@ from sketchtree.sketch.roles.ink import find_ink, read_ink
 from sketchtree.sketch.roles.leaves import leaf_shapes, marks_inside
 from sketchtree.sketch.roles.page import cuts_of, frames
 from sketchtree.sketch.roles.remarks import root_warnings, side_warnings
+from sketchtree.sketch.roles.rim import pieces_of_rims
 from sketchtree.sketch.roles.roots import Rooted, roots_apart
 from sketchtree.sketch.roles.shadow import shadows
 from sketchtree.sketch.roles.table import Part, Table, named_table
@@ -113,6 +114,7 @@ def _find_leaves(table: Table) -> None:
     height = float(max(table.m.high[rows, 1].max() - table.m.low[rows, 1].min(), 0.0))
     if table.outlines:
         table.take(marks_inside(table.m, table.free, table.crown_area(0.02 * height), table.wood, height))
+        table.take(pieces_of_rims(table.m, table.free, table.wood, table.outlines))
     table.take(hatching(table.m, table.free, table.wood, height))
     leaves = leaf_shapes(table.m, table.free, height)
     if len(leaves) < table.wood.sum() or table.stubs:
