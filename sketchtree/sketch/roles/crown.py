@@ -56,8 +56,11 @@ def closed_crowns(
     large = m.size[rows] >= np.where(m.opening[rows] <= SHUT * m.size[rows], SHUT_LARGE, LARGE) * size
     alone = reaches & large & (inside.mean(1) >= 0.5)
     if alone.any():
+        others_of_its_kind = reaches & inside[:, ~inside[alone].any(0)].any(1) & (m.size[rows] >= ALIKE * m.size[rows[alone]].max())
+        alone |= others_of_its_kind
         found = _kept(m, rows, regions, alone, "a closed outline around most of the branches' tips")
-        return [*found, *_on_crowns(m, rows[~alone], [one.row for one in found if one.role == "crown"])]
+        crowns = [one.row for one in found if one.role == "crown"]
+        return [*found, *_on_crowns(m, rows[~alone], crowns), *_open_lobes(m, free, crowns, NEAR * size)]
     together = inside.any(1)
     enough = inside[together].any(0).mean() >= 0.5 and together.sum() <= MOST
     if enough and reaches[together].any() and (len(rows) > 1 or m.size[rows[0]] >= LARGE * size):
