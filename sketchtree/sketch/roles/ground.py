@@ -196,7 +196,12 @@ def _rootlike(m: Measures, row: int, height: float) -> bool:
     lower = np.where((m.first[:, 1] >= m.last[:, 1])[:, None], m.last, m.first)[wholly]
     falls = upper[:, 1] - lower[:, 1] >= 0.25 * np.hypot(*(upper - lower).T)
     from_foot = falls & (np.abs(upper[:, 1] - level) <= 2 * AT_FOOT * height)
-    return bool(painted.any() or (from_foot.sum() >= 2 and np.ptp(upper[from_foot, 0]) <= TOGETHER * height))
+    if painted.any() or (from_foot.sum() >= 2 and np.ptp(upper[from_foot, 0]) <= TOGETHER * height):
+        return True
+    narrower = (m.low[below, 0] >= m.low[row, 0]).all() and (m.high[below, 0] <= m.high[row, 0]).all()
+    passing = shapely.union_all(m.shapes(below[m.high[below, 1] > level + DEEP * height]))
+    on_taproot = falls & (shapely.distance(shapely.points(upper), passing) <= AT_FOOT * height)
+    return bool(narrower and on_taproot.sum() >= 2)
 
 
 def _shape(m: Measures, row: int):
