@@ -19,8 +19,9 @@ APART = np.radians(8)  # least angle between two lines that cross
 WIDTH = 0.5  # radians for a width e times as large
 REACH = 9.0  # half widths beyond the joint's ink over which a direction is taken
 SWOLLEN = 1.25  # of a line's half width: where it is wider, from the joint on, it is one ink with its neighbour
-BRIDGE = 7.0  # half widths: a bridge is no longer
-HUB = 6  # lines in one joint, from which none goes on: they spread from there, as fronds do from a palm's head
+BRIDGE = (4.0, 3.0)  # half widths: a bridge is no longer than the first and the second / sin(angle of the crossing)
+HUB = 6  # lines in one joint: they spread from there, as fronds do from a palm's head, unless all go STAR straight on
+STAR = np.radians(15)
 RING = 12.0  # half widths: a shorter loop is not drawn in one line
 
 End = tuple[int, int]  # (edge, 0 at its node a or 1 at its node b)
@@ -52,7 +53,7 @@ def link(web: Web, pen: float) -> Links:
     crossed = {node for key in bridges for node in (web.edges[key].a, web.edges[key].b)}
     onward: dict[End, End] = {}
     for node in sorted(web.at):
-        if node not in crossed and 1 < web.degree(node) < HUB:
+        if node not in crossed and web.degree(node) > 1:
             onward.update(_pairs(web, arms, node))
     for pairs in bridges.values():
         onward.update({a: b for pair in pairs for a, b in (pair, pair[::-1])})
@@ -102,12 +103,12 @@ def _pairs(web: Web, arms: dict[End, Arm], node: int) -> dict[End, End]:
             cost, turn = _cost(arms[one], arms[two])
             ring = one[0] == two[0] and web.edges[one[0]].length < RING * web.half[node]
             if turn <= BEND and not ring:
-                costs.append((round(cost, 9), one, two))
+                costs.append((round(cost, 9), turn, one, two))
     onward: dict[End, End] = {}
-    for _, one, two in sorted(costs):
-        if one not in onward and two not in onward:
+    for _, turn, one, two in sorted(costs):
+        if one not in onward and two not in onward and (len(ends) < HUB or turn <= STAR):
             onward[one], onward[two] = two, one
-    return onward
+    return onward if len(ends) < HUB or len(onward) == len(ends) else {}
 
 
 def _bridges(web: Web, arms: dict[End, Arm], pen: float) -> dict[int, tuple[tuple[End, End], ...]]:
@@ -118,13 +119,25 @@ def _bridges(web: Web, arms: dict[End, Arm], pen: float) -> dict[int, tuple[tupl
     for length, key in sorted(short):
         edge = web.edges[key]
         half = max(0.5 * pen, min(web.half[edge.a], web.half[edge.b]))
-        if length > BRIDGE * half or {edge.a, edge.b} & used:
+        if length > _longest(APART) * half or {edge.a, edge.b} & used:
             continue
         pairs = _over(web, arms, key)
-        if pairs:
+        if pairs and length <= _longest(_between(arms, pairs)) * half:
             found[key] = pairs
             used |= {edge.a, edge.b}
     return found
+
+
+def _longest(angle: float) -> float:
+    """Greatest length of a bridge that two lines share which cross at an angle, half widths."""
+    return BRIDGE[0] + BRIDGE[1] / float(np.sin(np.clip(angle, APART, np.pi / 2)))
+
+
+def _between(arms: dict[End, Arm], pairs: tuple[tuple[End, End], ...]) -> float:
+    """The angle at which two lines cross, 0 to π/2."""
+    one, two = (arms[pair[0]] for pair in pairs)
+    angle = _angle(one.dx, one.dy, two.dx, two.dy)
+    return min(angle, np.pi - angle)
 
 
 def _over(web: Web, arms: dict[End, Arm], key: int) -> tuple[tuple[End, End], ...]:
@@ -141,8 +154,7 @@ def _over(web: Web, arms: dict[End, Arm], key: int) -> tuple[tuple[End, End], ..
             best = (total, pairs)
     if not best[1]:
         return ()
-    one, two = (arms[pair[0]] for pair in best[1])
-    return best[1] if _angle(one.dx, one.dy, two.dx, two.dy) >= APART else ()
+    return best[1] if _between(arms, best[1]) >= APART else ()
 
 
 def _straight(one: Arm, two: Arm) -> tuple[float, float]:

@@ -6,7 +6,8 @@ From every dot the row goes on to the dot ahead for which
 
     gap · (1 + 2 θ)      gap to it, of the row's spacing s;  θ turn of the row there, radians
 
-is least, over gaps of up to REACH s: where the tip of a limb takes a dot's place. A row of fewer than FEWEST dots is none.
+is least, over gaps of up to REACH s: where the tip of a limb takes a dot's place. A row of fewer than FEWEST dots is none, nor
+is one of uneven gaps or one that turns about: dust lies like that.
 """
 
 from dataclasses import dataclass
@@ -24,6 +25,8 @@ LARGEST = 0.05  # of the picture's larger side
 WEAR = (0.35, 0.5, 0.65, 0.8)  # of a dot's half width: how far touching dots are worn away
 REACH = 3.6  # spacings
 SHARP = np.radians(60)  # greatest turn of a row from dot to dot
+GAPS = (0.55, 1.6)  # of the row's middle gap: three in four of its gaps are no smaller, no larger
+SMOOTH = np.radians(22)  # greatest middle turn of a row
 FREE = 0.35  # least share of a row's dots that stand free
 NEARLY = 0.3  # of the row's length: a row with a smaller opening goes round something
 
@@ -49,7 +52,7 @@ def dotted_curves(mask: Bool[np.ndarray, "row col"], half: Float[np.ndarray, "ro
         return [], mask
     dots, is_free = _with_touching(free, 0.5 * middle, half)
     rows = _rows(dots)
-    rows = [row for row in rows if len(row[0]) >= FEWEST and is_free[row[0]].mean() >= FREE]
+    rows = [row for row in rows if len(row[0]) >= FEWEST and is_free[row[0]].mean() >= FREE and _is_even(dots[row[0]])]
     curves = [Dotted(dots[row], middle, ring) for row, ring in rows]
     if not curves:
         return [], mask
@@ -115,6 +118,14 @@ def _evenness(dots, away, near) -> Float[np.ndarray, " dot"]:
     """How squarely every dot lies between its two neighbours, 0 to 1."""
     a, b = dots[near[:, 1]] - dots, dots[near[:, 2]] - dots
     return np.round(-(a * b).sum(1) / np.maximum(away[:, 1] * away[:, 2], 1e-9), 6)
+
+
+def _is_even(row: Float[np.ndarray, "dot 2"]) -> bool:
+    """Whether the dots of a row follow each other evenly, on a smooth curve."""
+    step = np.diff(row, axis=0)
+    gap = np.hypot(*step.T) / np.median(np.hypot(*step.T))
+    turn = np.abs(np.arctan2(step[:-1, 0] * step[1:, 1] - step[:-1, 1] * step[1:, 0], (step[:-1] * step[1:]).sum(1)))
+    return bool(np.mean((gap >= GAPS[0]) & (gap <= GAPS[1])) >= 0.75 and np.median(turn) <= SMOOTH)
 
 
 def _turn(three: Float[np.ndarray, "3 2"]) -> float:

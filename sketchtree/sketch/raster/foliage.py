@@ -35,6 +35,7 @@ SPREAD = 0.022  # of H
 DENSE = 9.0  # H of line in an area of H²
 FEWEST = 10  # lines that whirl or are blades: fewer are no foliage
 LIMB = (0.1, 14.0)  # of H, radians per H: a line so long and no curlier is wood wherever it lies
+SCRAP = 0.06  # of H: a line no longer that touched nothing but leaves is a piece of one
 WITHIN = 0.6  # share of a line that lies in foliage, if it is foliage
 CROWN = 0.03  # of H²: least area of a crown
 HIGH = 0.6  # of the drawing's height: a crown reaches above it
@@ -72,17 +73,18 @@ def without_foliage(lines: list[Traced], pen: float) -> Foliage:
     cell = height / GRID
     region = _region([line for line, leaf in zip(rest, leafy, strict=True) if leaf], low, points.max(0), cell)
     leafy &= np.array([_within(line, region, low, cell) >= 0.5 * WITHIN for line in rest])
-    left = bridged(_freed([line for line, leaf in zip(rest, leafy, strict=True) if not leaf]), pen)
+    left = bridged(_freed([line for line, leaf in zip(rest, leafy, strict=True) if not leaf], SCRAP * height), pen)
     wood = [line for line in left if _is_limb(line, height) or _within(line, region, low, cell) < WITHIN]
     if not wood:
         return Foliage(rest, 0, int(is_hatch.sum()), [])
-    return Foliage(wood, int(leafy.sum()) + len(left) - len(wood), int(is_hatch.sum()), _crowns(region, low, cell))
+    return Foliage(wood, len(rest) - len(wood), int(is_hatch.sum()), _crowns(region, low, cell))
 
 
-def _freed(lines: list[Traced]) -> list[Traced]:
-    """The lines with those ends free that ended on a line which is gone."""
+def _freed(lines: list[Traced], scrap: float) -> list[Traced]:
+    """The lines with those ends free that ended on a line which is gone; without those no longer than `scrap` that touched nothing else."""
     passed = frozenset().union(*(line.passes for line in lines))
-    return [dataclasses.replace(line, joints=tuple(node if node in passed else -1 for node in line.joints)) for line in lines]
+    free = [dataclasses.replace(line, joints=tuple(node if node in passed else -1 for node in line.joints)) for line in lines]
+    return [new for old, new in zip(lines, free, strict=True) if not (old.joints != new.joints == (-1, -1) and new.length <= scrap)]
 
 
 def _is_limb(line: Traced, height: float) -> bool:

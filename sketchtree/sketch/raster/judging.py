@@ -45,11 +45,11 @@ def check_ink(ink: Ink, name: str) -> None:
 
 
 def check_lines(lines: list[Traced], dotted: int, specks: int, size: float, name: str) -> None:
-    """Raise SketchError where there are no lines, or nothing but small marks. `size`: of what is drawn, pixels of the ink."""
+    """Raise SketchError where there are no lines, or nothing but small marks. `size`: of all the ink, specks and all, its pixels."""
     if not lines and not dotted:
         raise SketchError(f"{name} shows no lines: only {specks:,} specks.", remedy=BLANK)
-    if len(lines) >= MANY and max(line.length for line in lines) < SHORT * size:
+    if not dotted and len(lines) + specks >= MANY and max(line.length for line in lines) < SHORT * size:
         raise SketchError(
-            f"{name} holds {len(lines):,} short marks and no long line: it looks like a page of text, or a texture.",
+            f"{name} holds {len(lines) + specks:,} short marks and no long line: it looks like a page of text, or a texture.",
             remedy="Give a drawing of a tree, cropped to the tree.",
         )

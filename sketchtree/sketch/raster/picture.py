@@ -19,6 +19,7 @@ from sketchtree.errors import SketchError
 
 FORMATS = ("PNG", "JPEG", "MPO", "WEBP", "TIFF", "GIF", "BMP")
 ROOM = 16.0  # megapixels that are worked on at most
+NARROWEST = 4  # pixels: the shorter side of a picture
 PALE = 0.6  # lightness of the ink above which a transparent ground is taken for black
 TINTED = 24  # least difference of a pixel's channels, of 255, that is colour
 COLOURED = 0.002  # least part of the picture that is tinted in a coloured drawing
@@ -86,6 +87,8 @@ def _check_size(size: tuple[int, int], name: str, limit: float) -> None:
             f"{name} has {size[0]} × {size[1]} pixels ({megapixels:,.4g} megapixels); at most {limit:g} megapixels are read.",
             remedy="Scale the picture down, or raise the limit with --max-megapixels.",
         )
+    if min(size) < NARROWEST:
+        raise SketchError(f"{name} has {size[0]} × {size[1]} pixels, too few to show a drawing.", remedy="Give the picture in its full size.")
 
 
 def _plain(image: Image.Image) -> Image.Image:

@@ -109,9 +109,9 @@ def _lines(ink: Ink, name: str) -> Read:
     mask = clean.mask if filled is None else filled.mask
     if filled is not None:
         web = trace(*thinned(mask), ink.pen)
-    lines = bridged(whole_lines(web, link(web, ink.pen), ink), ink.pen, ink=ink)
-    check_lines(lines, len(dotted), clean.specks, extent(mask), name)
-    foliage = without_foliage(lines, ink.pen)
+    lines = whole_lines(web, link(web, ink.pen), ink)
+    check_lines(lines, len(dotted), clean.specks, extent(ink.mask), name)
+    foliage = without_foliage(bridged(lines, ink.pen, ink=ink), ink.pen)
     drawn_on(foliage.wood, mask, ink.pen)
     notes = []
     if foliage.leaves:

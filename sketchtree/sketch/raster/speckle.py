@@ -41,8 +41,7 @@ def swept(mask: Bool[np.ndarray, "row col"], pen: float) -> Swept:
     side = (high - low).astype(float)
     long, short = side.max(1), side.min(1)
     speck = (long <= SPECK * pen) & (long <= LONG * short) | (area < TINY * pen**2)
-    speck &= area < area.max()
-    edge = _edges(low, high, np.array(mask.shape)) & (area < area.max()) if count > 1 else np.zeros(count, bool)
+    edge = _edges(low, high, np.array(mask.shape)) & (area < area.max())
     keep = np.r_[False, ~(speck | edge)]
     return Swept(keep[labels], int(speck.sum()), int((edge & ~speck).sum()))
 

@@ -2,19 +2,20 @@
 
 A pen draws all its lines about alike: if the middle widths of all lines, weighted by length, lie within ONE_PEN of each other, every
 stroke gets the pen's width and no pressure. Else the widths are those of the drawing: `pressure` is each stroke's profile. Where the
-widest line is LIMB times the finest, or limbs were drawn by outlines, no pen set them: they are wood.
+widest line is LIMB times the finest, or wider than BROAD of the drawing, or limbs were drawn by outlines, no pen set them: they are wood.
 """
 
 import numpy as np
 from jaxtyping import Bool, Float
 
 from sketchtree.sketch.raster.dots import Dotted
-from sketchtree.sketch.raster.ink import Ink
+from sketchtree.sketch.raster.ink import Ink, extent
 from sketchtree.sketch.raster.lines_of import Traced, thinned_out
 from sketchtree.sketch.strokes import Stroke, StrokeKind
 
 ONE_PEN = 1.5  # ratio of the 95 % to the 5 % width, weighted by length
 LIMB = 2.5  # ratio of a limb's width to the fine lines', from which it is the limb's own
+BROAD = 0.04  # of the drawing's larger side: no pen is as wide
 ROUND_AND_ROUND = 2.5  # widths of the pen: the ends of a ring are no farther apart
 
 
@@ -29,10 +30,11 @@ def strokes_of(
     """The strokes, ids trace-1, trace-2, … from the longest line on, crowns last. `scale`: file pixels in one of the ink's."""
     lines = sorted((thinned_out(line, ink.pen) for line in lines), key=_rank)
     fine, pen = _widths(lines)
+    broad = pen is not None and pen > BROAD * extent(ink.mask)
     strokes = []
     for line in lines:
         width = line.width
-        wood = _is_limb(line, fine, filled) if pen is None or filled is not None else False
+        wood = broad or (_is_limb(line, fine, filled) if pen is None or filled is not None else False)
         if pen is not None and not wood:
             width = np.full(len(line.points), pen)
         strokes.append(_stroke(f"trace-{len(strokes) + 1}", line, width, wood, scale))

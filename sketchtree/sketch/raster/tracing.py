@@ -14,7 +14,7 @@ from jaxtyping import Bool, Float, Int
 
 SPUR = (0.5, 0.4)  # least reach of a side line out of the ink: half widths of the joint, plus pens
 CORNER = 1.8  # half widths of the limb
-TOUCH = 2.3  # pixels: joints no farther apart are one
+TOUCH = (2.3, 0.6)  # pixels, half widths of the ink there: joints no farther apart are one
 
 _AROUND = np.array([(-1, 0), (0, 1), (1, 0), (0, -1), (-1, 1), (1, 1), (1, -1), (-1, -1)])
 
@@ -132,7 +132,7 @@ def _neighbours(skeleton: Bool[np.ndarray, "row col"], rows, cols) -> Int[np.nda
 
 
 def _merge_joints(web: Web) -> None:
-    """Joints linked by an edge no longer than TOUCH become one, at their mean place."""
+    """Joints that touch each other become one, at their mean place."""
     group: dict[int, int] = {}
 
     def find(node: int) -> int:
@@ -142,7 +142,7 @@ def _merge_joints(web: Web) -> None:
 
     is_joint = {node for node in web.at if web.degree(node) > 2}
     for key, edge in list(web.edges.items()):
-        if edge.a != edge.b and edge.length <= TOUCH and edge.a in is_joint and edge.b in is_joint:
+        if edge.a != edge.b and edge.a in is_joint and edge.b in is_joint and edge.length <= _touch(web, edge):
             web.drop(key)
             one, two = sorted((find(edge.a), find(edge.b)))
             group[two] = one
@@ -151,6 +151,10 @@ def _merge_joints(web: Web) -> None:
         members.setdefault(find(node), []).append(node)
     for head, nodes in members.items():
         _fuse(web, head, sorted({head, *nodes}))
+
+
+def _touch(web: Web, edge: Edge) -> float:
+    return max(TOUCH[0], TOUCH[1] * min(web.half[edge.a], web.half[edge.b]))
 
 
 def _fuse(web: Web, head: int, nodes: list[int]) -> None:
@@ -169,7 +173,7 @@ def _fuse(web: Web, head: int, nodes: list[int]) -> None:
     for node in nodes:
         if node != head:
             del web.place[node], web.half[node]
-    for key in [k for k in set(web.at[head]) if web.edges[k].a == web.edges[k].b and web.edges[k].length <= 4 * TOUCH]:
+    for key in [k for k in set(web.at[head]) if web.edges[k].a == web.edges[k].b and web.edges[k].length <= 4 * TOUCH[0]]:
         web.drop(key)
 
 
