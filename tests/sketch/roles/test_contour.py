@@ -107,3 +107,20 @@ QUICK = {
 def test_what_people_draw_in_twenty_seconds_has_a_crown(name):
     graph = sketch_graph(read_sketch(SHARED / "sketches" / "quickdraw" / f"{name}.svg"))
     assert len(graph.crown) == 1 and graph.is_base.sum() >= 1
+
+
+def test_a_stroke_that_closes_the_opening_is_part_of_the_outline():
+    dome = ring(40, opening=0.6)
+    sag = np.c_[np.linspace(8, 22, 12), 47 - 4 * np.sin(np.linspace(0, np.pi, 12))]
+    found = contour(strokes(dome, LEFT, RIGHT, sag))
+    assert set(found.legs) == {0, 3} and len(found.outline) > 128
+    graph = graph_of(dome, LEFT, RIGHT, sag)
+    assert len(graph.limb_id) == 1 and {role.stroke for role in graph.roles} == {"s0", "s3"}
+
+
+def test_a_chain_from_one_foot_of_the_trunk_to_the_other_is_a_crown_even_with_a_gap():
+    left, right = LEFT * (1, 1.2), np.vstack([RIGHT * (1, 1.2), ring(30, centre=(25, 75))[9:21]])
+    top = ring(26, centre=(4, 96))[12:30]
+    graph = graph_of(left, right, top)
+    assert len(graph.crown) == 1 and len(graph.limb_id) == 1
+    assert np.abs(graph.xy[:, 0]).max() < 3

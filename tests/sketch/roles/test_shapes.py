@@ -98,3 +98,14 @@ def test_tremor_goes_and_a_bend_stays():
     assert np.abs(steady.points[5:-5] - bend[5:-5]).max() < 0.1
     smooth = as_line(0, "a", bend, np.nan)
     assert without_tremor(smooth, 100.0) is smooth
+
+
+def test_a_foot_that_flares_stands_in_the_middle_of_its_flare():
+    flared = [(-5, 20), (-6, 10), (-18, 0), (-10, 0), (0, 5), (11, 0), (19, 0), (6, 10), (5, 20), (4, 100), (-4, 100)]
+    (trunk,) = middle_lines(0, painted("t", flared), [])
+    assert trunk.points[0] == pytest.approx((0.5, 0), abs=2.5) and trunk.points[-1, 1] == pytest.approx(100, abs=0.5)
+
+
+def test_long_legs_are_limbs_of_their_own():
+    legs = [(-3, 40), (-30, 0), (-24, 0), (0, 34), (24, 0), (30, 0), (3, 40), (3, 100), (-3, 100)]
+    assert len(middle_lines(0, painted("t", legs), [])) == 2
