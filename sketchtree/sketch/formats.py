@@ -1,5 +1,6 @@
 """Which reader fits this file? By what it holds first; a name that says otherwise is remarked on."""
 
+import contextlib
 import dataclasses
 import os
 import secrets
@@ -40,6 +41,7 @@ WRITABLE = (".json", ".svg")
 FARTHEST = 1e12  # user units from the origin
 FINEST = 1e-9  # of that distance: a smaller drawing drowns in rounding
 Progress = Callable[[float], None]  # told the part done, 0 to 1
+_WHOLE = "Set it again, or leave it out."
 _ANY_JSON = frozenset({SKETCH, EXCALIDRAW, QUICKDRAW})
 
 
@@ -86,9 +88,10 @@ def read_sketch(
 def write_sketch(sketch: Sketch, path: str | os.PathLike) -> None:
     """Write a sketch as sketch JSON (`.json`) or SVG (`.svg`), without loss; the file appears whole or not at all.
 
-    Raises SketchError for another extension or a place that can't be written.
+    Raises SketchError for another extension, a place that can't be written, or a sketch that could not be read back.
     """
     path = Path(path)
+    check_writable(sketch)
     suffix = path.suffix.lower()
     if suffix == ".json":
         text = sketch_json(sketch)
@@ -103,7 +106,26 @@ def write_sketch(sketch: Sketch, path: str | os.PathLike) -> None:
 
 def write_sketch_json(sketch: Sketch, path: str | os.PathLike) -> None:
     """Write a sketch as sketch JSON; `read_sketch` gives the same sketch back. The file appears whole or not at all."""
+    check_writable(sketch)
     _write_whole(Path(path), sketch_json(sketch))
+
+
+def check_writable(sketch: Sketch) -> None:
+    """Raise SketchError for a sketch that a file could not give back: two strokes of one id, numbers that are none."""
+    seen: set[str] = set()
+    for stroke in sketch.strokes:
+        if stroke.id in seen:
+            raise SketchError("its id is used twice.", stroke=stroke.id, remedy="Give every stroke an id of its own.")
+        seen.add(stroke.id)
+        for what, values in (("pressure", stroke.pressure), ("time", stroke.time)):
+            if values is not None and np.shape(values) != (len(stroke.points),):
+                raise SketchError(f"its {what} is not one number for each of its {len(stroke.points)} points.", stroke=stroke.id, remedy=_WHOLE)
+            if values is not None and not np.isfinite(values).all():
+                raise SketchError(f"its {what} is not finite everywhere.", stroke=stroke.id, remedy=_WHOLE)
+        if stroke.width is not None and not 0 <= stroke.width < np.inf:
+            raise SketchError(f"its width is {stroke.width}; a number of at least 0 was expected.", stroke=stroke.id, remedy=_WHOLE)
+    if not np.isfinite([sketch.view_deg, *(sketch.page or ())]).all():
+        raise SketchError(f"{sketch.name} has a view or page that is not finite.", remedy=_WHOLE)
 
 
 def check_sketch(sketch: Sketch) -> None:
@@ -115,7 +137,7 @@ def check_sketch(sketch: Sketch) -> None:
         )
     if all(stroke.kind != StrokeKind.BRANCH for stroke in sketch.strokes):
         raise SketchError(
-            f"{sketch.name} has no branch strokes: all {len(sketch)} are labelled crown or obstacle.",
+            f"{sketch.name} has no branch strokes: all it holds is labelled crown or obstacle.",
             remedy="Draw at least a trunk, outside the crown's layer.",
         )
     low = np.min([stroke.points.min(0) for stroke in sketch.strokes], axis=0)
@@ -183,7 +205,8 @@ def _write_whole(path: Path, text: str) -> None:
     try:
         part.write_text(text, encoding="utf-8", newline="\n")
         part.replace(path)
-    except OSError as error:
-        raise SketchError(f"{path} can't be written ({error.strerror}).", remedy="Choose a folder you may write to.") from None
+    except (OSError, ValueError) as error:
+        raise SketchError(f"{path} can't be written ({getattr(error, 'strerror', None) or error}).", remedy="Choose a folder you may write to.") from None
     finally:
-        part.unlink(missing_ok=True)
+        with contextlib.suppress(OSError, ValueError):
+            part.unlink(missing_ok=True)

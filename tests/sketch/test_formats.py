@@ -22,7 +22,7 @@ BAD = {
     "nothing.svg": (SVG.format("<text>tree</text>").encode(), "holds no strokes"),
     "flat.svg": (SVG.replace("0 0 9 9", "0 0 0 9").format(PATH).encode(), "width and height above 0"),
     "words.svg": (SVG.replace("0 0 9 9", "a b").format(PATH).encode(), "four finite numbers are expected"),
-    "crown.svg": (SVG.format(f'<g id="crown">{PATH}</g>').encode(), "no branch strokes: all 1 are labelled crown"),
+    "crown.svg": (SVG.format(f'<g id="crown">{PATH}</g>').encode(), "no branch strokes: all it holds is labelled crown"),
     "tree.png": (b"\x89PNG\r\n\x1a\n", "tree.png is damaged"),
     "tree.excalidraw": (b'{"type": "excalidraw"}', "has no list 'elements'"),
     "tree.inkml": (b'<ink xmlns="http://www.w3.org/2003/InkML"/>', "holds no strokes"),
@@ -37,6 +37,8 @@ BAD = {
     "y.json": (b'{"sketchtree": 1, "y": "left", "strokes": []}', "'up' or 'down' was expected"),
     "units.json": (b'{"sketchtree": 1, "units": 3, "strokes": []}', "a word was expected"),
     "view.json": (b'{"sketchtree": 1, "view_deg": "x", "strokes": []}', "degrees were expected"),
+    "turn.json": (b'{"sketchtree": 1, "view_deg": NaN, "strokes": []}', "degrees were expected"),
+    "far.json": (b'{"sketchtree": 1, "view_deg": 1e999, "strokes": []}', "degrees were expected"),
 }
 STROKES = {
     "it is not an object": 3,
@@ -47,6 +49,8 @@ STROKES = {
     "not a finite number": {"id": "a", "points": [[float("nan"), 2]]},
     "its kind is 'leaf'": {"id": "a", "points": [[1, 2]], "kind": "leaf"},
     "its width is -1": {"id": "a", "points": [[1, 2]], "width": -1},
+    "its pressure is null at some points only": {"id": "a", "points": [[1, 2, None, 0], [1, 3, 0.5, 9]]},
+    "its pressure is below 0": {"id": "a", "points": [[1, 2, -0.5], [1, 3, 0.5]]},
     "its 'closed' is 1": {"id": "a", "points": [[1, 2]], "closed": 1},
 }
 
@@ -142,6 +146,44 @@ def test_a_sketch_is_written_by_extension_whole_and_reads_back(name, tmp_path):
     write_sketch(sketch, tmp_path / name)
     assert same(read_sketch(tmp_path / name), sketch)
     assert [path.name for path in tmp_path.iterdir()] == [name]
+
+
+@pytest.mark.parametrize(
+    "message, stroke",
+    [
+        ("Stroke b: its id is used twice", Stroke("b", [[0, 0]])),
+        ("Stroke a: its pressure is not one number for each of its 2 points", Stroke("a", [[0, 0], [0, 1]], pressure=np.array([0.5]))),
+        ("Stroke a: its time is not finite everywhere", Stroke("a", [[0, 0]], time=np.array([np.nan]))),
+        ("Stroke a: its width is inf", Stroke("a", [[0, 0]], width=np.inf)),
+        ("Stroke a: its width is nan", Stroke("a", [[0, 0]], width=np.nan)),
+    ],
+)
+@pytest.mark.parametrize("name", ["t.json", "t.svg"])
+def test_what_a_file_could_not_give_back_is_not_written(name, message, stroke, tmp_path):
+    with pytest.raises(SketchError, match=message) as error:
+        write_sketch(Sketch((Stroke("b", [[0, 0]]), stroke)), tmp_path / name)
+    assert error.value.remedy and not list(tmp_path.iterdir())
+
+
+def test_a_turn_or_page_that_is_no_number_is_not_written(tmp_path):
+    for sketch in (Sketch((), view_deg=np.nan), Sketch((), page=(0.0, 0.0, np.inf, 1.0))):
+        with pytest.raises(SketchError, match="has a view or page that is not finite"):
+            write_sketch(sketch, tmp_path / "t.json")
+
+
+@pytest.mark.parametrize("name", ["file/t.json", "a\0.json", "x" * 5000 + ".json"])
+def test_a_name_no_file_can_have_is_named(name, tmp_path):
+    (tmp_path / "file").write_text("")
+    with pytest.raises(SketchError, match="can't be written"):
+        write_sketch(Sketch((Stroke("a", [[0, 0]]),)), tmp_path / name)
+
+
+def test_pressures_in_a_tablets_own_steps_are_parts_of_the_greatest(tmp_path):
+    rows = [{"id": "a", "points": [[0, 0, 512], [0, 1, 1024]]}, {"id": "b", "points": [[0, 0, 256], [0, 1, 0]]}]
+    (tmp_path / "t.json").write_text(json.dumps({"sketchtree": 1, "strokes": rows}))
+    sketch = read_sketch(tmp_path / "t.json")
+    assert [stroke.pressure.tolist() for stroke in sketch.strokes] == [[0.5, 1.0], [0.25, 0.0]]
+    assert sketch.warnings == ("Pressures go up to 1024; they were read as parts of that.",)
 
 
 @pytest.mark.parametrize("name", ["t.png", "t.excalidraw", "t"])

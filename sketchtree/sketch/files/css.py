@@ -7,6 +7,7 @@ sheets of other files are never fetched. What of a style is not read is told.
 """
 
 import re
+from collections import Counter
 from collections.abc import Iterator, Mapping
 from functools import lru_cache
 from xml.etree.ElementTree import Element
@@ -32,7 +33,11 @@ _VARIABLE = re.compile(r"var\(\s*(--[^\s,()]+)\s*(?:,([^()]*(?:\([^()]*\)[^()]*)
 _LONGEST = 10_000  # characters of a value once its variables are put in
 _MOST_SIBLINGS = 2_000  # elements in one group up to which selectors that look at all of them are tried
 _GROUPED = frozenset({"supports", "layer", "container", "scope", "starting-style"})  # at-rules around others, not read
-_TOO_DEEP = "{} nests its brackets too deep; {} was left out."
+_LONGEST_SHEET = 1_000_000  # characters of all sheets, what is embedded in them (fonts) left out
+_LONGEST_STYLE = 100_000  # … of one `style` attribute
+_MOST_TRIED = 5_000_000  # rules for the same name, class or id × elements
+_EMBEDDED = re.compile(r"data:[^\s\"')]{80,}")
+_NO_STYLE = "{} is too long, or nests its brackets too deep; {} was left out."
 _LOOKS_AROUND = re.compile(r"~(?!=)|-of-type|:nth-last|:has\(", re.IGNORECASE)
 
 Style = Mapping[str, str]
@@ -47,7 +52,9 @@ class Cascade:
         self._deep: dict[Element, None] = {}  # … of elements whose own style can't be read
         self._unread: dict[str, list[str]] = {}  # why → rules that were left out
         self._matcher = cssselect2.Matcher()
-        self._rules = 0
+        self._rules: Counter[str] = Counter()  # by the id, class or name they are for
+        self._most = max(_MOST_TRIED // sum(1 for _ in root.iter()), 100)
+        self._length = 0
         sheets = [element for element in root.iter() if local_name(element.tag) == "style"]
         self._crowded = bool(sheets) and max(len(element) for element in root.iter()) > _MOST_SIBLINGS
         for element in sheets:
@@ -58,10 +65,14 @@ class Cascade:
             self._wrapper = {e.etree_element: e for e in ElementWrapper.from_xml_root(root).iter_subtree()}
 
     def _add_sheet(self, text: str) -> None:
+        text = _EMBEDDED.sub("", text)
+        self._length += len(text)
         try:
+            if self._length > _LONGEST_SHEET:
+                raise RecursionError
             self._add(tinycss2.parse_stylesheet(text, True, True))
         except RecursionError:
-            self._told[_TOO_DEEP.format("A style sheet", "the rest of it")] = None
+            self._told[_NO_STYLE.format("A style sheet", "the rest of it")] = None
 
     @property
     def warnings(self) -> list[str]:
@@ -71,7 +82,7 @@ class Cascade:
             first = next(iter(self._deep))
             whose = f"'{first.get('id', '')[:40]}'" if first.get("id") else f"a <{local_name(first.tag)}>"
             more = f" (and of {len(self._deep) - 1} more)" if len(self._deep) > 1 else ""
-            found.append(_TOO_DEEP.format(f"The style of {whose}{more}", "it"))
+            found.append(_NO_STYLE.format(f"The style of {whose}{more}", "it"))
         return found
 
     def _add(self, rules) -> None:
@@ -102,8 +113,15 @@ class Cascade:
             return
         for selector in selectors:
             if declarations and selector.pseudo_element is None and not selector.never_matches:
-                self._matcher.add_selector(selector, declarations)
-                self._rules += 1
+                self._add_selector(selector, declarations, prelude)
+
+    def _add_selector(self, selector, declarations: Declarations, prelude: str) -> None:
+        key = selector.id or selector.class_name or selector.local_name or ""
+        self._rules[key] += 1
+        if self._rules[key] > self._most:
+            self._leave(prelude, f"more than {self._most} others are for the same elements")
+            return
+        self._matcher.add_selector(selector, declarations)
 
     def _leave(self, rule: str, why: str) -> None:
         self._unread.setdefault(why, []).append(rule.strip()[:40])
@@ -178,7 +196,9 @@ def _with_variables(value: str, style: Style) -> str:
 
 @lru_cache(maxsize=4096)
 def _of_attribute(text: str) -> Declarations | None:
-    """The declarations of a `style` attribute; drawings repeat few of them often. None for brackets in brackets without end."""
+    """The declarations of a `style` attribute; drawings repeat few of them often. None for one without end."""
+    if len(text) > _LONGEST_STYLE:
+        return None
     if not _SIMPLE.fullmatch(text):
         try:
             return _declarations(tinycss2.parse_blocks_contents(text, True, True))

@@ -19,6 +19,7 @@ from sketchtree.sketch.files.limits import MAX_MB, inflate
 DEEPEST = 256  # nested elements
 MOST_ENTITIES = 500  # expat puts them in by recursion
 LARGEST_GROWTH = 2**20  # characters that all entity references of a file may add
+_TOGETHER = 2**20  # characters of text that come at once
 SVG = "http://www.w3.org/2000/svg"
 XLINK = "http://www.w3.org/1999/xlink"
 INKSCAPE = "http://www.inkscape.org/namespaces/inkscape"
@@ -37,7 +38,7 @@ _MARKS = (
     (b"<\0", "utf-16-le"),
     (b"\0<", "utf-16-be"),
 )
-_EXPORT = "Export the drawing again as plain SVG."
+_EXPORT = "Export the drawing again."
 
 
 def parse_xml(data: bytes, name: str, *, max_mb: float = MAX_MB) -> Element:
@@ -92,7 +93,7 @@ class _Builder:
         self._known: list[dict[str, str]] = [{}]  # resolved names, for every scope of prefixes
         self._entities: dict[str, str] = {}
         parser = expat.ParserCreate()
-        parser.buffer_text, parser.specified_attributes = True, True
+        parser.buffer_text, parser.buffer_size, parser.specified_attributes = True, _TOGETHER, True
         parser.StartElementHandler, parser.EndElementHandler = self._start, self._end
         parser.CharacterDataHandler = self._characters
         parser.EntityDeclHandler, parser.EndDoctypeDeclHandler = self._entity, self._check_growth

@@ -15,6 +15,8 @@ import re
 import numpy as np
 from jaxtyping import Float
 
+from sketchtree.sketch.files.limits import MAX_OUTLINE
+
 _PLAIN = re.compile(r"[-+0-9.eE,\s]*")
 _VALUE = re.compile(r"([!'\"]?)\s*([-+]?\s*(?:#[0-9A-Fa-f]+|(?:\d+\.?\d*|\.\d+)(?:[eE][-+]?\d+)?)|[TF*?])\s*")
 _KEPT = 60  # characters of a wrong value that a message repeats
@@ -25,6 +27,8 @@ def trace_values(text: str, regular: int, intermittent: int = 0) -> Float[np.nda
 
     Raises ValueError, with words that fit after "in FILE, ", for text that is no such list.
     """
+    if len(text) > MAX_OUTLINE:
+        raise ValueError(f"its trace takes {len(text) / 1e6:.3g} MB of text, more than {MAX_OUTLINE / 1e6:g}")
     if _PLAIN.fullmatch(text):
         table = _plain(text, regular)
         if table is not None:

@@ -11,12 +11,14 @@ import numpy as np
 from jaxtyping import Float
 
 from sketchtree.errors import SketchError
+from sketchtree.sketch.files.limits import check_points
 
 AGAIN = "Save the drawing again."
 
 
 def parse_json(data: bytes | str, name: str) -> Any:
-    """The document. UTF-8, -16 and -32 are told apart by their first bytes. Raises SketchError."""
+    """The document. UTF-8, -16 and -32 are told apart by their first bytes. Raises SketchError, for more lists than points are allowed too."""
+    check_points(data.count(b"[" if isinstance(data, bytes) else "["), name)
     try:
         return json.loads(data)
     except UnicodeDecodeError as error:

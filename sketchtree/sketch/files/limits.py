@@ -2,7 +2,7 @@
 
     packed or unpacked bytes ≤ max_mb · 10⁶        strokes ≤ max_strokes        points ≤ MAX_POINTS
 
-The last has no option: files name one another's parts, and a small file could show a large one without end.
+The last has no option: elements name one another, and a small file could show a large one without end.
 """
 
 import gzip
@@ -16,6 +16,7 @@ MAX_STROKES = 20_000
 MAX_MB = 100.0  # 10⁶ bytes, after unpacking
 MAX_MEGAPIXELS = 200.0  # 10⁶ pixels of a picture
 MAX_POINTS = 5_000_000  # of all strokes together
+MAX_OUTLINE = 20_000_000  # characters of one shape's path data, list of points or trace
 
 
 def read_bytes(path: Path, *, max_mb: float = MAX_MB) -> bytes:

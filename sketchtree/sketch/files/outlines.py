@@ -9,6 +9,7 @@ whole drawing is flattened in one array operation. A cubic B on n equal steps di
 import numpy as np
 from jaxtyping import Float, Int
 
+from sketchtree.sketch.files.limits import MAX_OUTLINE
 from sketchtree.sketch.files.path_data import Subpath, lines, numbers_of, path_data, straight
 from sketchtree.sketch.files.viewport import View
 
@@ -22,6 +23,9 @@ def subpaths(tag: str, attributes, view: View) -> list[Subpath]:
 
     Lengths refer to `view`. Raises ValueError for data that make no sense.
     """
+    data = attributes.get("d" if tag == "path" else "points", "")
+    if len(data) > MAX_OUTLINE:
+        raise ValueError(f"its outline takes {len(data) / 1e6:.3g} MB of text, more than {MAX_OUTLINE / 1e6:g}")
     found = _shape(tag, attributes, view)
     if not all(np.isfinite(path.cubics if len(path.cubics) else path.start).all() for path in found):
         raise ValueError("a coordinate is not a finite number")

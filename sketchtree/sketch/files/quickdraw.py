@@ -11,7 +11,7 @@ import numpy as np
 
 from sketchtree.errors import SketchError
 from sketchtree.sketch.files.json_text import number_rows, parse_json
-from sketchtree.sketch.files.limits import MAX_STROKES, check_number, check_strokes
+from sketchtree.sketch.files.limits import MAX_STROKES, check_number, check_points, check_strokes
 from sketchtree.sketch.strokes import Sketch, Stroke
 
 _REMEDY = "Save the line again as a file of its own."
@@ -35,6 +35,7 @@ def quickdraw_sketch(document: Any, name: str, *, max_strokes: int = MAX_STROKES
     if not isinstance(drawing, list):
         raise SketchError(f"{name} has no list 'drawing'.", remedy=_REMEDY)
     check_strokes(len(drawing), name, max_strokes)
+    check_points(sum(len(row) for rows in drawing if isinstance(rows, list) for row in rows[:1] if isinstance(row, list)), name)
     return Sketch(tuple(_stroke(rows, k, name) for k, rows in enumerate(drawing, 1)), name=name, units="px")
 
 

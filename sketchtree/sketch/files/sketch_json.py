@@ -4,10 +4,13 @@
      "strokes": [{"id": "trunk", "kind": "branch", "points": [[x, y, pressure?, t_ms?], ...], "width": 3, "layer": "tree",
                   "closed": false, "filled": false, "labelled": false, "wood": false}, ...]}
 
-`page` has the file's own y: its edges as a reader sees them. `wood`: the width is the limb's own thickness. A pen without pressure gives `[x, y, null, t_ms]`. Only `sketchtree` and every stroke's `points` are required. A kind
-that is written out counts as labelled unless `labelled` says otherwise. What is written reads back as the same sketch, bit for bit.
+`page` has the file's own y: its edges as a reader sees them. `wood`: the width is the limb's own thickness. A pen without
+pressure gives `[x, y, null, t_ms]`. Only `sketchtree` and every stroke's `points` are required; other keys are passed over. A
+kind that is written out counts as labelled unless `labelled` says otherwise. Pressures beyond 1 are parts of the file's
+greatest. What is written reads back as the same sketch, bit for bit.
 """
 
+import dataclasses
 import json
 from typing import Any
 
@@ -33,7 +36,9 @@ def read_sketch_json(data: bytes, name: str, *, max_strokes: int = MAX_STROKES) 
     _check_ids(strokes, name)
     edges = document.get("page")
     page = None if edges is None else _page([float(edge) for edge in edges], up)
-    return Sketch(strokes, name=name, units=document.get("units", "px"), view_deg=float(document.get("view_deg", 0.0)), page=page)
+    strokes, warnings = _pressed(strokes)
+    view = float(document.get("view_deg", 0.0))
+    return Sketch(strokes, name=name, units=document.get("units", "px"), view_deg=view, page=page, warnings=warnings)
 
 
 def sketch_json(sketch: Sketch) -> str:
@@ -44,6 +49,15 @@ def sketch_json(sketch: Sketch) -> str:
         head["page"] = [left, top, right, bottom]
     rows = [json.dumps(_row(stroke)) for stroke in sketch.strokes]
     return json.dumps(head)[:-1] + ', "strokes": [\n ' + ",\n ".join(rows) + "\n]}\n"
+
+
+def _pressed(strokes: tuple[Stroke, ...]) -> tuple[tuple[Stroke, ...], tuple[str, ...]]:
+    """(the strokes with pressures from 0 to 1, what to say of it): a tablet's own steps are parts of the greatest."""
+    most = max((float(stroke.pressure.max()) for stroke in strokes if stroke.pressure is not None), default=1.0)
+    if most <= 1.0:
+        return strokes, ()
+    scaled = [stroke if stroke.pressure is None else dataclasses.replace(stroke, pressure=stroke.pressure / most) for stroke in strokes]
+    return tuple(scaled), (f"Pressures go up to {most:g}; they were read as parts of that.",)
 
 
 def _check_head(document: Any, name: str) -> None:
@@ -63,10 +77,8 @@ def _check_head(document: Any, name: str) -> None:
         raise SketchError(f"{name} has no list 'strokes'.", remedy=_REMEDY)
     if not isinstance(document.get("units", "px"), str):
         raise SketchError(f"{name} has 'units': {document['units']!r}; a word was expected.", remedy=_REMEDY)
-    if not _is_number(document.get("view_deg", 0.0)):
+    if not (_is_number(document.get("view_deg", 0.0)) and np.isfinite(document.get("view_deg", 0.0))):
         raise SketchError(f"{name} has 'view_deg': {document['view_deg']!r}; degrees were expected.", remedy=_REMEDY)
-
-
     page = document.get("page")
     if page is not None and not (isinstance(page, list) and len(page) == 4 and all(map(_is_number, page)) and np.isfinite(page).all()):
         raise SketchError(f"{name} has 'page': {json.dumps(page)[:60]}; [left, top, right, bottom] was expected.", remedy=_REMEDY)
@@ -119,6 +131,10 @@ def _columns(points: Any, stroke_id: str, name: str) -> np.ndarray:
     if not (2 <= size <= 4 and all(len(point) == size for point in points) and _all_numbers(points, size)):
         raise _bad_point(points, size, stroke_id, name)
     columns = np.array(points, float).reshape(-1, size)
+    if size == 4 and 0 < sum(point[2] is None for point in points) < len(points):
+        raise SketchError(f"in {name}, its pressure is null at some points only.", stroke=stroke_id, remedy="Give it at every point, or null at all.")
+    if size > 2 and (columns[:, 2] < 0).any():
+        raise SketchError(f"in {name}, its pressure is below 0; 0 to 1 was expected.", stroke=stroke_id, remedy=_REMEDY)
     if not np.isfinite(np.delete(columns, 2, axis=1) if _without_pressure(columns) else columns).all():
         raise SketchError(
             f"in {name}, it has a coordinate that is not a finite number.",

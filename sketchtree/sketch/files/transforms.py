@@ -28,6 +28,7 @@ _LENGTH = {"": 1.0, "px": 1.0, "in": 96.0, "cm": 96 / 2.54, "mm": 96 / 25.4, "q"
 _LETTER = {"em": 1.0, "ex": 0.5}
 EM = 16.0  # size of letters where nothing says otherwise, px
 _ANGLE = {"": 1.0, "deg": 1.0, "grad": 0.9, "rad": 180 / math.pi, "turn": 360.0}
+_LONGEST = 100_000  # characters of one list of transforms
 _MOVES = frozenset({"translate", "rotate", "scale", "transform-origin"})
 _KEYWORD = {"left": "0%", "top": "0%", "center": "50%", "right": "100%", "bottom": "100%"}
 
@@ -67,6 +68,8 @@ def transform_list(text: str | None, box: tuple[float, float, float, float] = (0
     """A list of transform functions as one matrix, leftmost outermost. Raises ValueError for an unknown one."""
     whole = IDENTITY
     if text and text.strip().lower() != "none":
+        if len(text) > _LONGEST:
+            raise ValueError(f"its transform takes {len(text)} characters, more than {_LONGEST}")
         for name, arguments in _FUNCTION.findall(text):
             whole = whole @ _function(name.lower(), _NUMBER.findall(arguments), box)
         whole.flags.writeable = False

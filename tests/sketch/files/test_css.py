@@ -147,6 +147,17 @@ def test_rules_that_say_nothing_of_strokes_are_not_told():
     assert styled("path:fancy(3){cursor:pointer} @font-face{src:url(x)} @keyframes a{from{stroke:none}} path::before{stroke:red}")[1] == []
 
 
+def test_fonts_embedded_in_a_sheet_do_not_count():
+    assert width("@font-face{src:url(data:font/woff2;base64," + "QUJD" * 500_000 + ")} path{stroke-width:3}") == "3"
+
+
+def test_rules_without_end_for_the_same_elements_are_left_out_and_told():
+    crowd = "<line/>" * 50_000 + PATH.format("")
+    style, warnings = styled("path{stroke-width:1}" * 150 + ".a{fill:red}", crowd)
+    assert style == {"stroke-width": "1", "fill": "red"}
+    assert warnings == ["The style rule 'path' (and 49 more of them) was left out: more than 100 others are for the same elements."]
+
+
 def test_rules_that_compare_too_many_elements_are_left_out_and_told():
     crowd = "<line/>" * 2001 + PATH.format("")
     style, warnings = styled("line ~ path{stroke-width:1} path:nth-of-type(1){stroke-width:2} [data-x~='1']{fill:red}", crowd)

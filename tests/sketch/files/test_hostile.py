@@ -56,6 +56,13 @@ REFUSED = {
     "uses.svg": (uses(9), "nests its groups|holds more than"),
     "clones.svg": (clones(100), "clones.svg draws more than 5 million points. Simplify its lines, unlink its clones"),
     "deep.svg": (SVG.format("<g>" * 100_000 + PATH + "</g>" * 100_000), "nests its groups"),
+    "long_path.svg": (SVG.format(PATH.replace("L1 5", "L1 5" * 5_000_001)), "in long_path.svg, its outline takes 20 MB of text, more than 20"),
+    "long_points.svg": (SVG.format(f'<polyline points="{"1 5 " * 5_000_001}"/>'), "in long_points.svg, its outline takes 20 MB of text, more than 20"),
+    "long_trace.inkml": (INK.replace("1 5", "1 5," * 5_000_001), "in long_trace.inkml, its trace takes 20 MB of text, more than 20"),
+    "long_transform.svg": (SVG.format(PATH.replace("<path", f'<path transform="{"scale(1)" * 20_000}"')), "its transform takes 160000 characters, more than 100000"),
+    "points.json": (SKETCH.replace("[1, 5]", ",".join(["[1, 5]"] * 5_000_001)), "points.json draws more than 5 million points. Simplify its lines"),
+    "points.excalidraw": (SCENE.replace("[1, 5]", ",".join(["[1, 5]"] * 5_000_001)), "points.excalidraw draws more than 5 million points"),
+    "points.ndjson": (LINE.replace("[0, 1]", "[0" + ",1" * 5_000_000 + "]"), "points.ndjson draws more than 5 million points"),
     "wide.json": (SKETCH.replace('"trunk",', '"trunk", "width": 1e999,'), "its width is inf; a number of at least 0 was expected"),
     "deep.json": ("[" * 100_000, "not one well-formed JSON document|nests its lists"),
     "deep_objects.json": ('{"sketchtree": 1, "strokes": ' + '{"a":' * 100_000, "not one well-formed JSON document|nests its lists"),
@@ -91,13 +98,15 @@ def test_a_hostile_file_is_refused_in_one_sentence(name, tmp_path):
 @pytest.mark.parametrize(
     "deep, told",
     [
-        (PATH.replace("<path", '<path style="fill:red;stroke:' + "(" * 5000 + '"'), "The style of a <path> nests its brackets too deep; it was left out."),
-        ("<style>path{fill:" + "(" * 5000 + "}</style>" + PATH, "A style sheet nests its brackets too deep; the rest of it was left out."),
-        ("<style>" + "@media all{" * 5000 + "path{fill:red}</style>" + PATH, "A style sheet nests its brackets too deep; the rest of it was left out."),
+        (PATH.replace("<path", '<path style="fill:red;stroke:' + "(" * 5000 + '"'), "The style of a <path> is too long, or nests its brackets too deep; it was left out."),
+        ("<style>path{fill:" + "(" * 5000 + "}</style>" + PATH, "A style sheet is too long, or nests its brackets too deep; the rest of it was left out."),
+        ("<style>" + "@media all{" * 5000 + "path{fill:red}</style>" + PATH, "A style sheet is too long, or nests its brackets too deep; the rest of it was left out."),
+        ("<style>" + "a{b:c}" * 200_000 + "path{fill:red}</style>" + PATH, "A style sheet is too long, or nests its brackets too deep; the rest of it was left out."),
+        (PATH.replace("<path", '<path style="fill:red;' + "a:b;" * 30_000 + '"'), "The style of a <path> is too long, or nests its brackets too deep; it was left out."),
     ],
-    ids=["attribute", "sheet", "at-rules"],
+    ids=["attribute", "sheet", "at-rules", "long sheet", "long attribute"],
 )
-def test_a_style_nested_without_end_is_told_and_the_drawing_is_read_without_it(deep, told, tmp_path):
+def test_a_style_without_end_is_told_and_the_drawing_is_read_without_it(deep, told, tmp_path):
     (tmp_path / "deep.svg").write_text(SVG.format(deep))
     sketch = read_sketch(tmp_path / "deep.svg")
     assert sketch.strokes[0].points.tolist() == [[0, 0], [1, -5]] and sketch.strokes[0].width == 1.0

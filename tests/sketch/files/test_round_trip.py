@@ -25,13 +25,14 @@ WIDTH = st.none() | st.floats(min_value=0, allow_nan=False, allow_infinity=False
 @st.composite
 def strokes(draw, stroke_id):
     count = draw(st.integers(1, 5))
-    column = st.none() | st.lists(NUMBER, min_size=count, max_size=count)
+    force = st.none() | st.lists(st.floats(0, 1), min_size=count, max_size=count)
+    clock = st.none() | st.lists(NUMBER, min_size=count, max_size=count)
     return Stroke(
         stroke_id,
         draw(st.lists(st.tuples(NUMBER, NUMBER), min_size=count, max_size=count)),
         draw(st.sampled_from(StrokeKind)),
-        pressure=draw(column),
-        time=draw(column),
+        pressure=draw(force),
+        time=draw(clock),
         width=draw(WIDTH),
         layer=draw(st.none() | NAME | WORDS),
         **{flag: draw(st.booleans()) for flag in ("labelled", "closed", "filled", "wood")},
