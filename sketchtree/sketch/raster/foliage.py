@@ -28,6 +28,7 @@ WHIRL = 2.2  # radians: a line that turns less in all is no scribble
 RING = 0.3  # of H: length of a closed line, below which it is a leaf
 BLADE = 1.6  # times as wide as at its foot
 BLADE_LONG = (2.0, 9.0)  # of its greatest width: length of a blade
+FILLED = 0.2  # of the way from its foot's width to its greatest: a blade's middle width at least
 STEM = 0.2  # of a blade's length: its foot
 GRID = 128  # cells along H
 MARGIN = 8  # cells around the drawing
@@ -36,10 +37,11 @@ DENSE = 9.0  # H of line in an area of H²
 FEWEST = 10  # lines that whirl or are blades: fewer are no foliage
 LIMB = (0.1, 14.0)  # of H, radians per H: a line so long and no curlier is wood wherever it lies
 SCRAP = 0.06  # of H: a line no longer that touched nothing but leaves is a piece of one
+RUN = 0.6  # radians: a line that goes on for as long as a LIMB without turning more is one, whatever its end does
 WITHIN = 0.6  # share of a line that lies in foliage, if it is foliage
 CROWN = 0.03  # of H²: least area of a crown
 HIGH = 0.6  # of the drawing's height: a crown reaches above it
-FULL = 0.55  # least share of the hull of several clumps that they fill
+FULL = 0.55  # least share of its hull that a crown fills, the clumps of one together
 CLUMPS = 0.05  # of H: clumps nearer to each other are one
 
 HATCH = 0.14  # of H: longer lines are no hatching
@@ -98,28 +100,45 @@ def _is_leafy(line: Traced, height: float) -> bool:
         return length <= RING * height
     turn = turning(line)
     if turn >= WHIRL and turn * height >= CURL * length and length <= 4 * RING * height:
-        return True
+        return straight_run(line) < LIMB[0] * height
     return _is_blade(line, length)
+
+
+def _steps(line: Traced) -> Float[np.ndarray, "step 2"]:
+    """The way from point to point of a line, its points taken a width apart."""
+    width = max(float(np.median(line.width)), 2.0)
+    points = line.points[:: max(1, round(width))]
+    return np.diff(np.vstack([points, line.points[-1:]]), axis=0)
+
+
+def _turns(step: Float[np.ndarray, "step 2"]) -> Float[np.ndarray, " turn"]:
+    return np.abs(np.arctan2(step[:-1, 0] * step[1:, 1] - step[:-1, 1] * step[1:, 0], (step[:-1] * step[1:]).sum(1)))
 
 
 def turning(line: Traced) -> float:
     """How much a line turns in all, radians, its points taken a width apart."""
-    width = max(float(np.median(line.width)), 2.0)
-    points = line.points[:: max(1, round(width))]
-    step = np.diff(np.vstack([points, line.points[-1:]]), axis=0)
-    angle = np.arctan2(step[:-1, 0] * step[1:, 1] - step[:-1, 1] * step[1:, 0], (step[:-1] * step[1:]).sum(1))
-    return float(np.abs(angle).sum())
+    return float(_turns(_steps(line)).sum())
+
+
+def straight_run(line: Traced) -> float:
+    """The longest piece of a line that turns by no more than RUN in all."""
+    step = _steps(line)
+    turned = np.r_[0.0, np.cumsum(_turns(step))]
+    length = np.r_[0.0, np.cumsum(np.hypot(*step.T))]
+    last = np.searchsorted(turned, turned + RUN, side="right")
+    return float((length[last] - length[:-1]).max())
 
 
 def _is_blade(line: Traced, length: float) -> bool:
-    """Whether a line with a free end is widest away from its foot."""
+    """Whether a line with a free end is wide over most of its length, but not at its foot."""
     free = [side for side in (0, 1) if line.joints[side] < 0]
     if len(free) != 1:
         return False
     width = line.width if free == [1] else line.width[::-1]
     foot = float(np.median(width[: max(2, int(STEM * len(width)))]))
     widest = float(np.quantile(width[len(width) // 4 :], 0.9))
-    return widest >= BLADE * foot and BLADE_LONG[0] * widest <= length <= BLADE_LONG[1] * widest
+    most = float(np.median(width)) >= foot + FILLED * (widest - foot)  # else it is a twig with a leaf at its end
+    return most and widest >= BLADE * foot and BLADE_LONG[0] * widest <= length <= BLADE_LONG[1] * widest
 
 
 def _region(leaves: list[Traced], low, high, cell: float) -> Bool[np.ndarray, "row col"]:
@@ -155,10 +174,12 @@ def _crowns(region, low, cell: float) -> list[Float[np.ndarray, "point 2"]]:
     soft = gaussian_filter(np.pad(joined, 2).astype(float), 1.0)
     outlines = [line[:-1, ::-1] - 2 for line in find_contours(soft, 0.5)]
     large = [line for line in outlines if shapely.Polygon(line).area >= 0.1 * joined.sum()]
+    every = np.concatenate(outlines)
+    hull = ConvexHull(every)
+    if joined.sum() < FULL * hull.volume:
+        return []
     if len(large) != 1:
-        every = np.concatenate(outlines)
-        hull = ConvexHull(every)
-        large = [every[hull.vertices]] if joined.sum() >= FULL * hull.volume else []
+        large = [every[hull.vertices]]
     return [(line + 0.5 - MARGIN) * cell + low for line in large]
 
 
