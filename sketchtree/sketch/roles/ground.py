@@ -29,8 +29,10 @@ ROOTS = 3  # lines below a ground in two pieces
 TOGETHER = 0.2  # of the drawing's height: roots start no farther apart
 TUFT = 0.1  # of the drawing's height: grass is smaller
 APART = 0.015  # of the drawing's height: grass does not touch a stem
+MIDDLE = 0.2  # of its width: a line that the tree passes through goes on this far on both sides
 BROKEN = 0.12  # of the drawing's height: widest gap between two pieces of one line …
 STRAIGHT = 0.04  # … and how far they stray from one height
+RULED = 0.01  # of their width: farthest off one straight line, but for their ends
 ACROSS = 0.6  # of the drawing's width: such a line is wider
 AS_THICK = 0.6  # of a stem: a line whose own thickness was measured is thinner than that where it is the ground
 BROAD = 1.2  # of the width of the rest: a wider painted area at the foot is ground, no shadow
@@ -83,10 +85,18 @@ def _in_two_pieces(m: Measures, rows: Int[np.ndarray, " row"], height: float) ->
             continue
         deep = level[a] - m.low[below, 1].min() >= DEEP * height
         wider = m.low[below, 0].min() >= left and m.high[below, 0].max() <= right
-        if deep and wider and right - left >= ACROSS * everything[0]:
+        if deep and wider and right - left >= ACROSS * everything[0] and _in_line(m, a, b):
             reason = "one of two pieces of a level line that the tree passes through, roots below"
             return [Found(row, "ground", reason, (("branch", 0.5),)) for row in (a, b)]
     return []
+
+
+def _in_line(m: Measures, a: int, b: int) -> bool:
+    """Whether two strokes lie on one straight line, nearly all of them."""
+    points = m.evenly[[a, b]].reshape(-1, 2)
+    slope, level = np.polyfit(*points.T, 1)
+    off = np.abs(points[:, 1] - slope * points[:, 0] - level)
+    return bool(np.quantile(off, 0.85) <= RULED * np.ptp(points[:, 0]))
 
 
 def grass(m: Measures, free: Bool[np.ndarray, " stroke"], lines: list[np.ndarray], wood: Bool[np.ndarray, " stroke"]) -> list[Found]:
@@ -166,7 +176,7 @@ def _stood_on(m: Measures, row: int, standing: Stems, height: float) -> str:
         return "a level line that the tree passes through, roots below" if _rooted(m, row, height, deep) else ""
     passes = bool((feet[:, 0].min() - m.low[row, 0] >= BESIDE * height) and (m.high[row, 0] - feet[:, 0].max() >= BESIDE * height))
     keeps_low = bool(line[:, 1].max() <= feet[:, 1].max() + 0.02 * height)
-    if deep > DEEP * height and not (passes and _rootlike(m, row, height)):
+    if deep > DEEP * height and not (passes and _in_middle(m, row, feet[:, 0]) and _rootlike(m, row, height)):
         return ""
     return "a level line that a stem stands on" if passes or keeps_low else ""
 
@@ -177,13 +187,23 @@ def _as_thick(m: Measures, row: int, on_it: Int[np.ndarray, " stem"]) -> bool:
     return bool(m.strokes[row].wood and stem and m.strokes[row].width >= AS_THICK * stem)
 
 
+def _in_middle(m: Measures, row: int, x) -> bool:
+    """Whether all of these abscissas, at least one, lie in the middle part of a line."""
+    margin = MIDDLE * float(m.high[row, 0] - m.low[row, 0])
+    return len(x) > 0 and bool((x >= m.low[row, 0] + margin).all() and (x <= m.high[row, 0] - margin).all())
+
+
 def _rooted(m: Measures, row: int, height: float, deep: float) -> bool:
     """Whether a wide level line crosses a tree that goes on below it as roots do."""
     width = float(m.high[row, 0] - m.low[row, 0])
     line = m.strokes[row].points
     straight = float(np.ptp(line[:, 1])) <= FLAT * height
     everything = float(m.drawing[1][0] - m.drawing[0][0])
-    return straight and width >= 0.5 * everything and deep > DEEP * height and _rootlike(m, row, height)
+    level = float(np.median(line[:, 1]))
+    others = np.flatnonzero((m.low[:, 1] < level - DEEP * height) & (m.high[:, 1] > level + DEEP * height) & (np.arange(len(m)) != row))
+    crossings = shapely.get_coordinates(shapely.intersection(m.shapes(others), shapely.LineString([(m.low[row, 0], level), (m.high[row, 0], level)])))
+    centred = _in_middle(m, row, crossings[:, 0]) or bool(m.filled[others].any())
+    return straight and width >= 0.5 * everything and deep > DEEP * height and centred and _rootlike(m, row, height)
 
 
 def _rootlike(m: Measures, row: int, height: float) -> bool:

@@ -21,6 +21,7 @@ ON_GROUND = (0.15, 0.2)  # of H: both feet within this of the lowest point; unde
 LIKE = 0.55  # least ratio of the lengths
 EVEN = {"crown": 4.0, "fronds": 3.0, "alone": 2.0}  # most by which the distance between them varies
 APART = {"crown": 0.6, "fronds": 0.35, "alone": 0.25}  # widest mean distance, of their length
+OPEN = 0.6  # of that distance: without a crown the feet are as far apart: two limbs start at one place
 OVERLAP = 0.02  # of H: sides are farther apart than this
 ACROSS = 0.3  # of its height: a line that draws both sides is never farther than this from its turn between them
 STEEP = 0.7  # sine of the slope of a side
@@ -36,6 +37,7 @@ BARE = (0.1, 0.8)  # the part of a side from which nothing else grows
 LOW = 0.4  # of a crown's height: between several lines only those are sides that end below
 IN_CROWN = 0.8  # least part of what goes on above a side that lies in the crown, to belong to it
 SPUR = 1.5  # what goes on above a side for less than this, of the trunk's width there, is its shoulder
+CAP = 0.3  # of the trunk's width: a line across it starts and ends this near to its edges
 INSIDE = 0.02  # of H: what lies this far outside the sides still counts as bark between them
 
 
@@ -204,12 +206,21 @@ def _replaced(lines: list[Line], used: set[int], middle: Line, sides: tuple[_Sid
     ring = np.vstack([sides[0].line.points, sides[1].line.points[::-1]])
     between = shapely.make_valid(shapely.Polygon(ring)).buffer(INSIDE * height)
     kept = [line for k, line in enumerate(lines) if k not in used]
-    bark = [line for line in kept if line.shape.intersection(between).length >= 0.9 * line.length]
+    caps = {id(line) for line in kept if _caps(line, [lines[k] for k in used], float(middle.width.max()))}
+    bark = [line for line in kept if id(line) in caps or line.shape.intersection(between).length >= 0.9 * line.length]
     crown = shapely.union_all([shapely.make_valid(shapely.Polygon(points)).buffer(INSIDE * height) for points in crowns])
     rest = [line for side in sides for line in side.rest if line.length > max(2 * INSIDE * height, SPUR * float(middle.width[-1]))]
     rest = [line for line in rest if line.shape.intersection(crown).length < IN_CROWN * line.length]
     others = [(middle, lines[k]) for k in sorted(used) if lines[k].row != middle.row]
     return Trunks([line for line in kept if not any(line is b for b in bark)] + rest + [middle], others, bark)
+
+
+def _caps(line: Line, edges: list[Line], width: float) -> bool:
+    """Whether a short line runs across from one edge to the other."""
+    reach = CAP * width
+    ends = shapely.points(line.points[[0, -1]])
+    touched = [{k for k, edge in enumerate(edges) if shapely.distance(end, edge.shape) <= reach} for end in ends]
+    return line.length <= 2 * width and all(touched) and len(touched[0] | touched[1]) > 1 and touched[0] != touched[1]
 
 
 def _of_one_line(lines: list[Line], near: list[int], height: float, under_crown: bool) -> Trunks:
@@ -270,5 +281,7 @@ def _middle(longer: Line, shorter: Line, height: float, manner: str) -> Line | N
     if inner.min() < OVERLAP * height or inner.max() > EVEN[manner] * inner.min() or abs(sides.sum()) < len(sides):
         return None
     if inner.mean() > APART[manner] * 0.5 * (longer.length + shorter.length):
+        return None
+    if manner == "alone" and apart[0] < OPEN * inner.mean():
         return None
     return Line(longer.row, longer.id, 0.5 * (a + b), np.minimum(apart, 1.5 * inner.mean()))
