@@ -53,11 +53,13 @@ def fraction(text: str) -> float:
 @lru_cache(maxsize=1024)
 def _is_clear(paint: str, opacity: str) -> bool:
     paint = paint.strip().lower()
-    clear = paint.startswith(("rgba(", "hsla(", "rgb(", "hsl(")) and _alpha(paint) == 0.0
+    clear = "(" in paint and not paint.startswith("url(") and _alpha(paint) == 0.0
     clear |= paint.startswith("#") and len(paint) in (5, 9) and set(paint[(len(paint) - 1) // 4 * 3 + 1 :]) == {"0"}
     return clear or paint in ("none", "transparent") or fraction(opacity) <= 0.0
 
 
 def _alpha(paint: str) -> float:
+    """The opacity of a colour function: what stands after "/", or the fourth of the numbers of `rgba(r, g, b, a)`."""
     parts = paint[paint.index("(") + 1 :].rstrip(")").replace("/", " / ").replace(",", " ").split()
-    return fraction(parts[-1]) if "/" in parts or len(parts) == 4 else 1.0
+    fourth = paint.startswith(("rgb", "hsl")) and len(parts) == 4
+    return fraction(parts[-1]) if "/" in parts or fourth else 1.0

@@ -27,7 +27,7 @@ from sketchtree.sketch.files.path_effects import Spine, spine
 from sketchtree.sketch.files.shapes import Shape, bounds, transformed
 from sketchtree.sketch.files.svg_record import STROKE, StrokeRecord, polyline, stroke_record
 from sketchtree.sketch.files.transforms import IDENTITY, Matrix, matrix_of, scale_of, translation
-from sketchtree.sketch.files.viewport import Box, View, at, nested, page, user_length
+from sketchtree.sketch.files.viewport import Box, View, at, nested, page, screen_scale, user_length
 
 _GROUPS = frozenset({"svg", "g", "a", "switch"})
 _PAINTED = SHAPES | _GROUPS | {"use", "symbol"}
@@ -59,6 +59,7 @@ class Walk:
         self.cascade = Cascade(root)
         self.box, self.has_page = page(root, name)
         self.view = View(*self.box[2:])
+        self.screen = screen_scale(root, self.box)
         self.by_id: dict[str, Element] = {}
         for element in root.iter():
             if (own := element.get("id")) is not None:
@@ -226,14 +227,16 @@ class Walk:
 
     def _put(self, element: Element, scope: _Scope, style: Style, fill: Paint | None, line: Paint | None, width: float) -> None:
         """Enter a shape that shows; `width` is that of its line in its own units, 0 if it has none."""
-        scale = 1.0 if style.get("vector-effect") == "non-scaling-stroke" else scale_of(scope.matrix)
+        scale = scale_of(scope.matrix)
+        if style.get("vector-effect") == "non-scaling-stroke":
+            scale = 1.0 / self.screen
         under = None if scope.ghost else spine(element, self.by_id)
         record, drawn = self._own(element, style, scope)
         paths = [] if drawn else self._geometry(element, style, under, scope)
         self._count(1 if drawn else len(paths), len(drawn[0]) if drawn else sum(len(path.cubics) for path in paths))
         filled = width <= 0 and under is None
         if under is not None:
-            under = under.scaled(scale_of(scope.matrix))
+            under = under.scaled(scale)
         self._found.append(
             Shape(
                 element,

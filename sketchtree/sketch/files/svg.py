@@ -19,12 +19,14 @@ from sketchtree.sketch.files.limits import MAX_MB, MAX_STROKES
 from sketchtree.sketch.files.outlines import flatten
 from sketchtree.sketch.files.painted import Walk
 from sketchtree.sketch.files.path_effects import Spine
+from sketchtree.sketch.files.recognise import HEAD
 from sketchtree.sketch.files.shapes import Shape, extent_of
 from sketchtree.sketch.files.svg_record import restored, sketch_record
 from sketchtree.sketch.files.viewport import View
 from sketchtree.sketch.strokes import Sketch, Stroke, StrokeKind
 
 FLATNESS = 5e-4  # how far a flattened curve may lie from the true one, of the drawing's size
+MOST_TOLD = 20  # warnings of one file
 _PAGE = 0.9  # of the page's width and height, from which a painted rectangle is the paper
 
 
@@ -47,7 +49,19 @@ def read_svg(data: bytes, name: str, *, max_strokes: int = MAX_STROKES, max_mb: 
     if record is not None:
         kept = record.page if root.get("viewBox") == record.view_box else sketch.page
         sketch = dataclasses.replace(sketch, units=record.units, view_deg=record.view_deg, page=kept)
-    return dataclasses.replace(sketch, warnings=walk.warnings() + warnings)
+    return dataclasses.replace(sketch, warnings=_few(_linked(data) + walk.warnings() + warnings))
+
+
+def _linked(data: bytes) -> tuple[str, ...]:
+    """A warning if the file asks for a style sheet outside it."""
+    found = b"<?xml-stylesheet" in data[:HEAD].replace(b"\0", b"")
+    return ("A style sheet of another file was left out; lines may look other than drawn.",) if found else ()
+
+
+def _few(warnings: tuple[str, ...]) -> tuple[str, ...]:
+    if len(warnings) <= MOST_TOLD:
+        return warnings
+    return (*warnings[: MOST_TOLD - 1], f"{len(warnings) - MOST_TOLD + 1} more remarks like these were left away.")
 
 
 def _strokes(shapes: list[Shape], walk: Walk) -> tuple[tuple[Stroke, ...], tuple[str, ...]]:

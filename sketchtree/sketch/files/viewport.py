@@ -57,6 +57,16 @@ def page(root: Element, name: str) -> tuple[Box, bool]:
     return (0.0, 0.0, width, height), not any(side.strip().endswith("%") for side in size)
 
 
+def screen_scale(root: Element, box: Box) -> float:
+    """Pixels that a user unit of the root's viewBox takes on a screen; 1 where the file does not say."""
+    try:
+        sides = [length(root.get(side, "100%"), math.nan) / whole for side, whole in zip(("width", "height"), box[2:], strict=True)]
+    except ValueError:
+        return 1.0
+    known = [side for side in sides if math.isfinite(side) and side > 0]
+    return min(known) if known else 1.0
+
+
 def _view_box(element: Element, name: str) -> Box | None:
     text = element.get("viewBox")
     if text is None:

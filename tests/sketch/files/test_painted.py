@@ -256,3 +256,30 @@ def test_a_clone_of_what_it_lies_in_is_left_out_and_counted(body):
 def test_clones_that_lead_to_themselves_through_others_end():
     sketch = sketch_of(f'<g id="g">{NAMED}<use id="u" href="#g"/></g><use href="#u"/>')
     assert [s.id for s in sketch.strokes] == ["a", "a-2"] and sketch.warnings == ("2 clones of what they lie in were left out.",)
+
+
+@pytest.mark.parametrize("paint", ["rgb(0 0 0 / 0)", "rgb(0 0 0/0%)", "hsla(9, 9%, 9%, 0)", "#12340000", "#1230", "color(display-p3 1 0 0 / 0)", "hwb(9 9% 9% / 0)", "TRANSPARENT"])
+def test_a_clear_colour_does_not_show(paint):
+    assert len(sketch_of(f'<path d="M0 0L9 9" fill="none" stroke="{paint}"/>')) == 0
+
+
+@pytest.mark.parametrize("paint", ["rgb(0 0 0)", "rgb(0, 0, 0, .1)", "#000", "color(display-p3 1 0 0)", "color(srgb 0 0 0)", "oklch(0.4 0.2 0)", "#fff icc-color(a, 0, 0, 0)"])
+def test_any_other_colour_shows(paint):
+    assert len(sketch_of(f'<path d="M0 0L9 9" fill="none" stroke="{paint}"/>')) == 1
+
+
+@pytest.mark.parametrize("head, width", [('viewBox="0 0 100 100"', 3), ('viewBox="0 0 100 100" width="1000" height="1000"', 0.3), ('viewBox="0 0 100 100" width="100%"', 3), ('width="50" height="50"', 3)])
+def test_a_line_that_does_not_scale_is_as_wide_as_the_screen_paints_it(head, width):
+    body = '<g transform="scale(7)"><path d="M0 0L9 9" fill="none" stroke="red" stroke-width="3" vector-effect="non-scaling-stroke"/></g>'
+    assert sketch_of(body, head).strokes[0].width == pytest.approx(width)
+
+
+def test_a_linked_style_sheet_is_told():
+    text = f'<?xml version="1.0"?>\n<?xml-stylesheet href="tree.css" type="text/css"?><svg {SPACES} viewBox="0 0 9 9">{BARE}</svg>'
+    for data in (text.encode(), text.encode("utf-16")):
+        assert read_svg(data, "t.svg").warnings == ("A style sheet of another file was left out; lines may look other than drawn.",)
+
+
+def test_remarks_without_end_are_counted():
+    sketch = sketch_of("".join(f'<use href="a{k}.svg#x"/>' for k in range(500)) + BARE)
+    assert len(sketch.warnings) == 20 and sketch.warnings[-1] == "481 more remarks like these were left away."
