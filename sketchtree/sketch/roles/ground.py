@@ -25,6 +25,7 @@ AT_FOOT = 0.05  # of the drawing's height: a stem ends this near to the line it 
 RISES = 0.25  # of the drawing's height: what goes up less from the line is no stem
 BESIDE = 0.03  # of the drawing's height: a line that goes on this far on both sides of the foot passes under it
 DEEP = 0.12  # of the drawing's height: what reaches deeper below the line must look like roots
+DEEPEST = 0.75  # of the height above the line: nothing reaches as deep below it
 ROOTS = 3  # lines below a ground in two pieces
 TOGETHER = 0.2  # of the drawing's height: roots start no farther apart
 TUFT = 0.1  # of the drawing's height: grass is smaller
@@ -161,7 +162,7 @@ def _stood_on(m: Measures, row: int, standing: Stems, height: float) -> str:
     """Why this level line is the ground; "" if it need not be."""
     line = m.strokes[row].points
     deep = float(np.median(line[:, 1]) - m.drawing[0][1])
-    if deep > float(m.drawing[1][1] - np.median(line[:, 1])):
+    if deep > DEEPEST * float(m.drawing[1][1] - np.median(line[:, 1])):
         return ""
     shape = shapely.LineString(line)
     at = level_at([line], standing.foot[:, 0])

@@ -18,7 +18,7 @@ from jaxtyping import Float
 from sketchtree.sketch.joining.lines import Line, angle_between, extent
 
 ON_GROUND = (0.15, 0.2)  # of H: both feet within this of the lowest point; under a crown
-LIKE = 0.55  # least ratio of the lengths
+LIKE = {"crown": 0.55, "fronds": 0.55, "alone": 0.7}  # least ratio of the lengths
 EVEN = {"crown": 4.0, "fronds": 3.0, "alone": 2.0}  # most by which the distance between them varies
 APART = {"crown": 0.6, "fronds": 0.35, "alone": 0.25}  # widest mean distance, of their length
 OPEN = 0.6  # of that distance: without a crown the feet are as far apart: two limbs start at one place
@@ -271,7 +271,7 @@ def _rises(line: Line) -> bool:
 
 def _middle(longer: Line, shorter: Line, height: float, manner: str) -> Line | None:
     """The middle of two sides, as wide as they are apart; None if they do not run side by side."""
-    if shorter.length < LIKE * longer.length:
+    if shorter.length < LIKE[manner] * longer.length:
         return None
     t = np.linspace(0.0, 1.0, 41)
     a, b = longer.at(t * longer.length), shorter.at(t * shorter.length)
