@@ -8,8 +8,9 @@ H the drawn height, ℓ = 5 % H and j the jitter in % of H:
     junction   `moored` (the default): the whole stroke then moves so that it starts where its parent was really drawn, as a
                person's does who looks at the page: the noise of its parent at the junction less its own noise there is
                carried along it in full. `adrift`: it stays where its own noise has put it, gaps of √2 j % H and more
-    gap        its start is moved off by U(0, 1.5 %) H in any direction, fading out over ℓ
-    overshoot  one stroke in five starts U(0.3, 2 %) H before its junction, straight on backward
+    gap        `short` (the default): it is begun U(0, 1.5 %) H late along its way, as by a person who stops short of the
+               line that it comes from. `aside`: its start is moved off by as much in any direction, fading out over ℓ
+    overshoot  one stroke in five starts U(0.3, 2 %) H before its junction instead, straight on backward
     retraced   one in ten is gone over again, 0.2 % H off: either there and back in one stroke, back over 30-100 % of it,
                or the whole of it as a second stroke of its own
     reversed   one in two is drawn from its tip
@@ -56,13 +57,13 @@ class Wobbly:
         return sum(len(node) for node in self.node)
 
 
-def wobbly(case: Case, jitter: float, *, moored: bool = True, slips: float = 1.0, rng: np.random.Generator) -> Wobbly:
+def wobbly(case: Case, jitter: float, *, moored: bool = True, short: bool = True, slips: float = 1.0, rng: np.random.Generator) -> Wobbly:
     """`case` drawn by a careless hand; `jitter` is j, % of H."""
     graph = case.graph
     height = float(np.ptp(np.concatenate([graph.xy, graph.curve_points])[:, 1]))
     lines: list[np.ndarray] = []
     nodes, seats = [], np.zeros(len(graph.limb_id))
-    exacts, noises = [], []
+    exacts, noises, whole, cut, overshot = [], [], [], [], []  # of every stroke; `whole`: before it is begun late
     for limb, above in enumerate(graph.limb_parent.tolist()):
         exact, node = _finely(graph, limb, STEP * height)
         exacts.append(exact)
@@ -71,14 +72,20 @@ def wobbly(case: Case, jitter: float, *, moored: bool = True, slips: float = 1.0
             at = int(np.argmin(np.hypot(*(exacts[above] - exact[0]).T)))
             if moored:
                 noise = noise + noises[above][at] - noise[0]
-            seats[limb] = _lengths(lines[above])[at]
+            seats[limb] = _lengths(whole[above])[at]
         noises.append(noise)
-        drawn = exact + noise + (0 if above == NULL else slips * _gap(len(exact), height, rng))
+        past = above != NULL and rng.uniform() < slips * OVERSHOT
+        gap = 0.0 if above == NULL or (past and short) else slips * rng.uniform(0, GAP * height)
+        drawn, late = _late(exact + noise, gap) if short else (exact + noise + _aside(len(exact), gap, rng), 0.0)
+        seats[limb] = max(seats[limb] - cut[above], 0.0) if above != NULL else 0.0
+        whole.append(exact + noise if short else drawn)
         lines.append(drawn)
-        nodes.append(_lengths(drawn)[node[1:]])
+        overshot.append(past)
+        cut.append(late)
+        nodes.append(np.maximum(_lengths(exact + noise if short else drawn)[node[1:]] - late, 0.0))
     strokes, ids = [], []
     for limb, line in enumerate(lines):
-        own = [Stroke(f"s{limb}{'abc'[k]}", points) for k, points in enumerate(_as_drawn(line, graph.limb_parent[limb] == NULL, height, slips, rng))]
+        own = [Stroke(f"s{limb}{'abc'[k]}", points) for k, points in enumerate(_as_drawn(line, overshot[limb], height, slips, rng))]
         strokes += own
         ids.append(tuple(stroke.id for stroke in own))
     shuffled = tuple(strokes[k] for k in rng.permutation(len(strokes)))
@@ -110,16 +117,25 @@ def _noise(count: int, size: float, rng) -> Float[np.ndarray, "point 2"]:
     return size * white * np.sqrt(2 * np.sqrt(np.pi) * sigma)
 
 
-def _gap(count: int, height: float, rng) -> Float[np.ndarray, "point 2"]:
-    angle, size = rng.uniform(0, 2 * np.pi), rng.uniform(0, GAP * height)
+def _late(line: Float[np.ndarray, "point 2"], gap: float) -> tuple[Float[np.ndarray, "point 2"], float]:
+    """(the line without its first `gap`, or half of it where it is shorter than that; how much was left out)."""
+    along = _lengths(line)
+    gap = min(gap, 0.5 * along[-1])
+    first = [np.interp(gap, along, line[:, axis]) for axis in (0, 1)]
+    return np.vstack([first, line[along > gap]]), gap
+
+
+def _aside(count: int, gap: float, rng) -> Float[np.ndarray, "point 2"]:
+    """How far the points of a line are moved whose start is off by `gap`."""
+    angle = rng.uniform(0, 2 * np.pi)
     fade = np.clip(1 - np.arange(count) * STEP / CORRELATION, 0, 1)
-    return fade[:, None] * size * np.array([np.cos(angle), np.sin(angle)])
+    return fade[:, None] * gap * np.array([np.cos(angle), np.sin(angle)])
 
 
-def _as_drawn(line, trunk: bool, height: float, slips: float, rng) -> list[Float[np.ndarray, "point 2"]]:
+def _as_drawn(line, overshot: bool, height: float, slips: float, rng) -> list[Float[np.ndarray, "point 2"]]:
     """The stroke(s) that draw a line."""
     points = line
-    if not trunk and rng.uniform() < slips * OVERSHOT:
+    if overshot:
         back = line[0] - line[min(4, len(line) - 1)]
         past = line[0] + back / np.hypot(*back) * rng.uniform(*OVERSHOOT) * height
         points = np.vstack([past, line])

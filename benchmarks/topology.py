@@ -37,7 +37,7 @@ from sketchtree.sketch.strokes import Sketch
 
 RECORD = DATA / "topology_record.json"
 JITTER = (0.0, 1.0, 2.0, 3.0, 5.0)  # j, % of H
-WAYS = {"moored": True, "adrift": False}
+WAYS: dict[str, dict[str, bool]] = {"short": {}, "aside": {"short": False}, "adrift": {"moored": False}}
 MARGIN = 0.03  # of H: how far beyond a junction the way to the root is looked at
 NEAR = 0.01  # of H: nearer than this to a line is on it
 STEP = 0.002  # of H, between points on the read curves
@@ -55,8 +55,8 @@ def trees(folder: Path | None = None) -> Iterator[tuple[str, object]]:
         yield path.stem, measured(path)
 
 
-def drawings(count: int, jitter: float, *, moored: bool = True, slips: float = 1.0, first_seed: int = 0, source=None) -> list[Wobbly]:
-    """`count` drawings, the trees taken in turn; the same exact drawings for every jitter."""
+def drawings(count: int, jitter: float, *, first_seed: int = 0, source=None, orders=(2, 3), **slack) -> list[Wobbly]:
+    """`count` drawings, the trees taken in turn; the same exact drawings for every jitter. `slack`: options of `wobbly`."""
     source = list(trees() if source is None else source)
     made = []
     for k in range(count):
@@ -66,12 +66,12 @@ def drawings(count: int, jitter: float, *, moored: bool = True, slips: float = 1
         hand = Hand(
             azimuth=rng.uniform(0, 2 * np.pi),
             strokes=int(np.round(np.exp(rng.uniform(np.log(10), np.log(60))))),
-            orders=int(rng.choice([2, 3])),
+            orders=int(rng.choice(orders)),
             main=rng.uniform(0.35, 0.75),
             jitter=0.0,
         )
         case = draw(tree, hand, name=f"{name}_{turn}", family=name, rng=rng)
-        made.append(wobbly(case, jitter, moored=moored, slips=slips, rng=rng))
+        made.append(wobbly(case, jitter, rng=rng, **slack))
     return made
 
 
@@ -207,7 +207,7 @@ def curve(count: int, jitters, ways=tuple(WAYS), *, first_seed: int = 0, source=
     for way in ways:
         table[way] = {}
         for jitter in jitters:
-            made = drawings(count, jitter, moored=WAYS[way], first_seed=first_seed, source=source)
+            made = drawings(count, jitter, **WAYS[way], first_seed=first_seed, source=source)
             rows = [score(drawn, sketch_graph(drawn.sketch)) for drawn in made]
             table[way][f"{jitter:g}"] = {name: float(np.mean([row[name] for row in rows])) for name in FIGURES}
     return table

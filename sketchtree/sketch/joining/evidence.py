@@ -11,6 +11,7 @@ how exactly this hand starts its strokes; r is the foot of the likeliest stem.
     longer      log |i| / |j|
     size        log |j|: a longer line carries more
     carries     how many other ends have j for their nearest
+    aim, aimed  how far ahead of p the line, continued straight backward, meets j (`aims`): going by its first 2 or 5 % of H
     beside      how far i has got from j after BESIDE of its length, over that length: small where they run side by side
     turn        angle between i leaving p and j going on from q, radians, over REACH
     sweep       the same over FAR
@@ -30,6 +31,8 @@ import numpy as np
 import shapely
 from jaxtyping import Float, Int
 
+from sketchtree.sketch.joining.aims import FAR as FAR_BACK
+from sketchtree.sketch.joining.aims import NEAR, aims
 from sketchtree.sketch.joining.bundle import Bundle
 from sketchtree.sketch.joining.lines import angle_between
 
@@ -37,8 +40,6 @@ REACH, FAR, BESIDE = 0.03, 0.09, 0.05  # of H
 TIP = 0.02  # of H
 OVERSHOOT = 0.025  # of H
 PRECISE, COARSE = 0.0025, 0.03  # of H: bounds of ε
-SHARED = ("gap", "slip", "over", "rise", "outward", "longer", "size", "carries", "beside")
-TURNED = ("turn", "sweep", "at_tip", "foot", "tip", "place")
 
 
 @dataclass(frozen=True, eq=False)
@@ -70,6 +71,8 @@ def evidence(bundle: Bundle, arcs: Places, root: Float[np.ndarray, " 2"]) -> dic
         "size": np.log(length[parent] / h),
         "carries": _carries(bundle, arcs, row),
         "beside": _beside(bundle, arcs),
+        "aim": aims(bundle, row, arcs.parent, arcs.gap, NEAR),
+        "aimed": aims(bundle, row, arcs.parent, arcs.gap, FAR_BACK),
         "thicker": np.nan_to_num(np.log(bundle.width[child] / bundle.width[parent]), nan=-np.inf),
         "before": (bundle.time[child] < bundle.time[parent]).astype(float),
     }
