@@ -25,6 +25,7 @@ def files() -> dict[str, bytes]:
     """File name → the tree as that file holds it; every vector format."""
     return {
         "tree.svg": svg(),
+        "dressed.svg": dressed_svg(),
         "tree.svgz": gzip.compress(svg(), mtime=0),
         "tree.json": sketch_json(),
         "tree.excalidraw": excalidraw(),
@@ -42,6 +43,31 @@ def svg() -> bytes:
         'xmlns:inkscape="http://www.inkscape.org/namespaces/inkscape" width="200" height="300" viewBox="0 0 200 300">'
         f'<g inkscape:groupmode="layer" inkscape:label="wood" style="fill:none;stroke:#5b3;stroke-width:2">{paths}</g>'
         f'<g inkscape:groupmode="layer" inkscape:label="crown" fill="none" stroke="#080"><path id="outline" d="M {ring} Z"/></g></svg>'
+    ).encode()
+
+
+def dressed_svg() -> bytes:
+    """The same with everything that SVG and CSS can put around a line: an entity, a symbol, a nested page, a clip, a mask, variables."""
+    names = list(STROKES)
+
+    def paths(some: list[str], dx: float = 0.0, dy: float = 0.0) -> str:
+        """Half as large, from (dx, dy)."""
+        lines = {name: " ".join(f"{(x - dx) / 2} {(y - dy) / 2}" for x, y in STROKES[name]) for name in some}
+        return "".join(f'<path id="{name}" d="M{line}"/>' for name, line in lines.items())
+
+    ring = " ".join(f"{x},{y}" for x, y in CROWN)
+    return (
+        '<!DOCTYPE svg [<!ENTITY brown "#5b3">]>\n<svg xmlns="http://www.w3.org/2000/svg" xmlns:xlink="http://www.w3.org/1999/xlink" '
+        'width="40mm" height="60mm" viewBox="0 0 200 300"><style>:root{--ink:&brown;}.wood{fill:none;stroke:var(--ink, red)} '
+        "#half > path{stroke-width:1px!important} #outline{stroke:url(#fade)}</style><defs>"
+        '<linearGradient id="fade"><stop stop-color="#080"/><stop offset="1"/></linearGradient>'
+        '<clipPath id="page"><rect width="100%" height="100%"/></clipPath>'
+        '<mask id="all" maskUnits="userSpaceOnUse" x="-99" y="-99" width="500" height="500"><rect width="200" height="300" fill="white"/></mask>'
+        f'<symbol id="half" viewBox="0 0 100 150">{paths(names[:3])}</symbol></defs>'
+        '<g class="wood" id="wood" clip-path="url(#page)"><use xlink:href="#half" width="200" height="300"/>'
+        f'<svg x="10" y="20" width="190" height="280" viewBox="0 0 95 140" overflow="visible" stroke-width="1">{paths(names[3:5], 10, 20)}</svg>'
+        f'<g style="transform:translate(4px, 8px) scale(2)">{paths(names[5:], 4, 8)}</g></g>'
+        f'<g id="crown" mask="url(#all)"><polygon id="outline" fill="none" points="{ring}"/></g></svg>'
     ).encode()
 
 
@@ -95,13 +121,15 @@ def quickdraw() -> bytes:
     return json.dumps({"word": "tree", "countrycode": "XX", "recognized": True, "drawing": drawing}).encode() + b"\n"
 
 
-def picture(kind: str = "PNG", scale: float = 1.0) -> bytes:
-    """The branches as a pen drew them on white paper."""
-    from PIL import Image, ImageDraw
+def picture(kind: str = "PNG", scale: float = 1.0, *, scene: bool = False) -> bytes:
+    """The branches as a pen drew them on white paper; a PNG may carry the scene, as Excalidraw exports it."""
+    from PIL import Image, ImageDraw, PngImagePlugin
 
     page = Image.new("L", (round(200 * scale), round(300 * scale)), 255)
     for points in STROKES.values():
         ImageDraw.Draw(page).line([(x * scale, y * scale) for x, y in points], fill=20, width=max(round(4 * scale), 1), joint="curve")
     file = io.BytesIO()
-    page.save(file, kind)
+    inside = PngImagePlugin.PngInfo()
+    inside.add_text("application/vnd.excalidraw+json", excalidraw().decode())
+    page.save(file, kind, **({"pnginfo": inside} if scene else {}))
     return file.getvalue()

@@ -27,8 +27,11 @@ _VALUES = (
     *(None, True, 0, -1, 1, 1e308, -1e-320, 10**400, float("nan"), float("inf")),
     *("", "crown", "\ud800", "1", [], {}, [[]], [None], [0, 0], [[0, 0]] * 3),
 )
-_TEXTS = ("", "0", "-1", "1e999", "nan", "10%", "none", "url(#a)", "M0 0", "M0 0L1 1Z", "m1 1c0 0 0 0 9e9 9e9", "0 0 9 9", "0 0 0 0", "crown", "#a",
-          "matrix(0 0 0 0 0 0)", "rotate(1e300)", "scale(0)", "1 2,3 4", "'1 1,\"2 2", "*", "display:none", "0 0 1e400 1")  # fmt: skip
+_TEXTS = (
+    *("", "0", "-1", "1e999", "nan", "10%", "none", "M0 0", "M0 0L1 1Z", "m1 1c0 0 0 0 9e9 9e9", "0 0 9 9", "0 0 0 0", "crown", "#a", "#half", "2em"),
+    *("url(#a)", "url(#page)", "url(#all) red", "url(#fade)", "var(--ink)", "objectBoundingBox", "display:none", "*", "1 2,3 4", "'1 1,\"2 2"),
+    *("matrix(0 0 0 0 0 0)", "rotate(1e300)", "scale(0)", "0 0 1e400 1"),
+)
 _TAGS = tuple(
     "g path use svg symbol polyline circle ellipse rect line clipPath mask style defs a switch marker trace traceGroup traceView traceFormat "
     "channel context brush brushProperty definitions annotation inkSource".split()
@@ -36,7 +39,7 @@ _TAGS = tuple(
 _ATTRIBUTES = tuple(
     "id d points transform style class href viewBox width height x y r rx cx x1 y2 stroke fill stroke-width opacity display clip-path "
     "traceDataRef contextRef brushRef name value units type min max from to continuation priorTrace timeOffset duration orientation "
-    "preserveAspectRatio".split()
+    "preserveAspectRatio mask clipPathUnits maskUnits font-size visibility overflow transform-origin".split()
 )
 _KEYS = tuple(
     "sketchtree strokes points id kind width closed y units type elements angle x pressures roundness groupIds customData frameId isDeleted "
@@ -47,7 +50,8 @@ _KEYS = tuple(
 def seeds(reader: str) -> list[bytes]:
     """Valid files of one kind."""
     if reader == "picture":
-        return [little_tree.picture(kind, 0.4) for kind in ("PNG", "JPEG", "TIFF", "GIF", "BMP", "WEBP")]
+        plain = [little_tree.picture(kind, 0.4) for kind in ("PNG", "JPEG", "TIFF", "GIF", "BMP", "WEBP")]
+        return [*plain, little_tree.picture("PNG", 0.4, scene=True)]
     return [data for name, data in little_tree.files().items() if name.endswith("." + reader)]
 
 
