@@ -20,6 +20,7 @@ OUTER = 0.72  # of the greatest distance in its direction: farther out is outerm
 MOST = 0.8  # … for at least this part of an arc
 ACROSS = 0.45  # least angle that an arc covers, times its middle distance, of its length
 BOWED = 0.5  # radians that an arc turns at least
+FILLS = 0.1  # of the drawing's size: a flatter stroke is an arc if both its ends are this near to those of two bowed ones
 SPAN = np.radians(20)  # least angle of an arc
 LARGE = 0.3  # least size of the crown, of the drawing's
 HIGH = 0.85  # of the drawing's height: the crown's top is above
@@ -60,9 +61,21 @@ def crown_of_arcs(m: Measures, free: Bool[np.ndarray, " stroke"], wood: Bool[np.
     stems = (m.low[rows, 1] <= ground) & (m.turning[rows] < BOWED)
     for foot in (ground,) if stems.any() else (ground, -np.inf):  # on a trunk, or a bush
         chosen, middle = _chosen(points, may_be, centre, foot, m.length[rows])
+        flat = _between(m, rows, chosen, size) & free[rows] & (m.size[rows] >= 0.04 * size)
+        chosen |= flat & _outermost(points, middle, foot, m.length[rows])
         if FEWEST <= chosen.sum() <= MANY:
             found.append(_checked(m, rows[chosen], rows[~chosen], points[chosen], points[~chosen], middle, size))
     return max((arcs for arcs in found if arcs is not None), key=lambda arcs: len(arcs.rows), default=None)
+
+
+def _between(m: Measures, rows, chosen: Bool[np.ndarray, " stroke"], size: float) -> Bool[np.ndarray, " stroke"]:
+    """Strokes that lead from the end of one chosen arc to that of another: flat pieces of an outline."""
+    if chosen.sum() < FEWEST:
+        return np.zeros(len(rows), bool)
+    ends = np.stack([m.first[rows], m.last[rows]], 1)
+    apart = np.hypot(*np.moveaxis(ends[:, :, None] - ends[chosen].reshape(-1, 2), -1, 0))
+    near = apart.min(-1) <= FILLS * size
+    return ~chosen & near.all(1) & (apart.argmin(-1)[:, 0] != apart.argmin(-1)[:, 1])
 
 
 def _chosen(points, may_be, centre, ground: float, length) -> tuple[Bool[np.ndarray, " stroke"], Float[np.ndarray, " 2"]]:

@@ -22,6 +22,7 @@ FLAT = 0.1  # of the drawing's height: how far it strays from its chord …
 SLOPE = 0.3  # … and how steep that may be: a hillside
 WINDING = 6.0  # most length of a line of grass, of its width
 AT_FOOT = 0.05  # of the drawing's height: a stem ends this near to the line it stands on
+DIPS = 0.3  # of its height: a stroke that dips as far below both ends stands on its lowest point
 RISES = 0.25  # of the drawing's height: what goes up less from the line is no stem
 BESIDE = 0.03  # of the drawing's height: a line that goes on this far on both sides of the foot passes under it
 DEEP = 0.12  # of the drawing's height: what reaches deeper below the line must look like roots
@@ -44,14 +45,15 @@ class Stems:
     """Strokes that may stand on the ground."""
 
     row: Int[np.ndarray, " stem"]
-    foot: Float[np.ndarray, "stem 2"]  # their lower end; their lowest point if they are closed
+    foot: Float[np.ndarray, "stem 2"]  # their lower end; their lowest point if they are closed, or dip below both ends
     top: Float[np.ndarray, " stem"]  # how high they reach
 
 
 def stems(m: Measures, rows: Int[np.ndarray, " row"]) -> Stems:
     """These strokes with their feet."""
     foot = np.where((m.first[:, 1] <= m.last[:, 1])[:, None], m.first, m.last)[rows]
-    for k in np.flatnonzero(m.closed[rows]):
+    dips = m.low[:, 1] < np.minimum(m.first[:, 1], m.last[:, 1]) - DIPS * (m.high - m.low)[:, 1]
+    for k in np.flatnonzero((m.closed | dips)[rows]):
         points = m.strokes[rows[k]].points
         foot[k] = points[np.argmin(points[:, 1])]
     return Stems(rows, foot, m.high[rows, 1])
