@@ -36,3 +36,10 @@ def test_limbs_that_bow_outward_from_a_trunk_are_no_crown():
     m, free = measured([(0, 0), (0, 110)], *limbs)
     assert crown_of_arcs(m, free, free) is None
     assert len(graph_of([(0, 0), (0, 110)], *limbs).limb_id) == 7
+
+
+def test_flat_pieces_between_the_bows_are_part_of_the_outline():
+    flat = np.c_[np.linspace(-25, 25, 12), 120 + 2 * np.sin(np.linspace(0, np.pi, 12))]
+    bows = [ring(28, (sign * 28, 92), 20, *((0.5 * np.pi, 1.55 * np.pi) if sign < 0 else (-0.55 * np.pi, 0.5 * np.pi))) for sign in (-1, 1)]
+    graph = graph_of(*bows, flat, *EDGES)
+    assert roles(graph) == {"s0": "crown", "s1": "crown", "s2": "crown"} and len(graph.limb_id) == 1

@@ -85,3 +85,13 @@ def test_a_tree_on_a_hill_keeps_its_two_edges():
 def test_a_painted_meadow_wider_than_the_tree_is_ground():
     graph = graph_of(*TREE, painted([(-90, -14), (90, -14), (90, -1), (-90, 1)]))
     assert roles(graph) == {"s3": "ground"} and len(graph.limb_id) == 3
+
+
+def test_a_trunk_drawn_down_and_up_again_stands_on_its_lowest_part():
+    graph = graph_of(cloud(40), [(-9, 45), (-9, 1), (9, 0), (9, 45)], [(-90, 0), (-20, 1), (90, 0)])
+    assert roles(graph) == {"s0": "crown", "s2": "ground"} and len(graph.limb_id) == 1
+
+
+def test_a_level_limb_to_one_side_of_a_trunk_that_goes_on_below_is_none():
+    below = [[(0, 8), (-20, -4)], [(0, 12), (22, -2)], [(0, 4), (15, -10)]]
+    assert ground([(0, -30), (0, 100)], [(-3, 22), (60, 24)], *below) == []

@@ -71,3 +71,13 @@ def test_trees_side_by_side_have_a_trunk_each():
 def test_edges_wider_than_their_length_are_no_trunk():
     corners = box(80, 45)
     assert len(trunks_of_edges(lines(corners[[0, 3]], corners[[1, 2]]), [CROWN]).lines) == 2
+
+
+def test_a_short_line_across_the_top_of_a_trunk_is_no_limb():
+    graph = graph_of(cloud(40), edge(-12), edge(12), [(-11, 46), (11, 47)])
+    assert len(graph.limb_id) == 1 and roles(graph)["s3"] == "hatching"
+
+
+def test_two_limbs_from_one_place_are_no_trunk_without_a_crown():
+    left, right = [(0, 0), (-9, 25), (-10, 60), (-9, 90)], [(0, 0), (9, 25), (10, 60), (9, 90)]
+    assert len(trunks_of_edges(lines(left, right), []).lines) == 2
