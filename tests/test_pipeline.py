@@ -134,6 +134,15 @@ def test_pen_widths_say_which_branch_is_thicker_not_how_thick_the_trunk_is():
     assert (np.diff(radius[known][order]) >= -1e-12).all()
 
 
+def test_a_width_of_nothing_says_nothing():
+    graph = st.sketch_graph(st.read_sketch(ROOT / "examples" / "oak_50.svg"))
+    width = graph.width.copy()
+    width[[3, 7]] = 0.0
+    sketch = st.read_sketch(ROOT / "examples" / "oak_50.svg")
+    radius = drawn_radius(sketch, graph.replace(width=width), page_to_world(graph, 10.0), st.Habit(height=10.0, trunk_ratio=0.03))
+    assert np.isnan(radius[[3, 7]]).all() and np.isfinite(np.delete(radius, [3, 7])).sum() > 50
+
+
 @pytest.mark.parametrize(("half", "expected"), [(2.5, 2.5), (10.0, 0.05 * 60)])
 def test_a_trunk_drawn_by_its_two_edges_is_as_thick_as_drawn_but_no_barrel(half, expected):
     edges = [np.array([[50.0 - half, 0.0], [50.0 - half, 60.0]]), np.array([[50.0 + half, 0.0], [50.0 + half, 60.0]])]

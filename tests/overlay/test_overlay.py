@@ -145,3 +145,46 @@ def test_a_single_vertical_stroke_has_a_picture():
     scene = overlay(sketch, sketch_graph(sketch))
     assert scene.width > 100 and scene.height > 100
     assert counts(sketch_graph(sketch)) == "1 stroke, 1 tree, 1 limb, 1 segment, 0 doubts"
+
+
+def test_strokes_with_one_role_are_one_doubt_in_words_of_their_own(oak):
+    sketch, graph = oak
+    names = tuple(stroke.id for stroke in sketch.strokes[1:3])
+    roles = tuple(Role(name, "hatching", "short and parallel", (("branch", 0.4),)) for name in names)
+    taken = tuple(Attachment(name, None, (0.0, 0.0), 0.0, 0.0, (("branch", 0.4),), "taken for hatching") for name in names)
+    unsure = Attachment("limb-3", "trunk", tuple(graph.xy[5].tolist()), 0.0, 1.0, (("top", 1.9),), "a lateral")
+    graph = graph.replace(attachments=(*taken, unsure), roles=roles)
+    assert [doubt.words for doubt in doubts(graph)] == ["limb-3: from trunk, or top (+0.9)", f"{', '.join(names)}: taken for hatching, may be branch"]
+    numbers = [m.text for m in overlay(sketch, graph).marks if isinstance(m, Words) and m.halo]
+    assert numbers == ["1", "2", "2"], "a ring on every stroke, a number for the doubt"
+
+
+def test_only_doubts_that_the_legend_lists_have_a_number(oak):
+    sketch, graph = oak
+    many = tuple(Attachment(f"s{k}", "trunk", tuple(graph.xy[5].tolist()), 0.0, 1.0, (("top", 1.0 + k / 200),), "a lateral") for k in range(150))
+    scene = overlay(sketch, graph.replace(attachments=many))
+    text = [m.text for m in scene.marks if isinstance(m, Words)]
+    numbers = [m.text for m in scene.marks if isinstance(m, Words) and m.halo]
+    assert 10 < len(numbers) < 150 and all(any(line.startswith(f"{number}  s") for line in text) for number in numbers)
+    assert f"and {150 - len(numbers)} more: see the report's attachments" in text
+    rings = [m for m in scene.marks if isinstance(m, Disc) and m.colour == DOUBT and m.fill is None]
+    assert len(rings) == 150 + 1, "all of them a ring, and the key"
+    assert not any(isinstance(m, Words) for m in overlay(sketch, graph.replace(attachments=many), explained=False).marks)
+
+
+def test_marks_shrink_where_many_limbs_share_a_small_picture(oak):
+    def junctions(scene):
+        return {m.radius for m in scene.marks if isinstance(m, Disc) and m.fill == "#ffffff"}
+
+    assert max(junctions(overlay(*oak, explained=False))) > max(junctions(overlay(*oak, explained=False, long_side=250.0)))
+
+
+def test_numbers_have_a_halo_in_both_files(oak):
+    sketch, graph = oak
+    unsure = Attachment("limb-1", "trunk", tuple(graph.xy[5].tolist()), 0.0, 1.0, (("top", 1.9),), "a lateral")
+    scene = overlay(sketch, graph.replace(attachments=(unsure,)))
+    assert 'paint-order="stroke"' in scene_svg(scene)
+    (number,) = [m for m in scene.marks if isinstance(m, Words) and m.halo]
+    image = Image.open(io.BytesIO(scene_png(scene)))
+    around = [image.getpixel((round(number.x) + dx, round(number.y) - dy)) for dx in range(-2, 12) for dy in range(-2, 14)]
+    assert (255, 255, 255) in around, "white between the crown's green and the number"
