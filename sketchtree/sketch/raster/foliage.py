@@ -14,7 +14,7 @@ from dataclasses import dataclass
 import numpy as np
 import shapely
 from jaxtyping import Bool, Float
-from scipy.ndimage import binary_closing, binary_fill_holes, gaussian_filter
+from scipy.ndimage import binary_closing, binary_fill_holes, binary_propagation, gaussian_filter, gaussian_filter1d
 from scipy.sparse import coo_array
 from scipy.sparse.csgraph import connected_components
 from scipy.spatial import ConvexHull, cKDTree
@@ -24,7 +24,8 @@ from sketchtree.sketch.raster.ends import bridged
 from sketchtree.sketch.raster.lines_of import Traced
 
 CURL = 30.0  # radians per H
-WHIRL = 2.2  # radians: a line that turns less in all is no scribble
+WHIRL = 1.6  # radians: a line that turns less in all is no scribble
+STILL = 1.0  # widths over which a line is smoothed before its turning is measured
 RING = 0.3  # of H: length of a closed line, below which it is a leaf
 BLADE = 1.6  # times as wide as at its foot
 BLADE_LONG = (2.0, 9.0)  # of its greatest width: length of a blade
@@ -33,9 +34,10 @@ STEM = 0.2  # of a blade's length: its foot
 GRID = 128  # cells along H
 MARGIN = 8  # cells around the drawing
 SPREAD = 0.022  # of H
-DENSE = 9.0  # H of line in an area of H²
+DENSE = 6.0  # H of line in an area of H²
 FEWEST = 10  # lines that whirl or are blades: fewer are no foliage
 LIMB = (0.1, 14.0)  # of H, radians per H: a line so long and no curlier is wood wherever it lies
+BIT = 0.1  # of H: a line no longer, half as curly, carries foliage on that is there already
 SCRAP = 0.06  # of H: a line no longer that touched nothing but leaves is a piece of one
 RUN = 0.6  # radians: a line that goes on for as long as a LIMB without turning more is one, whatever its end does
 WITHIN = 0.6  # share of a line that lies in foliage, if it is foliage
@@ -73,7 +75,9 @@ def without_foliage(lines: list[Traced], pen: float) -> Foliage:
     if leafy.sum() < FEWEST:
         return Foliage(rest, 0, int(is_hatch.sum()), [])
     cell = height / GRID
-    region = _region([line for line, leaf in zip(rest, leafy, strict=True) if leaf], low, points.max(0), cell)
+    core = _region([line for line, leaf in zip(rest, leafy, strict=True) if leaf], low, points.max(0), cell)
+    bits = [line for line, leaf in zip(rest, leafy, strict=True) if leaf or _is_bit(line, height)]
+    region = binary_propagation(core, mask=core | _region(bits, low, points.max(0), cell))
     leafy &= np.array([_within(line, region, low, cell) >= 0.5 * WITHIN for line in rest])
     left = bridged(_freed([line for line, leaf in zip(rest, leafy, strict=True) if not leaf], SCRAP * height), pen)
     wood = [line for line in left if _is_limb(line, height) or _within(line, region, low, cell) < WITHIN]
@@ -104,11 +108,17 @@ def _is_leafy(line: Traced, height: float) -> bool:
     return _is_blade(line, length)
 
 
+def _is_bit(line: Traced, height: float) -> bool:
+    """Whether a line may be a piece of a scribble that others cut."""
+    return line.length <= BIT * height and turning(line) * height >= 0.5 * CURL * line.length
+
+
 def _steps(line: Traced) -> Float[np.ndarray, "step 2"]:
-    """The way from point to point of a line, its points taken a width apart."""
+    """The way along a line in steps of its width, smoothed over STILL of it: the pixels' own unrest is no turning."""
     width = max(float(np.median(line.width)), 2.0)
-    points = line.points[:: max(1, round(width))]
-    return np.diff(np.vstack([points, line.points[-1:]]), axis=0)
+    smooth = gaussian_filter1d(line.points, STILL * width, axis=0, mode="nearest")
+    points = smooth[:: max(1, round(width))]
+    return np.diff(np.vstack([points, smooth[-1:]]), axis=0)
 
 
 def _turns(step: Float[np.ndarray, "step 2"]) -> Float[np.ndarray, " turn"]:
@@ -116,7 +126,7 @@ def _turns(step: Float[np.ndarray, "step 2"]) -> Float[np.ndarray, " turn"]:
 
 
 def turning(line: Traced) -> float:
-    """How much a line turns in all, radians, its points taken a width apart."""
+    """How much a line turns in all, radians."""
     return float(_turns(_steps(line)).sum())
 
 
