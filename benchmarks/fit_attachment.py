@@ -1,8 +1,7 @@
 """Which curves make the reader's costs likeliest? A conditional logit over careless drawings of grown trees.
 
-    python -m benchmarks.fit_attachment first            prints the curves and how often the best arc is the true one
-    python -m benchmarks.fit_attachment first --write    … and writes sketchtree/sketch/joining/fitted.py
-    python -m benchmarks.fit_attachment again --write    the same for the second look, given the trees that the first one makes
+    python -m benchmarks.fit_attachment            prints the curves and how often the best arc is the true one
+    python -m benchmarks.fit_attachment --write    … and writes sketchtree/sketch/joining/fitted.py
 
 The trees are none of those that `topology` measures: the recipes grown with other seeds, and the families of
 `families`. For every stroke with a known parent the arcs that the reader would consider are alternatives, of which those by
@@ -21,13 +20,10 @@ from benchmarks.shaky import Wobbly
 from benchmarks.topology import drawings
 from sketchtree.axes import NULL
 from sketchtree.sketch.joining import fitted
-from sketchtree.sketch.joining.attach import attach
 from sketchtree.sketch.joining.bundle import Bundle
 from sketchtree.sketch.joining.candidates import nearest_places
 from sketchtree.sketch.joining.cleaning import clean
 from sketchtree.sketch.joining.evidence import evidence, slip_of
-from sketchtree.sketch.joining.fitted import Fitted
-from sketchtree.sketch.joining.ranks import ranks
 from sketchtree.sketch.roles.sorting import sort_strokes
 from sketchtree.templates.procedural import grow
 from sketchtree.templates.recipe import read_recipe
@@ -65,10 +61,7 @@ KNOTS = {
     "foot": (0, 0.005, 0.01, 0.015, 0.02, 0.03, 0.045, 0.07, 0.1, 0.2, 0.5),
     "tip": (0, 0.005, 0.01, 0.02, 0.03, 0.05, 0.1, 0.3),
     "place": (0, 0.05, 0.1, 0.2, 0.4, 0.6, 0.8, 0.95, 1),
-    "rank": (-1, 0, 1, 2, 3),
-    "bears": (0, 1, 2, 4, 8, 16, 32),
 }
-RANKS = ("rank", "bears")  # known to the second look only
 
 
 def grown(turns: int) -> list[tuple[str, object]]:
@@ -80,12 +73,7 @@ def grown(turns: int) -> list[tuple[str, object]]:
     return made
 
 
-def knots_of(again: bool) -> dict[str, tuple[float, ...]]:
-    """The knots of the first or the second set of curves."""
-    return {name: knots for name, knots in KNOTS.items() if again or name not in RANKS}
-
-
-def alternatives(drawn: Wobbly, again: bool):
+def alternatives(drawn: Wobbly):
     """(figures (arc, k), stroke of each arc, whether it is true) of one drawing; strokes without a true arc are left out."""
     lines = clean(sort_strokes(drawn.sketch).lines).lines
     owner = {name: k for k, names in enumerate(drawn.ids) for name in names}
@@ -99,9 +87,7 @@ def alternatives(drawn: Wobbly, again: bool):
     side = end[arcs.parent]
     true = (arcs.end == end[arcs.child]) & (who[arcs.parent] == drawn.parent[who[arcs.child]])
     table["slip"] = table["miss"] / slip_of(arcs.gap[true] / bundle.height)
-    if again:
-        table |= {name: figure[:, None] for name, figure in ranks(arcs.child, arcs.parent, attach(lines, looks=0).parent).items()}
-    figures = np.stack([table[name][np.arange(len(side)), side if table[name].shape[1] > 1 else 0] for name in knots_of(again)], 1)
+    figures = np.stack([table[name][np.arange(len(side)), side if table[name].shape[1] > 1 else 0] for name in KNOTS], 1)
     whole = (np.bincount(who, minlength=len(drawn.line))[who] == 1) & (drawn.parent[who] != NULL)
     answered = np.zeros(len(lines), bool)
     answered[arcs.child[true]] = True
@@ -109,55 +95,36 @@ def alternatives(drawn: Wobbly, again: bool):
     return figures[used], np.unique(arcs.child[used], return_inverse=True)[1], true[used]
 
 
-def table_of(trees, count: int, seed: int, again: bool, hands=HANDS):
+def table_of(trees, count: int, seed: int, hands=HANDS):
     """The alternatives of `count` drawings by every hand, strokes numbered on."""
     parts, strokes = [], 0
     for hand in hands:
         for drawn in drawings(count, first_seed=seed, source=trees, orders=ORDERS, **hand):
-            figures, stroke, true = alternatives(drawn, again)
+            figures, stroke, true = alternatives(drawn)
             parts.append((figures, stroke + strokes, true))
             strokes += stroke.max(initial=-1) + 1
     return tuple(np.concatenate(column) for column in zip(*parts, strict=True))
 
 
-def written(sets: dict[str, Fitted]) -> str:
+def written(curves, base: float) -> str:
     """The module that holds the curves."""
-    parts = [_HEAD]
-    for name, (base, curves) in sets.items():
-        rows = [f'        "{n}": (\n            {tuple(map(float, knots))},\n            {tuple(round(float(c), 3) for c in cost)},\n        ),' for n, (knots, cost) in curves.items()]
-        parts += ["", f"{name} = Fitted(", f"    {base:.1f},", "    {", *rows, "    },", ")"]
-    return "\n".join([*parts, ""])
-
-
-_HEAD = '''"""The curves of `likelihood`: figure → (knots, cost at each). Written by `python -m benchmarks.fit_attachment`."""
-
-from typing import NamedTuple
-
-
-class Fitted(NamedTuple):
-    """A set of curves."""
-
-    base: float  # what the surest attachments cost
-    curves: dict[str, tuple[tuple[float, ...], tuple[float, ...]]]
-'''
+    head = '"""The curves of `likelihood`: figure → (knots, cost at each). Written by `python -m benchmarks.fit_attachment --write`."""\n'
+    rows = [f'    "{n}": (\n        {tuple(map(float, KNOTS[n]))},\n        {tuple(round(float(c), 3) for c in curves[n])},\n    ),' for n in KNOTS]
+    return "\n".join([head, f"BASE = {base:.1f}  # what the surest attachments cost", "CURVES = {", *rows, "}", ""])
 
 
 def main(arguments: list[str] | None = None) -> None:
     """The command line."""
     parser = argparse.ArgumentParser(prog="python -m benchmarks.fit_attachment", description=__doc__.splitlines()[0])
-    parser.add_argument("look", choices=("first", "again"), help="which of the two sets of curves")
     parser.add_argument("--drawings", type=int, default=90, help="drawings by every hand (default: 90)")
     parser.add_argument("--write", action="store_true", help="make these the reader's curves")
     options = parser.parse_args(arguments)
-    again = options.look == "again"
-    knots = knots_of(again)
     trees = grown(max(1, options.drawings // 15))
-    table = table_of(trees, options.drawings, 0, again)
-    curves = fit(knots, *table)
-    found = Fitted(least(knots, *table, curves), {name: (knots[name], curves[name]) for name in knots})
-    text = written({"FIRST": fitted.FIRST, "AGAIN": found} if again else {"FIRST": found, "AGAIN": fitted.AGAIN})
+    table = table_of(trees, options.drawings, 0)
+    curves = fit(KNOTS, *table)
+    text = written(curves, least(KNOTS, *table, curves))
     print(text)
-    print(f"the least costly arc is a true one: {hits(knots, *table, curves):.4f} of {table[1].max() + 1} strokes")
+    print(f"the least costly arc is a true one: {hits(KNOTS, *table, curves):.4f} of {table[1].max() + 1} strokes")
     if options.write:
         TARGET.write_text(text)
 

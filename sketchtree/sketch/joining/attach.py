@@ -10,8 +10,7 @@ The ground may feed every stroke:
     up   cosine between the stroke leaving that end and the vertical
 
 First only one stroke may stand on the ground (all are forbidden alike): its foot is y_ground, and the gaps of that tree
-say how exactly the hand starts its strokes. Then others may join it. What that tree says of every line, its order and what it
-bears, makes the costs of a second look.
+say how exactly the hand starts its strokes. Then others may join it.
 """
 
 from collections.abc import Callable
@@ -32,7 +31,6 @@ STANDING, TOWERS = 8.0, 5.0  # what a rising stroke pays to stand beside the ste
 HANGS = 6.0  # and how much more if its upper end is on another stroke
 RISES = 0.06  # over how much of H a stroke's rise from the ground is taken
 GROUND = 0.04  # of H: a foot this near to the ground's height may stand on it
-LOOKS = 1  # second looks
 ROUNDS, FEWER = (2, 4), (1, 2)  # at most, for the stem and for the rest; fewer in a drawing of more than MANY
 
 
@@ -48,8 +46,8 @@ class Hanging:
     alternatives: tuple[tuple[tuple[int, float], ...], ...]  # next best (line, cost)
 
 
-def attach(lines: list[Line], progress: Callable[[float], None] | None = None, looks: int = LOOKS) -> Hanging:
-    """The least costly rooted tree (or several) over the lines. `progress` is told the share done, 0-1; `looks`: second looks."""
+def attach(lines: list[Line], progress: Callable[[float], None] | None = None) -> Hanging:
+    """The least costly rooted tree (or several) over the lines. `progress` is told the share done, 0-1."""
     bundle, told = Bundle.of(lines), progress or (lambda done: None)
     rounds = ROUNDS if len(lines) <= MANY else FEWER
     rising, foot_y = _rising(bundle)
@@ -67,12 +65,6 @@ def attach(lines: list[Line], progress: Callable[[float], None] | None = None, l
     standing = _standing(bundle, arcs, slip, alone, foot_y[stem, choices.end[chosen[stem]]])
     choices = Choices.of(arcs, slip, standing)
     chosen = solve(choices, rounds[1], choices.end[chosen])
-    told(0.8)
-    above = None
-    for _ in range(looks):
-        above = _above(choices, chosen)
-        choices = Choices.of(arcs, slip, standing, above)
-        chosen = solve(choices, rounds[1], choices.end[chosen])
     told(0.9)
     for _ in range(len(lines)):
         group = _floating(choices, chosen)
@@ -80,7 +72,7 @@ def attach(lines: list[Line], progress: Callable[[float], None] | None = None, l
             break
         foot = choices.end[chosen]
         arcs = arcs.joined(bridging_arcs(bundle, group, root))
-        choices = Choices.of(arcs, slip, standing, above)
+        choices = Choices.of(arcs, slip, standing)
         chosen = solve(choices, 2, foot)
     told(1.0)
     return _hanging(bundle, arcs, choices, chosen)
@@ -94,12 +86,6 @@ def _standing(bundle: Bundle, arcs: Arcs, slip: float, alone, ground: float) -> 
     standing = STANDING - TOWERS * tall + HANGS * hung + 50 * np.abs(foot_y - ground) / bundle.height + 0.5 * (1 - rising)
     allowed = (np.abs(foot_y - ground) <= GROUND * bundle.height) & (rising > 0.2)
     return np.where(allowed, standing, alone + FORBIDDEN)
-
-
-def _above(choices: Choices, chosen) -> Int[np.ndarray, " line"]:
-    """The parent of every line, NULL for those on the ground."""
-    parent = choices.tail[chosen]
-    return np.where(parent == choices.count, NULL, parent)
 
 
 def _floating(choices: Choices, chosen) -> Bool[np.ndarray, " line"] | None:
@@ -119,7 +105,7 @@ def _floating(choices: Choices, chosen) -> Bool[np.ndarray, " line"] | None:
 
 def _hanging(bundle: Bundle, arcs: Arcs, choices: Choices, chosen) -> Hanging:
     count, length, foot = choices.count, bundle.length, choices.end[chosen]
-    parent = _above(choices, chosen)
+    parent = np.where(choices.tail[chosen] == count, NULL, choices.tail[chosen])
     s, gap = (np.append(column, np.zeros(2 * count))[chosen] for column in (arcs.s, arcs.gap))
     s = np.where((parent != NULL) & (foot[parent] == 1), length[parent] - s, s)
     cost = choices.cost(foot)

@@ -8,9 +8,8 @@ from jaxtyping import Bool, Float, Int
 
 from sketchtree.sketch.joining.bundle import Bundle
 from sketchtree.sketch.joining.evidence import Places, evidence, first_slip
-from sketchtree.sketch.joining.likelihood import arc_costs, rank_costs, slip_costs
+from sketchtree.sketch.joining.likelihood import arc_costs, slip_costs
 from sketchtree.sketch.joining.lines import Line
-from sketchtree.sketch.joining.ranks import ranks
 
 NEAREST = 16  # strokes tried for every end, half as many in a drawing of more than MANY
 MANY = 1000
@@ -29,14 +28,11 @@ class Arcs:
     s: Float[np.ndarray, " arc"]  # length along the parent as drawn
     gap: Float[np.ndarray, " arc"]  # distance, sketch units
     miss: Float[np.ndarray, " arc"]  # how far the end is from where it should be, part of H
-    first: Float[np.ndarray, "arc 2"]  # cost but for the slip; column: the parent's foot is its first (0) or last (1) point
-    again: Float[np.ndarray, "arc 2"]  # the same for a second look, but for the ranks
+    base: Float[np.ndarray, "arc 2"]  # cost but for the slip; column: the parent's foot is its first (0) or last (1) point
 
-    def cost(self, slip: float, above: Int[np.ndarray, " line"] | None = None) -> Float[np.ndarray, "arc 2"]:
-        """The cost for a hand that keeps to `slip`, ε, part of H; a second look where the parents in a first tree are given."""
-        if above is None:
-            return self.first + slip_costs(self.miss, slip)
-        return self.again + slip_costs(self.miss, slip, again=True) + rank_costs(ranks(self.child, self.parent, above))
+    def cost(self, slip: float) -> Float[np.ndarray, "arc 2"]:
+        """The cost for a hand that keeps to `slip`, ε, part of H."""
+        return self.base + slip_costs(self.miss, slip)
 
     def joined(self, other: "Arcs") -> "Arcs":
         """These and the others."""
@@ -80,7 +76,7 @@ def _places(bundle: Bundle, row, parent, gap) -> Places:
 
 def _costed(bundle: Bundle, places: Places, root) -> Arcs:
     figures = evidence(bundle, places, root)
-    return Arcs(places.child, places.end, places.parent, places.s, places.gap, figures["miss"][:, 0], arc_costs(figures), arc_costs(figures, again=True))
+    return Arcs(places.child, places.end, places.parent, places.s, places.gap, figures["miss"][:, 0], arc_costs(figures))
 
 
 def foot_reach(line: Line, height: float) -> float:

@@ -28,14 +28,14 @@ class Choices:
     count: int
 
     @classmethod
-    def of(cls, arcs: Arcs, slip: float, standing: Float[np.ndarray, "line 2"], above: Int[np.ndarray, " line"] | None = None) -> "Choices":
-        """Arcs and standing; a second look where the parents in a first tree are given."""
+    def of(cls, arcs: Arcs, slip: float, standing: Float[np.ndarray, "line 2"]) -> "Choices":
+        """These arcs for a hand that keeps to `slip`, and what standing on the ground by either end costs."""
         count = len(standing)
         return cls(
             np.concatenate([arcs.parent, np.full(2 * count, count)]),
             np.concatenate([arcs.child, np.repeat(np.arange(count), 2)]),
             np.concatenate([arcs.end, np.tile([0, 1], count)]),
-            np.concatenate([arcs.cost(slip, above), np.repeat(standing.reshape(-1, 1), 2, 1)]),
+            np.concatenate([arcs.cost(slip), np.repeat(standing.reshape(-1, 1), 2, 1)]),
             count,
         )
 
