@@ -139,13 +139,15 @@ def _free_and_held(lines: list[Line], ends, pairs, height: float) -> np.ndarray:
     index = np.repeat(np.arange(len(lines)), [len(line.points) for line in lines])
     tree = shapely.STRtree(shapely.linestrings(np.concatenate([line.points for line in lines]), indices=index))
 
-    def others_near(points, reach):
+    def others_near(which, points, reach):
         row, line = tree.query(shapely.points(points), predicate="dwithin", distance=reach)
-        own = (line == pairs[row, 0] // 2) | (line == pairs[row, 1] // 2)
-        near = np.zeros(len(pairs), bool)
+        own = (line == which[row, 0] // 2) | (line == which[row, 1] // 2)
+        near = np.zeros(len(which), bool)
         near[row[~own]] = True
         return near
 
-    tips = 0.5 * (ends[pairs[:, 0]] + ends[pairs[:, 1]])
-    feet = [others_near(ends[pairs[:, k] ^ 1], HELD * height) for k in (0, 1)]
-    return ~others_near(tips, FREE * height) & (feet[0] | feet[1])
+    good = ~others_near(pairs, 0.5 * (ends[pairs[:, 0]] + ends[pairs[:, 1]]), FREE * height)
+    free = pairs[good]
+    held = [others_near(free, ends[free[:, k] ^ 1], HELD * height) for k in (0, 1)]
+    good[good] = held[0] | held[1]
+    return good
