@@ -114,6 +114,8 @@ def check_writable(sketch: Sketch) -> None:
     """Raise SketchError for a sketch that a file could not give back: two strokes of one id, numbers that are none."""
     seen: set[str] = set()
     for stroke in sketch.strokes:
+        if stroke.id.encode("utf-8", "replace").decode() != stroke.id:
+            raise SketchError("its id holds half a surrogate pair.", stroke=repr(stroke.id), remedy="Give it another id.")
         if stroke.id in seen:
             raise SketchError("its id is used twice.", stroke=stroke.id, remedy="Give every stroke an id of its own.")
         seen.add(stroke.id)

@@ -154,6 +154,7 @@ def test_a_sketch_is_written_by_extension_whole_and_reads_back(name, tmp_path):
         ("Stroke b: its id is used twice", Stroke("b", [[0, 0]])),
         ("Stroke a: its pressure is not one number for each of its 2 points", Stroke("a", [[0, 0], [0, 1]], pressure=np.array([0.5]))),
         ("Stroke a: its time is not finite everywhere", Stroke("a", [[0, 0]], time=np.array([np.nan]))),
+        (r"Stroke 'a\\ud800': its id holds half a surrogate pair", Stroke("a\ud800", [[0, 0]])),
         ("Stroke a: its width is inf", Stroke("a", [[0, 0]], width=np.inf)),
         ("Stroke a: its width is nan", Stroke("a", [[0, 0]], width=np.nan)),
     ],

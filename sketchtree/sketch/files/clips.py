@@ -23,7 +23,7 @@ from sketchtree.sketch.files.viewport import Box, user_length
 
 DARK = 0.05  # luminance × opacity below which a mask hides
 _FLAT = 1e-3  # how far a flattened border may lie from the true one, of its size
-_URL = re.compile(r"""url\(\s*["']?#([^"')]+)["']?\s*\)""")
+_URL = re.compile(r"""url\(\s*+["']?#([^"')]++)["']?\s*+\)""", re.IGNORECASE)  # possessive: looked at once
 _NOT_PLAIN = frozenset({"text", "image", "foreignObject", "flowRoot"})
 
 
@@ -47,7 +47,7 @@ class Clips:
         return found
 
     def _followed(self, value: str, build: Callable, element: Element, matrix: Matrix) -> Area | None:
-        match = _URL.search(value)
+        match = _URL.match(value.strip())
         if match is None:
             self._ignore(value, "is of a kind that is not read")
             return None

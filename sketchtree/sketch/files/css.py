@@ -34,6 +34,7 @@ _LONGEST = 10_000  # characters of a value once its variables are put in
 _MOST_SIBLINGS = 2_000  # elements in one group up to which selectors that look at all of them are tried
 _GROUPED = frozenset({"supports", "layer", "container", "scope", "starting-style"})  # at-rules around others, not read
 _LONGEST_SHEET = 1_000_000  # characters of all sheets, what is embedded in them (fonts) left out
+_LONGEST_SELECTOR = 5_000  # … of the selectors of one rule
 _LONGEST_STYLE = 100_000  # … of one `style` attribute
 _MOST_TRIED = 5_000_000  # rules for the same name, class or id × elements
 _EMBEDDED = re.compile(r"data:[^\s\"')]{80,}")
@@ -102,6 +103,9 @@ class Cascade:
         declarations, prelude = _declarations(items), tinycss2.serialize(rule.prelude)
         for inner in (item for item in items if item.type == "qualified-rule"):
             self._leave(tinycss2.serialize(inner.prelude), "rules inside rules are not read")
+        if len(prelude) > _LONGEST_SELECTOR:
+            self._leave(prelude, "its selector is too long")
+            return
         if self._crowded and _LOOKS_AROUND.search(prelude):
             self._leave(prelude, "it compares too many elements with each other")
             return
@@ -231,8 +235,7 @@ def _for_screen(media: str) -> bool:
 
 
 def _holds(query: str) -> bool:
-    query = query.removeprefix("only ").strip() or "all"
-    if query.startswith("not "):
-        return not _holds(query[4:])
+    query, negated = query.removeprefix("only ").strip() or "all", query.startswith("not ")
+    query = query.removeprefix("not ").strip()
     dark = re.search(r"prefers-color-scheme\s*:\s*dark", query) is not None
-    return query.startswith(("all", "screen", "(")) and not dark
+    return (query.startswith(("all", "screen", "(")) and not dark) != negated

@@ -18,7 +18,7 @@ from jaxtyping import Float
 from sketchtree.sketch.files.limits import MAX_OUTLINE
 
 _PLAIN = re.compile(r"[-+0-9.eE,\s]*")
-_VALUE = re.compile(r"([!'\"]?)\s*([-+]?\s*(?:#[0-9A-Fa-f]+|(?:\d+\.?\d*|\.\d+)(?:[eE][-+]?\d+)?)|[TF*?])\s*")
+_VALUE = re.compile(r"([!'\"]?)\s*+([-+]?\s*+(?:#[0-9A-Fa-f]+|(?:\d+\.?\d*|\.\d+)(?:[eE][-+]?\d+)?)|[TF*?])\s*+")  # possessive: looked at once
 _KEPT = 60  # characters of a wrong value that a message repeats
 
 

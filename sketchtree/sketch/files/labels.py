@@ -30,7 +30,7 @@ _COPY = re.compile(r"_\d+_$")  # what Illustrator appends to the second of two e
 _HUMP = re.compile(r"(?<=[a-z])(?=[A-Z])")
 _AUTOMATIC = re.compile(
     r"(?:g|svg|group|layer|path|use|shape|symbol|xmlid|svgid|clip|mask|frame|vector|object|stroke|surface|artboard|page|capa|ebene|calque)?"
-    r"[-_ ]*[\d._-]*",
+    r"[-_ ]*+[\d._-]*+",  # possessive: looked at once
     re.IGNORECASE,
 )
 

@@ -10,7 +10,7 @@ from tinycss2.color3 import parse_color
 from sketchtree.sketch.files.css import Style
 
 
-_SERVER = re.compile(r"""url\(\s*["']?([^"')]*)["']?\s*\)\s*(.*)""", re.IGNORECASE | re.DOTALL)
+_SERVER = re.compile(r"""url\(\s*+["']?([^"')]*+)["']?\s*+\)\s*+(.*)""", re.IGNORECASE | re.DOTALL)  # possessive: looked at once
 
 
 class Paint(NamedTuple):
@@ -24,7 +24,7 @@ def seen(paint: str, opacity: str, style: Style, by_id: Container[str]) -> Paint
     """What a fill or stroke shows; None if nothing. A gradient that is not in the file shows what stands after it, else nothing;
     `currentColor` becomes the colour it stands for."""
     server = _SERVER.match(paint.strip()) if "(" in paint else None
-    if server is not None and server[1].removeprefix("#") not in by_id:
+    if server is not None and server[1].strip().removeprefix("#") not in by_id:
         paint = server[2].strip() or "none"
     if paint.lower() == "currentcolor":
         paint = style.get("color", "black")

@@ -116,9 +116,14 @@ def _merged(data: str):
 
 def _arc_numbers(text: str) -> Float[np.ndarray, "arc 7"]:
     """Arcs, whose two flags may stand without a space between them."""
-    if _ARC.sub("", text).strip(" \t\r\n,"):
-        raise ValueError(_MISSING)
-    return np.array(_ARC.findall(text), float).reshape(-1, 7)
+    text, found, at = text.strip(" \t\r\n,"), [], 0
+    while at < len(text):  # not `findall`: it would try a long number that is no arc from each of its digits
+        match = _ARC.match(text, at)
+        if match is None:
+            raise ValueError(_MISSING)
+        found.append(match.groups())
+        at = match.end()
+    return np.array(found, float).reshape(-1, 7)
 
 
 class _Pen:

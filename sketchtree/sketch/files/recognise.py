@@ -59,7 +59,7 @@ _INSIDE = (  # a file in a zip archive that tells whose it is
     ("index.notes.pb", "a GoodNotes file", _AS_PICTURE),
 )
 _MARKS = b"\xef\xbb\xbf\xff\xfe\x00 \t\r\n"  # byte order marks, spaces, and the zeros of UTF-16
-_ASIDE = re.compile(rb"<!--.*?-->|<\?.*?\?>|<!DOCTYPE[^\[>]*(?:\[.*?\]\s*)?>", re.DOTALL)
+_ASIDE = {b"<!--": b"-->", b"<?": b"?>", b"<!DOCTYPE": b">"}  # what may stand before the root element, and its end
 _ELEMENT = re.compile(rb"<(?:[\w.-]+:)?([A-Za-z][\w.-]*)")
 _STILL = (b"avif", b"avis", b"heic", b"heix", b"heim", b"heis", b"hevc", b"hevx", b"mif1", b"msf1")
 HEAD = 65_536  # bytes that are looked at
@@ -96,9 +96,18 @@ def recognise(data: bytes) -> str | Unreadable | None:
 
 
 def _root(head: bytes) -> bytes:
-    """Name of the root element of an XML file."""
-    found = _ELEMENT.search(_ASIDE.sub(b"", head))
-    return found[1] if found else b""
+    """Name of the root element of an XML file; empty if there is none in its head."""
+    at = head.find(b"<")
+    while at >= 0:
+        aside = next((start for start in _ASIDE if head.startswith(start, at)), None)
+        if aside is None:
+            found = _ELEMENT.match(head, at)
+            return found[1] if found else b""
+        if aside == b"<!DOCTYPE" and 0 <= head.find(b"[", at) < head.find(b">", at):
+            at = head.find(b"]", at)  # the declarations inside
+        end = head.find(_ASIDE[aside], at) if at >= 0 else -1
+        at = head.find(b"<", end) if end >= 0 else -1
+    return b""
 
 
 def _json(head: bytes) -> str:

@@ -3,6 +3,7 @@
 import gzip
 import json
 import struct
+import time
 import zlib
 
 import pytest
@@ -111,6 +112,38 @@ def test_a_style_without_end_is_told_and_the_drawing_is_read_without_it(deep, to
     sketch = read_sketch(tmp_path / "deep.svg")
     assert sketch.strokes[0].points.tolist() == [[0, 0], [1, -5]] and sketch.strokes[0].width == 1.0
     assert sketch.warnings == (told,)
+
+
+LONG = 300_000  # what is looked at once takes milliseconds; from each of its characters, minutes
+LONG_TEXTS = {
+    "paint.svg": SVG.format(PATH.replace('"red"', f'"url({" " * LONG}x"')),
+    "clip.svg": SVG.format(PATH.replace("<path", f'<path clip-path="{"url(#" * (LONG // 5)}"')),
+    "arc.svg": SVG.format(PATH.replace("L1 5", "a" + "9" * LONG)),
+    "arcs.svg": SVG.format(PATH.replace("L1 5", "a" + "9 " * LONG)),
+    "numbers.svg": SVG.format(PATH.replace("L1 5", "L" + ".9" * LONG)),
+    "minus.svg": SVG.format(PATH.replace("L1 5", "L" + "-" * LONG)),
+    "id.svg": SVG.format(f'<g id="{"_" * LONG}x">{PATH}</g>'),
+    "width.svg": SVG.format(PATH.replace("<path", f'<path stroke-width="{"1" * LONG}q"')),
+    "media.svg": SVG.format(f'<style media="{"not " * LONG}screen">path{{fill:red}}</style>{PATH}'),
+    "selector.svg": SVG.format(f"<style>{'g ' * LONG}path{{fill:red}}</style>{PATH}"),
+    "variables.svg": SVG.format(PATH.replace("<path", f'<path style="stroke:{"var(--a," * 5000}red{")" * 5000}"')),
+    "comments.svg": "<!--" * 16_000 + SVG.format(PATH),
+    "instructions.svg": "<?" * 30_000 + SVG.format(PATH),
+    "doctypes.svg": "<!DOCTYPE[" * 6_000 + SVG.format(PATH),
+    "trace.inkml": INK.replace("1 5", "'" + " " * LONG + "x"),
+    "label.excalidraw": SCENE.replace('"a"', f'"{"-" * LONG}x"'),
+}
+
+
+@pytest.mark.parametrize("name", LONG_TEXTS)
+def test_long_texts_are_looked_at_once(name, tmp_path):
+    (tmp_path / name).write_text(LONG_TEXTS[name])
+    began = time.monotonic()
+    try:
+        read_sketch(tmp_path / name)
+    except SketchError as error:
+        assert len(str(error)) < 600
+    assert time.monotonic() - began < 8.0
 
 
 def test_a_gzip_bomb_stops_at_the_limit(tmp_path):

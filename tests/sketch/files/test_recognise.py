@@ -12,6 +12,8 @@ from sketchtree.sketch.formats import READABLE, read_sketch
 TEXTS = {
     '<svg xmlns="http://www.w3.org/2000/svg"/>': SVG,
     '<?xml version="1.0"?><!-- <ink> --><!DOCTYPE svg [<!ENTITY a "<ink>">]>\n<svg/>': SVG,
+    '<!DOCTYPE ink SYSTEM "a.dtd"><!-- <svg> --><?a <svg> ?><ink/>': INKML,
+    "<!-- <ink>": SVG,
     "<s:svg/>": SVG,
     "<html/>": SVG,
     '<?xml version="1.0"?>\r\n<ink/>': INKML,
