@@ -34,16 +34,20 @@ def improved(
         turned = np.bincount(parent, now - both[chosen, 1 - foot[parent]], count + 1)
         gain = now[head] - both[every, foot[tail]] + (end != foot[head]) * turned[head]
         gain[chosen] = 0.0
-        made = False
-        for arc in np.argsort(-gain, kind="stable")[:count]:
-            if gain[arc] <= LEAST:
-                break
-            if not _hangs(int(tail[arc]), int(head[arc]), parent, count):
-                chosen[head[arc]], made = arc, True
-                break
-        if not made:
+        arc = _best(gain, tail, head, parent)
+        if arc < 0:
             break
+        chosen[head[arc]] = arc
     return chosen
+
+
+def _best(gain, tail, head, parent) -> int:
+    """The arc that gains most of those that make no circle; -1 if none gains. `gain` is used up."""
+    while gain[arc := int(np.argmax(gain))] > LEAST:
+        if not _hangs(int(tail[arc]), int(head[arc]), parent, len(parent)):
+            return arc
+        gain[arc] = 0.0
+    return -1
 
 
 def _hangs(line: int, on: int, parent, ground: int) -> bool:
