@@ -11,7 +11,7 @@ import numpy as np
 import shapely
 from jaxtyping import Bool, Float
 
-from sketchtree.sketch.roles.brush import slenderness
+from sketchtree.sketch.roles.brush import even_border, middles, slenderness
 from sketchtree.sketch.roles.found import Found
 from sketchtree.sketch.roles.measures import Measures
 from sketchtree.sketch.strokes import Stroke
@@ -28,6 +28,7 @@ NEAR = 0.1  # of the drawing's size: a tip this near to the outline counts as in
 TIER = 0.5  # of the crown's width: a tier is at least as wide
 ALOFT = 0.1  # of the drawing's height: tiers and ornaments keep this far from its foot
 WIDER, ALIKE = 0.6, 0.5  # widest opening of a lobe beside others that are closed, and how large it is at least, beside their middle size
+UPRIGHT = 2.0  # height over width from which a slender painted shape may be a poplar's crown
 ON_GROUND = 0.08  # of its size: a dome's ends are this near to the ground line
 STANDS = 0.05  # of the drawing's height: a shape that comes this near to its foot stands on the ground
 SLIM = 2.2  # length over mean width from which such a shape is a trunk's outline …
@@ -82,6 +83,17 @@ def has_area(stroke: Stroke) -> bool:
     return len(outline(stroke.points)) >= 3 and shapely.convex_hull(shapely.MultiPoint(stroke.points)).area > 0
 
 
+def _fronds(m: Measures, rows) -> Bool[np.ndarray, " row"]:
+    """Painted outlines that are single strokes of a brush, not upright: several are the leaves of a palm, or limbs."""
+    side = (m.high - m.low)[rows]
+    painted = np.flatnonzero(m.filled[rows] & (side[:, 1] <= UPRIGHT * side[:, 0]))
+    frond = np.zeros(len(rows), bool)
+    if len(painted) > 1:
+        single = middles(np.array([even_border(m.strokes[row].points) for row in rows[painted]])).single
+        frond[painted] = single & (single.sum() > 1)
+    return frond
+
+
 def _on_crowns(m: Measures, rows, crowns: list[int]) -> list[Found]:
     """What the other outlines are that lie on a crown, well above the foot: large ones its tiers, small ones ornaments."""
     low, high = m.drawing
@@ -134,7 +146,8 @@ def _outlines(m: Measures, free, size: float, ground: list[np.ndarray]):
     slim = slenderness(m.area[rows], m.around[rows]) >= SLIM
     stout = (side[:, 0] <= TRUNK * side[:, 0].max()) & (m.area[rows] <= TRUNK * m.area[rows].max())
     trunk = stands & (m.high[rows, 1] < high[1]) & ((slim & (side[:, 1] > side[:, 0])) | stout)
-    return rows[(_roundness(m, rows) >= ROUND) & (bulky | ~m.filled[rows]) & ~trunk]
+    rows = rows[(_roundness(m, rows) >= ROUND) & (bulky | ~m.filled[rows]) & ~trunk]
+    return rows[~_fronds(m, rows)]
 
 
 def on_ground(m: Measures, ground: list[np.ndarray]) -> Bool[np.ndarray, " stroke"]:

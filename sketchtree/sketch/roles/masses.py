@@ -2,7 +2,7 @@
 
 The area of a scribble is its line widened by r and narrowed again (a morphological closing). The bulky part of an area is what is
 left once it is narrowed by R and widened again (an opening): a crown. What that takes away below is trunk, as long
-as it reaches well out of the crown.
+as it reaches well out of the crown; all the rest of the area is the crown then, points and lobes too.
 """
 
 import numpy as np
@@ -34,7 +34,9 @@ def bulk_and_trunk(area: shapely.Polygon) -> tuple[shapely.Polygon | None, list[
     pieces = [piece for piece in shapely.get_parts(area.difference(crown.buffer(0.01 * size))) if piece.geom_type == "Polygon"]
     reach = REACHES * (top - bottom)
     wood = [p for p in pieces if p.bounds[1] <= bottom + 0.3 * reach and crown.bounds[1] - p.bounds[1] >= reach]
-    return (crown, wood) if wood else (None, [])
+    if not wood:
+        return None, []
+    return _largest(area.difference(shapely.union_all(wood).buffer(0.012 * size))), wood
 
 
 def border(area: shapely.Polygon) -> Float[np.ndarray, "point 2"]:

@@ -83,3 +83,20 @@ def test_an_outline_s_first_point_is_not_repeated():
 def test_a_crown_around_two_edges_is_found_though_they_end_below_it():
     sketch = drawing(cloud(40), edge(-8, high=34), edge(8, high=34))
     assert roles(graph_of(*sketch.strokes)) == {"s0": "crown"}
+
+
+def test_the_painted_leaves_of_a_palm_are_limbs():
+    t = np.linspace(0, 1, 30)
+
+    def frond(x, y, width=8.0):
+        middle = np.c_[x * t, 100 + 25 * np.sin(np.pi * t) + (y - 100) * t]
+        half = np.c_[np.zeros(30), width * np.sin(np.pi * t)]
+        return painted(np.vstack([middle + half, (middle - half)[::-1]]))
+
+    graph = graph_of(painted([(-6, 0), (6, 0), (4, 100), (-4, 100)]), *(frond(*tip) for tip in ((60, 80), (-60, 80), (45, 115), (-45, 115))))
+    assert graph.crown == () and graph.is_base.sum() == 1 and len(graph.limb_id) in (4, 5)
+
+
+def test_a_tall_painted_ellipse_is_a_poplar_s_crown():
+    graph = graph_of(painted(ring(18, (-60, 110), high=70)[:-1]), painted(ring(18, (60, 110), high=70)[:-1]), [(-60, 0), (-60, 45)], [(60, 0), (60, 45)])
+    assert len(graph.crown) == 2 and len(graph.limb_id) == 2

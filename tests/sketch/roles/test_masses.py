@@ -32,3 +32,9 @@ def test_a_disc_a_stick_and_a_balloon_upside_down_are_none(area):
 def test_a_border_does_not_repeat_its_first_point():
     points = border(shapely.Polygon(ring(40)))
     assert np.hypot(*(points[0] - points[-1])) > 0 and len(points) < 40
+
+
+def test_a_crown_keeps_its_points():
+    fir = shapely.Polygon([(-8, 0), (8, 0), (8, 30), (50, 30), (20, 70), (35, 70), (0, 130), (-35, 70), (-20, 70), (-50, 30), (-8, 30)])
+    crown, (trunk,) = bulk_and_trunk(fir)
+    assert crown.bounds == pytest.approx((-50, 30, 50, 130), abs=2.5) and trunk.bounds[3] == pytest.approx(30, abs=2.5)
