@@ -1,67 +1,94 @@
-"""How long does a picture take to read, and how much memory? A grown drawing, photographed, at several sizes.
+"""How long does a picture take to read, and how much memory? Grown drawings as scans, photographs and pages of one bit.
 
-    python -m benchmarks.raster_speed [--megapixels M ...] [--strokes N] [--medium NAME] [--pen PIXELS]
+    python -m benchmarks.raster_speed [--megapixels M] [--only CASE ...]
 
-Processor seconds for the strokes and for the graph, and the largest memory of the process, which only ever grows: larger pictures come later.
+Every picture is read from its file in a process of its own: wall seconds for the strokes (decoding and tracing) and for the graph,
+and the largest memory of the process; 12 megapixels must take less than 10 s in all.
 """
 
 import argparse
+import multiprocessing
 import resource
 import sys
+import tempfile
 import time
+from concurrent.futures import ProcessPoolExecutor
+from dataclasses import dataclass
+from pathlib import Path
 
 import numpy as np
+from PIL import Image
 
 from benchmarks.pictures import MEDIA, drawn, on_medium
 from benchmarks.reading_speed import drawing
 from sketchtree.sketch.files.svg import read_svg
-from sketchtree.sketch.raster.reader import read_raster
+from sketchtree.sketch.formats import read_sketch
 from sketchtree.sketch.reading import sketch_graph
 
 
-def picture(megapixels: float, strokes: int, medium: str, pen: float) -> bytes:
-    """The file of a picture of a grown drawing."""
-    sketch = read_svg(drawing(strokes), "drawing.svg")
-    size = int(np.sqrt(megapixels * 1e6 / _aspect(sketch)))
-    return on_medium(drawn(sketch, size, pen)[0], next(m for m in MEDIA if m.name == medium))
+@dataclass(frozen=True)
+class Case:
+    """One picture."""
+
+    name: str
+    strokes: int
+    medium: str
+    suffix: str
+    pen: float = 2e-3  # width of its lines, of the picture's height
 
 
-def _aspect(sketch) -> float:
+CASES = (
+    Case("sparse scan", 50, "scan", ".jpg"),
+    Case("dense scan", 1500, "scan", ".jpg", 1e-3),
+    Case("phone", 200, "phone", ".jpg"),
+    Case("pencil", 200, "pencil", ".jpg"),
+    Case("1-bit TIFF", 200, "screen", ".tif"),
+    Case("brush, alpha", 200, "brush", ".png"),
+)
+
+
+def write(case: Case, megapixels: float, folder: Path) -> Path:
+    """Write the picture of a grown drawing."""
+    sketch = read_svg(drawing(case.strokes), "drawing.svg")
     width, height = np.ptp(np.concatenate([s.points for s in sketch.strokes]), axis=0)
-    return float(min(width, height) / max(width, height))
+    size = int(np.sqrt(megapixels * 1e6 * max(width, height) / min(width, height)))
+    data = on_medium(drawn(sketch, size, max(1.5, case.pen * size))[0], next(m for m in MEDIA if m.name == case.medium))
+    path = folder / f"drawing{case.suffix}"
+    path.write_bytes(data)
+    if case.suffix == ".tif":
+        Image.open(path).convert("L").point(lambda tone: 255 * (tone > 128)).convert("1").save(path, "TIFF", compression="group4")
+    return path
 
 
-def measure(data: bytes, name: str) -> tuple[float, float, int, int]:
-    """(seconds for the strokes, seconds for the graph, strokes, limbs)."""
-    times = [time.process_time()]
-    sketch = read_raster(data, name)
-    times.append(time.process_time())
+def measure(path: Path) -> tuple[float, float, int, int, float]:
+    """(seconds for the strokes, seconds for the graph, strokes, limbs, largest memory of this process in MiB)."""
+    times = [time.perf_counter()]
+    sketch = read_sketch(path)
+    times.append(time.perf_counter())
     graph = sketch_graph(sketch)
-    times.append(time.process_time())
-    return times[1] - times[0], times[2] - times[1], len(sketch), len(graph.limb_id)
-
-
-def _memory() -> float:
-    """Largest memory of this process so far, MiB."""
-    used = resource.getrusage(resource.RUSAGE_SELF).ru_maxrss
-    return used / (2**20 if sys.platform == "darwin" else 2**10)
+    times.append(time.perf_counter())
+    used = resource.getrusage(resource.RUSAGE_SELF).ru_maxrss / (2**20 if sys.platform == "darwin" else 2**10)
+    return times[1] - times[0], times[2] - times[1], len(sketch), len(graph.limb_id), used
 
 
 def main() -> None:
     """Print one line a picture."""
     parser = argparse.ArgumentParser(description=__doc__.partition("\n")[0])
-    parser.add_argument("--megapixels", type=float, nargs="+", default=[1.0, 4.0, 12.0])
-    parser.add_argument("--strokes", type=int, default=200)
-    parser.add_argument("--medium", default="phone", choices=[medium.name for medium in MEDIA])
-    parser.add_argument("--pen", type=float, default=None, help="width of the lines, pixels (default: 0.2 %% of the picture's height)")
+    parser.add_argument("--megapixels", type=float, default=12.0)
+    parser.add_argument("--only", nargs="+", default=[case.name for case in CASES], metavar="CASE")
     given = parser.parse_args()
-    measure(picture(0.3, 20, given.medium, 3.0), "first")
-    print(f"{'Mpx':>6} {'pen px':>7} {'strokes':>8} {'limbs':>7} {'picture s':>10} {'graph s':>8} {'MiB':>7}")
-    for megapixels in given.megapixels:
-        pen = given.pen or max(1.5, 2e-3 * np.sqrt(megapixels * 1e6))
-        data = picture(megapixels, given.strokes, given.medium, pen)
-        seconds, graph, strokes, limbs = measure(data, "drawing")
-        print(f"{megapixels:6.1f} {pen:7.1f} {strokes:8d} {limbs:7d} {seconds:10.2f} {graph:8.2f} {_memory():7.0f}")
+    print(f"{'picture':>13} {'Mpx':>5} {'MB':>6} {'strokes':>11} {'limbs':>6} {'picture s':>10} {'graph s':>8} {'in all s':>9} {'MiB':>6}")
+    with tempfile.TemporaryDirectory() as folder:
+        for case in (case for case in CASES if case.name in given.only):
+            path = write(case, given.megapixels, Path(folder))
+            with ProcessPoolExecutor(1, mp_context=multiprocessing.get_context("spawn")) as one:
+                seconds, graph, strokes, limbs, used = one.submit(measure, path).result()
+            size = np.prod(Image.open(path).size) / 1e6
+            print(
+                f"{case.name:>13} {size:5.1f} {path.stat().st_size / 1e6:6.2f} {case.strokes:5d}/{strokes:5d} {limbs:6d} "
+                f"{seconds:10.2f} {graph:8.2f} {seconds + graph:9.2f} {used:6.0f}",
+                flush=True,
+            )
 
 
 if __name__ == "__main__":

@@ -2,7 +2,7 @@
 
     curl       turning of a line over its length, radians per H. Limbs bend, scribbles and loops whirl: curl ≥ CURL
     blade      a short line that is widest well away from its foot: the ink of a leaf
-    texture    length of such lines per area, smoothed over SPREAD; foliage is where it is at least DENSE
+    texture    length of such lines per area, smoothed over SPREAD; foliage is where it is at least DENSE and PART of all lines' there
 
 Limbs that leaves had cut are joined again; what then lies in foliage and is no long, nearly straight line is left out with it. Foliage high in the drawing is a crown: its outline,
 or the hull of its clumps. Short lines of one direction side by side, both ends free and away from longer lines, are hatching.
@@ -35,9 +35,11 @@ GRID = 128  # cells along H
 MARGIN = 8  # cells around the drawing
 SPREAD = 0.022  # of H
 DENSE = 6.0  # H of line in an area of H²
+PART = (0.4, 0.2)  # of all the length there: leafy lines at least, and pieces of them around; among twigs some line always whirls
 FEWEST = 10  # lines that whirl or are blades: fewer are no foliage
 LIMB = (0.1, 14.0)  # of H, radians per H: a line so long and no curlier is wood wherever it lies
 BIT = 0.1  # of H: a line no longer, half as curly, carries foliage on that is there already
+BENT = 0.3  # radians that such a piece turns at least
 SCRAP = 0.06  # of H: a line no longer that touched nothing but leaves is a piece of one
 RUN = 0.6  # radians: a line that goes on for as long as a LIMB without turning more is one, whatever its end does
 WITHIN = 0.6  # share of a line that lies in foliage, if it is foliage
@@ -75,9 +77,7 @@ def without_foliage(lines: list[Traced], pen: float) -> Foliage:
     if leafy.sum() < FEWEST:
         return Foliage(rest, 0, int(is_hatch.sum()), [])
     cell = height / GRID
-    core = _region([line for line, leaf in zip(rest, leafy, strict=True) if leaf], low, points.max(0), cell)
-    bits = [line for line, leaf in zip(rest, leafy, strict=True) if leaf or _is_bit(line, height)]
-    region = binary_propagation(core, mask=core | _region(bits, low, points.max(0), cell))
+    region = _region(rest, leafy, low, points.max(0), cell)
     leafy &= np.array([_within(line, region, low, cell) >= 0.5 * WITHIN for line in rest])
     left = bridged(_freed([line for line, leaf in zip(rest, leafy, strict=True) if not leaf], SCRAP * height), pen)
     wood = [line for line in left if _is_limb(line, height) or _within(line, region, low, cell) < WITHIN]
@@ -110,7 +110,8 @@ def _is_leafy(line: Traced, height: float) -> bool:
 
 def _is_bit(line: Traced, height: float) -> bool:
     """Whether a line may be a piece of a scribble that others cut."""
-    return line.length <= BIT * height and turning(line) * height >= 0.5 * CURL * line.length
+    turn = turning(line)
+    return line.length <= BIT * height and turn >= BENT and turn * height >= 0.5 * CURL * line.length
 
 
 def _steps(line: Traced) -> Float[np.ndarray, "step 2"]:
@@ -151,15 +152,22 @@ def _is_blade(line: Traced, length: float) -> bool:
     return most and widest >= BLADE * foot and BLADE_LONG[0] * widest <= length <= BLADE_LONG[1] * widest
 
 
-def _region(leaves: list[Traced], low, high, cell: float) -> Bool[np.ndarray, "row col"]:
-    """Where the lines that whirl lie densely; one cell of margin and more around."""
-    shape = np.ceil((high - low) / cell).astype(int)[::-1] + 1 + 2 * MARGIN
+def _region(lines: list[Traced], leafy: Bool[np.ndarray, " line"], low, high, cell: float) -> Bool[np.ndarray, "row col"]:
+    """Where leafy lines lie densely, and what goes on from there in pieces of scribbles; MARGIN cells and more around."""
+    shape = tuple(np.ceil((high - low) / cell).astype(int)[::-1] + 1 + 2 * MARGIN)
+    bits = leafy | np.array([_is_bit(line, cell * GRID) for line in lines])
+    every, sure, likely = (_texture([lines[k] for k in np.flatnonzero(some)], shape, low, cell) for some in (np.ones(len(lines), bool), leafy, bits))
+    core, around = ((part >= DENSE) & (part >= share * every) for part, share in zip((sure, likely), PART, strict=True))
+    return binary_propagation(core, mask=core | around)
+
+
+def _texture(lines: list[Traced], shape: tuple[int, int], low, cell: float) -> Float[np.ndarray, "row col"]:
+    """Length of lines per area, H in H²."""
     texture = np.zeros(shape)
-    for line in leaves:
+    for line in lines:
         at = _cells(line, low, cell)
         np.add.at(texture, (at[:, 1], at[:, 0]), line.length / len(at))
-    per_area = texture / cell**2 * (cell * GRID)
-    return gaussian_filter(per_area, SPREAD * GRID) >= DENSE
+    return gaussian_filter(texture / cell**2 * (cell * GRID), SPREAD * GRID)
 
 
 def _cells(line: Traced, low, cell: float):
