@@ -11,13 +11,13 @@ import textwrap
 import time
 from pathlib import Path
 
-import numpy as np
 from PIL import Image, ImageDraw, ImageFont
 
 from sketchtree.errors import SketchTreeError
 from sketchtree.overlay.as_png import scene_png
 from sketchtree.overlay.draw import MARGIN, overlay
 from sketchtree.overlay.legend import counts
+from sketchtree.overlay.scan import scan
 from sketchtree.sketch.formats import read_sketch
 from sketchtree.sketch.reading import sketch_graph
 
@@ -26,9 +26,16 @@ KINDS = (".svg", ".svgz", ".json", ".excalidraw", ".excalidrawlib", ".inkml", ".
 
 
 def files(places: list[Path], skip: list[str]) -> list[Path]:
-    """Every drawing in these places; a rendered twin (PNG beside an SVG of its name) counts too."""
+    """Every drawing in these places; a rendered twin (PNG beside an SVG of its name) counts too, and every line of an .ndjson."""
     found = [p for place in places for p in (sorted(place.rglob("*")) if place.is_dir() else [place])]
-    return [p for p in found if p.suffix.lower() in KINDS and p.name != "SOURCES.md" and not any(word in str(p) for word in skip)]
+    found = [p for p in found if p.suffix.lower() in KINDS and not any(word in str(p) for word in skip)]
+    return [drawing for p in found for drawing in (_lines(p) if p.suffix.lower() == ".ndjson" else [p])]
+
+
+def _lines(path: Path) -> list[Path]:
+    """The drawings of a file that holds one a line."""
+    count = sum(bool(line.strip()) for line in path.read_bytes().splitlines())
+    return [path.with_name(f"{path.name}#{k}") for k in range(1, count + 1)]
 
 
 def cell(path: Path) -> tuple[Image.Image, str]:
@@ -40,7 +47,7 @@ def cell(path: Path) -> tuple[Image.Image, str]:
         sketch = read_sketch(path)
         graph = sketch_graph(sketch)
         caption = counts(graph)
-        scene = overlay(sketch, graph, underlay=_scan(path), long_side=CELL - 2 * MARGIN, explained=False)
+        scene = overlay(sketch, graph, underlay=scan(path, sketch), long_side=CELL - 2 * MARGIN, explained=False)
         seen = Image.open(io.BytesIO(scene_png(scene)))
         picture.paste(seen, ((CELL - seen.width) // 2, CAPTION + (CELL - seen.height) // 2))
     except SketchTreeError as error:
@@ -51,15 +58,6 @@ def cell(path: Path) -> tuple[Image.Image, str]:
     write.text((8, 4), f"{path.parent.name}/{path.name}", "#111111", ImageFont.load_default(16))
     write.text((8, 25), caption, "#555555", ImageFont.load_default(13))
     return picture, f"{path.name:34} {time.process_time() - began:6.2f} s  {caption}"
-
-
-def _scan(path: Path) -> np.ndarray | None:
-    if path.suffix.lower() not in (".png", ".jpg", ".jpeg", ".webp", ".tif", ".tiff"):
-        return None
-    with Image.open(path) as image:
-        shown = image.convert("RGBA")
-        paper = Image.new("RGBA", shown.size, "#ffffff")
-        return np.array(Image.alpha_composite(paper, shown).convert("RGB"))
 
 
 def main() -> None:

@@ -53,5 +53,5 @@ def _write(path: Path, output: Path, drawing, graph) -> None:
     from sketchtree.overlay.draw import overlay
     from sketchtree.overlay.scan import scan
 
-    scene = overlay(drawing, graph, underlay=scan(path))
+    scene = overlay(drawing, graph, underlay=scan(path, drawing))
     write_whole(output, scene_png(scene) if output.suffix.lower() == ".png" else scene_svg(scene).encode())

@@ -59,6 +59,8 @@ def _page(sketch: Sketch, place: Placing) -> list[Path]:
     if sketch.page is None:
         return []
     left, bottom, right, top = sketch.page
+    if left < place.low[0] or right > place.high[0] or bottom < place.low[1] or top > place.high[1]:
+        return []
     corners = place([(left, bottom), (right, bottom), (right, top), (left, top)])
     return [Path(corners, "#bbbbbb", 1.0, closed=True, dash=6.0)]
 

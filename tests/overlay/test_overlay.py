@@ -14,6 +14,7 @@ from sketchtree.overlay.colours import DOUBT, ORDER, ROLE, ROOT
 from sketchtree.overlay.draw import LONG_SIDE, MARGIN, overlay
 from sketchtree.overlay.legend import counts
 from sketchtree.overlay.doubts import doubts
+from sketchtree.overlay.scan import Scan, scan
 from sketchtree.overlay.scene import Disc, Path, Words
 from sketchtree.sketch.formats import read_sketch
 from sketchtree.sketch.graph import Attachment, Cut, Role
@@ -116,8 +117,7 @@ def test_where_the_page_cuts_the_tree_there_is_a_bar(oak):
 
 def test_a_scan_lies_under_its_reading(oak):
     sketch, graph = oak
-    pixels = np.zeros((60, 40, 3), np.uint8)
-    scene = overlay(sketch, graph, underlay=pixels)
+    scene = overlay(sketch, graph, underlay=Scan(np.zeros((60, 40, 3), np.uint8), 400.0, 600.0))
     left, top, width, height = scene.underlay.box
     assert width / height == pytest.approx(40 / 60)
     assert "data:image/jpeg;base64," in scene_svg(scene)
@@ -188,3 +188,19 @@ def test_numbers_have_a_halo_in_both_files(oak):
     image = Image.open(io.BytesIO(scene_png(scene)))
     around = [image.getpixel((round(number.x) + dx, round(number.y) - dy)) for dx in range(-2, 12) for dy in range(-2, 14)]
     assert (255, 255, 255) in around, "white between the crown's green and the number"
+
+
+def test_a_large_scan_is_shown_smaller_and_lies_where_its_strokes_do(tmp_path):
+    Image.new("L", (3200, 1600), 255).save(tmp_path / "scan.png")
+    strokes = (Stroke("a", np.array([[1600.0, -1600.0], [1600.0, -100.0]])),)
+    sketch = Sketch(strokes, page=(0.0, -1600.0, 3200.0, 0.0))
+    shown = scan(tmp_path / "scan.png", sketch)
+    assert shown.pixels.shape == (800, 1600, 3)
+    scene = overlay(sketch, sketch_graph(sketch), underlay=shown, explained=False)
+    left, top, width, height = scene.underlay.box
+    stem = next(m for m in limbs(scene) if m.colour == ORDER[0]).points
+    assert -10 < left <= 0 and left + width >= scene.width and width < scene.width + 20, "only what is seen"
+    assert top == pytest.approx(MARGIN) and height == pytest.approx(scene.height - 2 * MARGIN, abs=1)
+    assert stem[:, 0].mean() == pytest.approx(scene.width / 2, abs=1)
+    assert scan(tmp_path / "scan.png", Sketch(strokes)) is None, "a picture that carries its strokes has other units"
+    assert scan(EXAMPLES / "oak.svg", sketch) is None

@@ -13,7 +13,7 @@ from sketchtree.sketch.joining.lines import Line
 from sketchtree.sketch.roles.found import Found
 from sketchtree.sketch.roles.measures import Measures
 
-PIECE = 0.03  # of the crown's size: a piece of the outline is at least as long, and no farther from it
+PIECE = 0.03  # of the crown's size: a piece of the outline is at least as long
 LOOSE = 0.02  # of the crown's size: it keeps this far from every branch, at both ends
 NEAR = 0.045  # of the crown's size: on the outline
 ALONG = np.cos(np.radians(35))  # and in its direction
@@ -29,7 +29,7 @@ def pieces_of_rims(m: Measures, free: Bool[np.ndarray, " stroke"], wood: Bool[np
         size = float(np.ptp(outline, axis=0).max())
         ring = shapely.LinearRing(outline)
         rows = np.flatnonzero(free & ~m.filled & (m.length >= PIECE * size))
-        near = shapely.distance(shapely.points(m.evenly[rows]), ring).max(1) <= PIECE * size
+        near = shapely.distance(shapely.points(m.evenly[rows]), ring).max(1) <= NEAR * size
         rows = [row for row in rows[near].tolist() if _follows(m.evenly[row], ring) and row not in (one.row for one in found)]
         others = shapely.union_all(m.shapes(np.setdiff1d(np.flatnonzero(wood), rows)))
         loose = shapely.distance(shapely.points(np.stack([m.first[rows], m.last[rows]], 1)), others) > LOOSE * size
