@@ -33,7 +33,7 @@ def random_lines(seed: int, count: int, points: int = 5) -> list[Line]:
         near = made[rng.integers(len(made))]
         foot = near[rng.integers(len(near))] + rng.normal(0, rng.choice([0.1, 1.0, 5.0]), 2)
         turn = rng.uniform(0, 2 * np.pi) + np.cumsum(rng.normal(0, 0.3, points - 1))
-        step = rng.uniform(2, 12) * np.stack([np.cos(turn), np.sin(turn)], 1)
+        step = rng.uniform(3, 12) * np.stack([np.cos(turn), np.sin(turn)], 1)
         walk = foot + np.vstack([np.zeros(2), np.cumsum(step, axis=0)])
         made.append(walk[::-1] if rng.random() < 0.5 else walk)
     return lines(*made)

@@ -55,7 +55,7 @@ def test_cut_pieces_together_are_the_line(seed):
 
 def test_a_reversed_line_runs_the_other_way_with_its_widths():
     back = line(BENT, width=[1.0, 2.0, 3.0, 4.0]).reversed()
-    assert back.points.tolist() == BENT[::-1] or back.points.tolist() == [list(p) for p in BENT[::-1]]
+    assert [tuple(p) for p in back.points.tolist()] == BENT[::-1]
     assert back.width.tolist() == [4, 3, 2, 1] and back.at(0).tolist() == [3, 10]
 
 
