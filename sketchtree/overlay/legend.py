@@ -29,8 +29,9 @@ def legend(name: str, graph: SketchGraph, left: float, top: float, bottom: float
     column.line_key(DOUBT, "a foot that was moved to its junction", None)
     if doubts(graph):
         column.disc_key(Disc(0, 0, 8.5, None, DOUBT, 2.2), "a doubt; a broken line leads to the next best")
-    column.list("Notes", list(graph.warnings), bottom=column.y + NOTES * (bottom - column.y))
-    listed = column.list("Doubts: what it grows from, or may grow from", [f"{k}  {doubt.words}" for k, doubt in enumerate(doubts(graph), 1)], colour=DOUBT)
+    column.list("Notes", list(graph.warnings), "warnings", bottom=column.y + NOTES * (bottom - column.y))
+    lines = [f"{k}  {doubt.words}" for k, doubt in enumerate(doubts(graph), 1)]
+    listed = column.list("Doubts: what it grows from, or may grow from", lines, "attachments", colour=DOUBT)
     return column.marks, listed
 
 
@@ -83,8 +84,9 @@ class _Column:
         self.marks.append(Disc(self.left + 15, self.y - 5, disc.radius, disc.fill, disc.colour, disc.width))
         self.text(text, indent=42.0)
 
-    def list(self, title: str, lines: list[str], *, colour: str = "#222222", bottom: float = np.inf) -> int:
-        """Lists the lines under a title, as many as fit above `bottom`, and says how many do not; returns how many do."""
+    def list(self, title: str, lines: list[str], column: str, *, colour: str = "#222222", bottom: float = np.inf) -> int:
+        """Lists the lines under a title, as many as fit above `bottom`, and says how many do not, and in which `column`
+        of the report they are; returns how many do."""
         if not lines:
             return 0
         bottom = min(bottom, self.bottom)
@@ -93,7 +95,7 @@ class _Column:
         for k, line in enumerate(lines):
             rows = len(textwrap.wrap(line, LETTERS))
             if self.y + LINE * (rows + (k + 1 < len(lines)) - 1) > bottom:
-                self.text(f"and {len(lines) - k} more: see the report's {title.partition(':')[0].lower().replace('notes', 'warnings').replace('doubts', 'attachments')}")
+                self.text(f"and {len(lines) - k} more: see the report's {column}")
                 return k
             self.text(line)
         return len(lines)

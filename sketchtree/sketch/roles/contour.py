@@ -1,7 +1,8 @@
 """Which part of a drawing is one contour around a crown? "Lollipops": a round outline on a trunk.
 
 The outline may run on into the trunk's side, stay open where the trunk enters, or be drawn in two strokes. Of
-every stroke (then of two that meet end to end, then of a chain from one foot of the trunk to the other) the part is sought that is roundest once its opening is closed,
+every stroke (then of two that meet end to end, then of a chain from one foot of the trunk to the other) the part is sought
+that is roundest once its opening is closed,
 
     4πA / (P + 2d)²      A area, P length of the part, d its opening
 

@@ -46,7 +46,9 @@ def limbs_of_outlines(lines: list[Line], closed: list[bool]) -> Outlined:
     height = extent(lines)
     lines, areas = _single_outlines(lines, closed, height)
     inside = shapely.union_all(list(areas.values()))
-    bark = [k for k, line in enumerate(lines) if areas and not any(line.row == lines[j].row for j in areas) and line.shape.intersection(inside).length >= WITHIN * line.length]
+    outer = {lines[k].row for k in areas}
+    others = [k for k, line in enumerate(lines) if areas and line.row not in outer]
+    bark = [k for k in others if lines[k].shape.intersection(inside).length >= WITHIN * lines[k].length]
     kept, sides = _pairs([line for k, line in enumerate(lines) if k not in bark], height)
     return Outlined(kept, sides, [lines[k] for k in bark])
 

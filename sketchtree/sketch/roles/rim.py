@@ -22,7 +22,9 @@ KEPT = 0.08  # of the crown's size: what is left of a line is dropped where it i
 STEPS = 96
 
 
-def pieces_of_rims(m: Measures, free: Bool[np.ndarray, " stroke"], wood: Bool[np.ndarray, " stroke"], outlines: list[Float[np.ndarray, "point 2"]]) -> list[Found]:
+def pieces_of_rims(
+    m: Measures, free: Bool[np.ndarray, " stroke"], wood: Bool[np.ndarray, " stroke"], outlines: list[Float[np.ndarray, "point 2"]]
+) -> list[Found]:
     """The loose strokes that follow an outline from end to end."""
     found = []
     for outline in outlines:
@@ -32,8 +34,9 @@ def pieces_of_rims(m: Measures, free: Bool[np.ndarray, " stroke"], wood: Bool[np
         near = shapely.distance(shapely.points(m.evenly[rows]), ring).max(1) <= NEAR * size
         rows = [row for row in rows[near].tolist() if _follows(m.evenly[row], ring) and row not in (one.row for one in found)]
         others = shapely.union_all(m.shapes(np.setdiff1d(np.flatnonzero(wood), rows)))
-        loose = shapely.distance(shapely.points(np.stack([m.first[rows], m.last[rows]], 1)), others) > LOOSE * size
-        found += [Found(row, "crown", "it runs along the crown's outline", (("branch", 0.5),)) for row, free_ends in zip(rows, loose, strict=True) if free_ends.all() or others.is_empty]
+        apart = shapely.distance(shapely.points(np.stack([m.first[rows], m.last[rows]], 1)), others)
+        loose = [row for row, ends in zip(rows, apart, strict=True) if others.is_empty or (ends > LOOSE * size).all()]
+        found += [Found(row, "crown", "it runs along the crown's outline", (("branch", 0.5),)) for row in loose]
     return found
 
 

@@ -76,6 +76,7 @@ def sort_strokes(sketch: Sketch) -> Sorted:
         lines, stem_warnings = carried_on(lines, merged(table.outlines), *_owner(table))
     rooted = Rooted(lines, rooted.below, rooted.found) if rooted.below else roots_apart(lines, ground, table.named_roots, table.outlines)
     cuts, cut_warnings = cuts_of([*rooted.above, *rooted.below], sketch.page)
+    sides_told = [*side_warnings(wood.sides, "limb"), *side_warnings(trunks.sides, "trunk")]
     roles = tuple(table.found[row].named(sketch.strokes[row].id) for row in sorted(table.found))
     return Sorted(
         lines=rooted.above,
@@ -87,7 +88,7 @@ def sort_strokes(sketch: Sketch) -> Sorted:
         ground=tuple(ground),
         roles=roles,
         cuts=cuts,
-        warnings=(*role_warnings(roles), *side_warnings(wood.sides, "limb"), *side_warnings(trunks.sides, "trunk"), *stem_warnings, *root_warnings(rooted), *cut_warnings),
+        warnings=(*role_warnings(roles), *sides_told, *stem_warnings, *root_warnings(rooted), *cut_warnings),
     )
 
 
