@@ -22,6 +22,7 @@ from sketchtree.sketch.files.transforms import Matrix
 from sketchtree.sketch.files.viewport import Box, user_length
 
 DARK = 0.05  # luminance × opacity below which a mask hides
+MOST_REGIONS = 10_000  # worked out for one document
 _FLAT = 1e-3  # how far a flattened border may lie from the true one, of its size
 _URL = re.compile(r"""url\(\s*+["']?#([^"')]++)["']?\s*+\)""", re.IGNORECASE)  # possessive: looked at once
 _NOT_PLAIN = frozenset({"text", "image", "foreignObject", "flowRoot"})
@@ -34,6 +35,9 @@ class Clips:
         self.walk = walk
         self.warnings: dict[str, None] = {}  # an ordered set
         self._following: list[str] = []
+        self._known: dict[tuple[str, str, bytes], Area | None] = {}
+        self._alone = False  # whether what is worked out holds for one element only
+        self._built = 0
 
     def region(self, element: Element, style: Style, matrix: Matrix) -> Area | None:
         """Where an element of this style shows, in root units (y down); None: everywhere. `matrix` is that of its content."""
@@ -52,16 +56,34 @@ class Clips:
             self._ignore(value, "is of a kind that is not read")
             return None
         node = self.walk.by_id.get(match[1])
-        if node is None or match[1] in self._following:  # CSS: a clip that is not there clips nothing
+        if node is None:  # CSS: a clip that is not there clips nothing
+            return None
+        if match[1] in self._following:  # … nor does one inside itself; elsewhere it may
+            self._alone = True
+            return None
+        key = match[1], build.__name__, matrix.tobytes()
+        if key not in self._known:
+            outer, self._alone = self._alone, False
+            region = self._worked_out(match[1], node, build, element, matrix)
+            alone, self._alone = self._alone, self._alone or outer
+            if alone:
+                return region
+            self._known[key] = region
+        return self._known[key]
+
+    def _worked_out(self, name: str, node: Element, build: Callable, element: Element, matrix: Matrix) -> Area | None:
+        self._built += 1
+        if self._built > MOST_REGIONS:
+            self._ignore(name, "is one of too many")
             return None
         if any(local_name(part.tag) in _NOT_PLAIN for part in node.iter()):
-            self._ignore(match[1], "holds text or a picture")
+            self._ignore(name, "holds text or a picture")
             return None
-        self._following.append(match[1])
+        self._following.append(name)
         try:
             return build(node, element, matrix)
         except (ValueError, shapely.errors.GEOSException) as error:
-            self._ignore(match[1], f"can't be worked out ({error})")
+            self._ignore(name, f"can't be worked out ({error})")
             return None
         finally:
             self._following.pop()
@@ -112,6 +134,7 @@ class Clips:
     def _units(self, units: str, element: Element, matrix: Matrix) -> Matrix:
         if units != "objectBoundingBox":
             return matrix
+        self._alone = True
         x, y, width, height = self.walk.fill_box(element)
         return matrix @ np.array([[width, 0, x], [0, height, y], [0, 0, 1.0]])
 

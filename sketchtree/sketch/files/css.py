@@ -31,7 +31,7 @@ _PRESENTATION = _INHERITED | {"display", "opacity", "transform-origin", "vector-
 _SIMPLE = re.compile(r"[^\"'\\(){}\[\]/@<]*")  # a style attribute that colons and semicolons alone divide
 _VARIABLE = re.compile(r"var\(\s*(--[^\s,()]+)\s*(?:,([^()]*(?:\([^()]*\)[^()]*)*))?\)", re.IGNORECASE)
 _LONGEST = 10_000  # characters of a value once its variables are put in
-_MOST_SIBLINGS = 2_000  # elements in one group up to which selectors that look at all of them are tried
+_MOST_SIBLINGS = 500  # elements in one group up to which selectors that look at all of them are tried
 _GROUPED = frozenset({"supports", "layer", "container", "scope", "starting-style"})  # at-rules around others, not read
 _LONGEST_SHEET = 1_000_000  # characters of all sheets, what is embedded in them (fonts) left out
 _LONGEST_SELECTOR = 5_000  # … of the selectors of one rule
@@ -39,7 +39,8 @@ _LONGEST_STYLE = 100_000  # … of one `style` attribute
 _MOST_TRIED = 5_000_000  # rules for the same name, class or id × elements
 _EMBEDDED = re.compile(r"data:[^\s\"')]{80,}")
 _NO_STYLE = "{} is too long, or nests its brackets too deep; {} was left out."
-_LOOKS_AROUND = re.compile(r"~(?!=)|-of-type|:nth-last|:has\(", re.IGNORECASE)
+_LOOKS_AROUND = re.compile(r"~(?!=)|-of-type|:nth-last", re.IGNORECASE)
+_LOOKS_INSIDE = re.compile(r":has\(", re.IGNORECASE)
 
 Style = Mapping[str, str]
 Declarations = tuple[tuple[str, str, bool], ...]  # (property, value, important)
@@ -56,6 +57,7 @@ class Cascade:
         self._rules: Counter[str] = Counter()  # by the id, class or name they are for
         self._most = max(_MOST_TRIED // sum(1 for _ in root.iter()), 100)
         self._length = 0
+        self._siblings = False  # whether a selector looks at the elements before one
         sheets = [element for element in root.iter() if local_name(element.tag) == "style"]
         self._crowded = bool(sheets) and max(len(element) for element in root.iter()) > _MOST_SIBLINGS
         for element in sheets:
@@ -64,6 +66,9 @@ class Cascade:
         self._wrapper: dict[Element, ElementWrapper] = {}
         if self._rules:
             self._wrapper = {e.etree_element: e for e in ElementWrapper.from_xml_root(root).iter_subtree()}
+        if self._siblings:
+            for wrapper in self._wrapper.values():
+                _ = wrapper.previous_siblings  # kept there; asked of the last first, it would call itself for each
 
     def _add_sheet(self, text: str) -> None:
         text = _EMBEDDED.sub("", text)
@@ -106,6 +111,9 @@ class Cascade:
         if len(prelude) > _LONGEST_SELECTOR:
             self._leave(prelude, "its selector is too long")
             return
+        if _LOOKS_INSIDE.search(prelude):
+            self._leave(prelude, "selectors that look inside are not read")
+            return
         if self._crowded and _LOOKS_AROUND.search(prelude):
             self._leave(prelude, "it compares too many elements with each other")
             return
@@ -120,6 +128,7 @@ class Cascade:
                 self._add_selector(selector, declarations, prelude)
 
     def _add_selector(self, selector, declarations: Declarations, prelude: str) -> None:
+        self._siblings |= "~" in prelude
         key = selector.id or selector.class_name or selector.local_name or ""
         self._rules[key] += 1
         if self._rules[key] > self._most:

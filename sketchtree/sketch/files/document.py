@@ -8,7 +8,7 @@ export forgot to declare get the meaning everyone gives them.
 
 import codecs
 import re
-from collections import Counter
+from collections import ChainMap, Counter
 from functools import lru_cache
 from xml.etree.ElementTree import Element
 from xml.parsers import expat
@@ -17,6 +17,7 @@ from sketchtree.errors import SketchError
 from sketchtree.sketch.files.limits import MAX_MB, inflate
 
 DEEPEST = 256  # nested elements
+MOST_SPACES = 100  # prefixes that are copied from element to element
 MOST_ENTITIES = 500  # expat puts them in by recursion
 LARGEST_GROWTH = 2**20  # characters that all entity references of a file may add
 _TOGETHER = 2**20  # characters of text that come at once
@@ -105,7 +106,8 @@ class _Builder:
         spaces, known = self._spaces[-1], self._known[-1]
         declared = {key[6:]: value for key, value in attributes.items() if key[:5] == "xmlns" and key[5:6] in ("", ":")}
         if declared:
-            spaces, known = {**spaces, **declared}, {}
+            many = isinstance(spaces, ChainMap) or len(spaces) > MOST_SPACES
+            spaces, known = ChainMap(declared, *getattr(spaces, "maps", [spaces])) if many else {**spaces, **declared}, {}
         self._spaces.append(spaces)
         self._known.append(known)
         if tag not in known:

@@ -55,7 +55,7 @@ def excalidraw_sketch(document: Any, name: str, *, max_strokes: int = MAX_STROKE
     shown = [(k, element) for k, element in enumerate(elements, 1) if _is_shown(element, labels, left_out)]
     check_strokes(len(shown), name, max_strokes)
     tolerance = FLATNESS * _size(element for _, element in shown)
-    used: set[str] = set()
+    used: dict[str, int] = {}
     strokes = []
     for k, element in shown:
         stroke_id = unique(text_of(element.get("id")) or f"stroke-{k}", used)
@@ -109,7 +109,7 @@ def _is_shown(element: dict[str, Any], labels: Labels, left_out: Counter[str]) -
 
 def _labels_something(element: dict[str, Any], labels: Labels) -> bool:
     text = text_of(element.get("originalText")) or text_of(element.get("text"))
-    return text in labels.inside.values() or text in labels.group.values()
+    return text in labels.words
 
 
 def _has_outline(element: dict[str, Any]) -> bool:

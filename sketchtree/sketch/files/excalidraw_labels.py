@@ -23,6 +23,7 @@ class Labels:
     group: dict[str, str]  # id of the innermost group of a text → that text
     frame: dict[str, str]  # id of a frame → its name
     texts: frozenset[str]  # ids of the text elements
+    words: frozenset[str]  # the texts that name something
 
     @classmethod
     def of(cls, elements: Iterable[dict[str, Any]]) -> "Labels":
@@ -41,7 +42,7 @@ class Labels:
                     inside[element["containerId"]] = text
                 elif groups:
                     group.setdefault(groups[0], text)
-        return cls(inside, group, frame, frozenset(texts))
+        return cls(inside, group, frame, frozenset(texts), frozenset(inside.values()) | frozenset(group.values()))
 
     def names(self, element: dict[str, Any]) -> list[str]:
         """What names one element, the closest name first."""

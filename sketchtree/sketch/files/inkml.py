@@ -55,7 +55,7 @@ def read_inkml(data: bytes, name: str, *, max_strokes: int = MAX_STROKES) -> Ske
     except ValueError as error:
         raise SketchError(f"in {name}, {error}.", remedy="Export the ink again.") from None
     largest = max((float(np.nanmax(force)) for ink in walk.found if len(force := _column(ink, "F"))), default=1.0)
-    used: set[str] = set()
+    used: dict[str, int] = {}
     strokes = tuple(_stroke(ink, unique(ink.id or f"stroke-{k}", used), walk, largest) for k, ink in enumerate(walk.found, 1))
     along = next((ink.form.channel("X") for ink in walk.found), Channel("X"))
     units = along.units if along.units not in (None, "dev") and not along.resolution else "px"

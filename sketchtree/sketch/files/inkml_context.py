@@ -31,6 +31,8 @@ class Contexts:
     """The contexts, brushes, formats and time stamps of one file."""
 
     def __init__(self, root: Element):
+        self._forms: dict[int, TraceFormat | None] = {}  # by the element
+        self._formats: dict[int, Element | None] = {}  # of an ink source
         self._by_id = {id_of(e): e for e in reversed(list(root.iter())) if id_of(e)}
         canvas = {id(f) for c in root.iter() if local(c) == "canvas" for f in c.iter()}
         forms = [e for e in root.iter() if local(e) == "traceFormat" and id(e) not in canvas]
@@ -64,8 +66,10 @@ class Contexts:
         if tag == "traceFormat":
             return dataclasses.replace(setting, form=self._form(element))
         if tag == "inkSource":
-            formats = [e for e in element if local(e) == "traceFormat"]
-            return dataclasses.replace(setting, form=self._form(formats[0])) if formats else setting
+            if id(element) not in self._formats:
+                self._formats[id(element)] = next((e for e in element if local(e) == "traceFormat"), None)
+            form = self._formats[id(element)]
+            return setting if form is None else dataclasses.replace(setting, form=self._form(form))
         if tag == "brush":
             return dataclasses.replace(setting, brush=element)
         if tag == "timestamp":
@@ -84,6 +88,11 @@ class Contexts:
         yield from (child for child in context if local(child) == "traceFormat")
 
     def _form(self, element: Element) -> TraceFormat | None:
+        if id(element) not in self._forms:
+            self._forms[id(element)] = self._read_form(element)
+        return self._forms[id(element)]
+
+    def _read_form(self, element: Element) -> TraceFormat | None:
         if not any(local(e) == "channel" for e in element.iter()):
             return None
         source = self._sources.get(id(element))

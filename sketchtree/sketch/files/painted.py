@@ -33,7 +33,7 @@ _GROUPS = frozenset({"svg", "g", "a", "switch"})
 _PAINTED = SHAPES | _GROUPS | {"use", "symbol"}
 _OTHER = {"text": "a text", "flowRoot": "a text", "image": "a picture", "foreignObject": "an embedded page"}
 _HREF = ("href", f"{{{XLINK}}}href")
-_MOST_CLONED = 50_000  # elements drawn through `use`, beyond two for every stroke allowed
+_MOST_CLONED = 100_000  # elements drawn through `use`, or looked at for a clip or a box, beyond two for every stroke allowed
 
 
 class _Scope(NamedTuple):
@@ -304,7 +304,7 @@ class Walk:
             )
 
     def _guard(self, scope: _Scope) -> None:
-        self._cloned += scope.cloned
+        self._cloned += scope.cloned or scope.ghost
         if scope.depth > DEEPEST or self._cloned > 2 * self.max_strokes + _MOST_CLONED:
             raise too_deep(self.name)
 

@@ -68,7 +68,7 @@ def _strokes(shapes: list[Shape], walk: Walk) -> tuple[tuple[Stroke, ...], tuple
     """Flatten every shape in one go, cut what is clipped, and name the strokes."""
     strokes: list[tuple[float, Stroke]] = []  # with the row each had in the sketch that was written
     papers: list[str] = []
-    used = {shape.record.id for shape in shapes if _keeps_id(shape)}
+    used = dict.fromkeys((shape.record.id for shape in shapes if _keeps_id(shape)), 1)
     cut = redrawn = 0
     for number, (shape, whole) in enumerate(zip(shapes, _flattened(shapes), strict=True), 1):
         parts = _shown(shape, whole)

@@ -29,7 +29,7 @@ def sketch_svg(sketch: Sketch) -> str:
     layers: dict[str, list[int]] = {}
     for row, stroke in enumerate(sketch.strokes):
         layers.setdefault(_layer(stroke), []).append(row)
-    used = {stroke.id for stroke in sketch.strokes}
+    used = dict.fromkeys((stroke.id for stroke in sketch.strokes), 1)
     head = [
         f'<svg xmlns="{SVG}" xmlns:inkscape="{INKSCAPE}" xmlns:sketchtree="{NAMESPACE}" viewBox="{view_box}"',
         f" sketchtree:sketch={quoteattr(sketch_text(sketch, view_box))}>",
@@ -51,7 +51,7 @@ def _layer(stroke: Stroke) -> str:
     return _LAYER[stroke.kind] if stroke.labelled or stroke.kind != StrokeKind.BRANCH else "strokes"
 
 
-def _path(stroke: Stroke, row: int, group: str, pen: float, used: set[str]) -> str:
+def _path(stroke: Stroke, row: int, group: str, pen: float, used: dict[str, int]) -> str:
     own = stroke.id if _NAME.fullmatch(stroke.id) else unique(f"stroke-{row + 1}", used)
     width = repr(float(stroke.width if stroke.width else pen))
     ink = _INK[stroke.kind]

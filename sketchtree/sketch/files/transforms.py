@@ -97,7 +97,7 @@ def _function(name: str, arguments: list[tuple[str, str]], box) -> Matrix:
             return np.array([[a, c, e], [b, d, f], [0, 0, 1]])
     except (IndexError, KeyError, ValueError):
         pass
-    raise ValueError(f"'{name}({', '.join(n + u for n, u in arguments)})' is not a transform in the plane")
+    raise ValueError(f"'{name}({', '.join(n + u for n, u in arguments):.60})' is not a transform in the plane")
 
 
 def _translation(name: str, arguments, box) -> Matrix:

