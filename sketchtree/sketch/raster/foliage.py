@@ -2,13 +2,14 @@
 
     curl       turning of a line over its length, radians per H. Limbs bend, scribbles and loops whirl: curl ≥ CURL
     blade      a short line that is widest well away from its foot: the ink of a leaf
-    texture    length of such lines per area, smoothed over SPREAD; foliage is where it is at least DENSE and PART of all lines' there
+    texture    length of such lines per area, smoothed over SPREAD; foliage is where it is at least DENSE and PART of all lines there
 
 Limbs that leaves had cut are joined again; what then lies in foliage and is no long, nearly straight line is left out with it. Foliage high in the drawing is a crown: its outline,
 or the hull of its clumps. Short lines of one direction side by side, both ends free and away from longer lines, are hatching.
 """
 
 import dataclasses
+from collections import Counter
 from dataclasses import dataclass
 
 import numpy as np
@@ -25,7 +26,7 @@ from sketchtree.sketch.raster.lines_of import Traced
 
 CURL = 30.0  # radians per H
 WHIRL = 1.6  # radians: a line that turns less in all is no scribble
-STILL = 1.0  # widths over which a line is smoothed before its turning is measured
+STILL = 0.003  # of H, at least the line's width: what is smoothed away before turning is measured
 RING = 0.3  # of H: length of a closed line, below which it is a leaf
 BLADE = 1.6  # times as wide as at its foot
 BLADE_LONG = (2.0, 9.0)  # of its greatest width: length of a blade
@@ -38,9 +39,9 @@ DENSE = 6.0  # H of line in an area of H²
 PART = (0.4, 0.2)  # of all the length there: leafy lines at least, and pieces of them around; among twigs some line always whirls
 FEWEST = 10  # lines that whirl or are blades: fewer are no foliage
 LIMB = (0.1, 14.0)  # of H, radians per H: a line so long and no curlier is wood wherever it lies
-BIT = 0.1  # of H: a line no longer, half as curly, carries foliage on that is there already
+BIT = 0.15  # of H: a line no longer, half as curly, carries foliage on that is there already
 BENT = 0.3  # radians that such a piece turns at least
-SCRAP = 0.06  # of H: a line no longer that touched nothing but leaves is a piece of one
+SCRAP = 0.06  # of H: a line in foliage no longer, on no longer line but leaves, is a piece of one
 RUN = 0.6  # radians: a line that goes on for as long as a LIMB without turning more is one, whatever its end does
 WITHIN = 0.6  # share of a line that lies in foliage, if it is foliage
 CROWN = 0.03  # of H²: least area of a crown
@@ -78,23 +79,33 @@ def without_foliage(lines: list[Traced], pen: float) -> Foliage:
         return Foliage(rest, 0, int(is_hatch.sum()), [])
     cell = height / GRID
     region = _region(rest, leafy, low, points.max(0), cell)
+    if not region.any():
+        return Foliage(rest, 0, int(is_hatch.sum()), [])
     leafy &= np.array([_within(line, region, low, cell) >= 0.5 * WITHIN for line in rest])
-    left = bridged(_freed([line for line, leaf in zip(rest, leafy, strict=True) if not leaf], SCRAP * height), pen)
+    left = [line for line, leaf in zip(rest, leafy, strict=True) if not leaf]
+    is_scrap = _scraps(left, SCRAP * height) & np.array([_within(line, region, low, cell) > 0 for line in left], bool)
+    left = bridged(_freed([line for line, scrap in zip(left, is_scrap, strict=True) if not scrap]), pen)
     wood = [line for line in left if _is_limb(line, height) or _within(line, region, low, cell) < WITHIN]
     if not wood:
         return Foliage(rest, 0, int(is_hatch.sum()), [])
     return Foliage(wood, len(rest) - len(wood), int(is_hatch.sum()), _crowns(region, low, cell))
 
 
-def _freed(lines: list[Traced], scrap: float) -> list[Traced]:
-    """The lines with those ends free that ended on a line which is gone; without those no longer than `scrap` that touched nothing else."""
-    passed = frozenset().union(*(line.passes for line in lines))
-    free = [dataclasses.replace(line, joints=tuple(node if node in passed else -1 for node in line.joints)) for line in lines]
-    return [new for old, new in zip(lines, free, strict=True) if not (old.joints != new.joints == (-1, -1) and new.length <= scrap)]
+def _scraps(lines: list[Traced], longest: float) -> Bool[np.ndarray, " line"]:
+    """Which short lines ended on something, and not on a longer line that is left."""
+    long = [line.length > longest for line in lines]
+    held = {node for line, is_long in zip(lines, long, strict=True) if is_long for node in (*line.passes, *line.joints)} - {-1}
+    return np.array([not is_long and line.joints != (-1, -1) and held.isdisjoint(line.joints) for line, is_long in zip(lines, long, strict=True)], bool)
+
+
+def _freed(lines: list[Traced]) -> list[Traced]:
+    """The lines with those ends free where nothing else is left."""
+    here = Counter(node for line in lines for node in {*line.passes, *line.joints})
+    return [dataclasses.replace(line, joints=tuple(node if here[node] > 1 else -1 for node in line.joints)) for line in lines]
 
 
 def _is_limb(line: Traced, height: float) -> bool:
-    return line.length >= LIMB[0] * height and turning(line) * height <= LIMB[1] * line.length
+    return line.length >= LIMB[0] * height and turning(line, height) * height <= LIMB[1] * line.length
 
 
 def _is_leafy(line: Traced, height: float) -> bool:
@@ -102,23 +113,23 @@ def _is_leafy(line: Traced, height: float) -> bool:
     length = line.length
     if line.closed:
         return length <= RING * height
-    turn = turning(line)
+    turn = turning(line, height)
     if turn >= WHIRL and turn * height >= CURL * length and length <= 4 * RING * height:
-        return straight_run(line) < LIMB[0] * height
+        return straight_run(line, height) < LIMB[0] * height
     return _is_blade(line, length)
 
 
 def _is_bit(line: Traced, height: float) -> bool:
     """Whether a line may be a piece of a scribble that others cut."""
-    turn = turning(line)
+    turn = turning(line, height)
     return line.length <= BIT * height and turn >= BENT and turn * height >= 0.5 * CURL * line.length
 
 
-def _steps(line: Traced) -> Float[np.ndarray, "step 2"]:
-    """The way along a line in steps of its width, smoothed over STILL of it: the pixels' own unrest is no turning."""
-    width = max(float(np.median(line.width)), 2.0)
-    smooth = gaussian_filter1d(line.points, STILL * width, axis=0, mode="nearest")
-    points = smooth[:: max(1, round(width))]
+def _steps(line: Traced, height: float) -> Float[np.ndarray, "step 2"]:
+    """The way along a line in short steps, smoothed over as much: the pixels' own unrest is no turning."""
+    still = max(float(np.median(line.width)), STILL * height, 2.0)
+    smooth = gaussian_filter1d(line.points, still, axis=0, mode="nearest")
+    points = smooth[:: round(still)]
     return np.diff(np.vstack([points, smooth[-1:]]), axis=0)
 
 
@@ -126,14 +137,14 @@ def _turns(step: Float[np.ndarray, "step 2"]) -> Float[np.ndarray, " turn"]:
     return np.abs(np.arctan2(step[:-1, 0] * step[1:, 1] - step[:-1, 1] * step[1:, 0], (step[:-1] * step[1:]).sum(1)))
 
 
-def turning(line: Traced) -> float:
+def turning(line: Traced, height: float) -> float:
     """How much a line turns in all, radians."""
-    return float(_turns(_steps(line)).sum())
+    return float(_turns(_steps(line, height)).sum())
 
 
-def straight_run(line: Traced) -> float:
+def straight_run(line: Traced, height: float) -> float:
     """The longest piece of a line that turns by no more than RUN in all."""
-    step = _steps(line)
+    step = _steps(line, height)
     turned = np.r_[0.0, np.cumsum(_turns(step))]
     length = np.r_[0.0, np.cumsum(np.hypot(*step.T))]
     last = np.searchsorted(turned, turned + RUN, side="right")
