@@ -12,18 +12,15 @@ import shapely
 from jaxtyping import Float, Int
 
 from sketchtree.errors import SketchError
-from sketchtree.sketch.joining.lines import Line, angle_between, extent, turning
+from sketchtree.sketch.joining.folding import AGAIN, CUSP, DOT, farthest, unfolded
+from sketchtree.sketch.joining.lines import Line, extent, turning
 from sketchtree.sketch.joining.tremor import STILL, without_tremor
 
-DOT = 0.005  # of H: a smaller stroke is a dot
 INK = 0.0012  # of H: a stroke nowhere farther than this from another is part of it
-AGAIN = 0.005  # of H: the same for a stroke that covers most of the other
-MOST = 0.6
+MOST = 0.6  # of the other: a stroke that covers so much of it may lie off by AGAIN
 REPEAT = (0.003, 0.06, 0.012)  # of H, of its length, of H: how far a repeated stroke may lie off, ends too: least, part, most
 SLANT = 0.15  # never farther than this part of its own length: a twig leaves its parent at 9° or more
-FOLD = 0.03  # of H: going back over a shorter piece is a tremor
 AGAIN_OVER = "drawn over that stroke, merged with it"
-CUSP = np.radians(150)  # a sharper turn is a change of mind
 
 
 @dataclass(frozen=True, eq=False)
@@ -43,9 +40,9 @@ def clean(lines: list[Line]) -> Cleaned:
         raise _far_apart(lines)
     kept_ids = {line.id for line in kept}
     dots = tuple(line.id for line in lines if line.id not in kept_ids)
-    unfolded = [part for line, turn in zip(kept, turning(kept), strict=True) for part in (_unfold(line, height) if turn > CUSP else [line])]
-    unfolded = [without_tremor(line, height) if turn > STILL else line for line, turn in zip(unfolded, turning(unfolded), strict=True)]
-    ordered = sorted((_upward(line) for line in unfolded), key=lambda line: _rank(line, height))
+    parts = [part for line, turn in zip(kept, turning(kept), strict=True) for part in (unfolded(line, height) if turn > CUSP else [line])]
+    parts = [without_tremor(part, height) if turn > STILL else part for part, turn in zip(parts, turning(parts), strict=True)]
+    ordered = sorted((_upward(part) for part in parts), key=lambda line: _rank(line, height))
     owner = _owners(ordered, height)
     merged = [(line, ordered[o].row, AGAIN_OVER) for line, o in zip(ordered, owner, strict=True) if o >= 0]
     own = [line for line, o in zip(ordered, owner, strict=True) if o < 0]
@@ -73,44 +70,6 @@ def without_doubles(points: Float[np.ndarray, "point 2"], size: float) -> Float[
         mask[k] = np.hypot(*(points[k] - last)) > 1e-9 * size
         last = points[k] if mask[k] else last
     return mask
-
-
-def _unfold(line: Line, height: float) -> list[Line]:
-    """The line without the parts that go back over it; what is left in one piece stays one line."""
-    cusps = _cusps(line, height)
-    if len(cusps) == 0:
-        return [line]
-    bounds = np.r_[0.0, cusps, line.length]
-    parts = [line.cut(a, b) for a, b in zip(bounds[:-1], bounds[1:], strict=True)]
-    again = [_goes_back(k, parts, height) for k in range(len(parts))]
-    runs: list[list[float]] = []
-    for k, dropped in enumerate(again):
-        if not dropped and runs and runs[-1][1] == bounds[k]:
-            runs[-1][1] = bounds[k + 1]
-        elif not dropped:
-            runs.append([bounds[k], bounds[k + 1]])
-    return [line.cut(a, b) for a, b in runs] if any(again) else [line]
-
-
-def _goes_back(k: int, parts: list[Line], height: float) -> bool:
-    """Whether a part between cusps lies along the one before or after it (of two alike, the later one does)."""
-    part = parts[k]
-    if part.length < FOLD * height:
-        return False
-    beside = [j for j in (k - 1, k + 1) if 0 <= j < len(parts) and (parts[j].length, k) > (part.length, j)]
-    return any(_farthest(part, parts[j].shape) <= AGAIN * height for j in beside)
-
-
-def _cusps(line: Line, height: float) -> Float[np.ndarray, " cusp"]:
-    reach = min(DOT * height, 0.2 * line.length)
-    s = line.along[1:-1]
-    here = line.points[1:-1]
-    turn = angle_between(here - line.at(np.maximum(s - reach, 0.0)), line.at(np.minimum(s + reach, line.length)) - here)
-    found: list[float] = []
-    for k in np.flatnonzero(turn > CUSP):
-        if s[k] > reach and s[k] < line.length - reach and (not found or s[k] - found[-1] > reach):
-            found.append(float(s[k]))
-    return np.array(found)
 
 
 def _upward(line: Line) -> Line:
@@ -144,7 +103,7 @@ def _owners(lines: list[Line], height: float) -> Int[np.ndarray, " line"]:
 
 def _repeats(line: Line, other: Line, height: float) -> bool:
     slant = SLANT * line.length
-    far = _farthest(line, other.shape)
+    far = farthest(line, other.shape)
     if far <= min(INK * height, slant) or (line.length >= MOST * other.length and far <= min(AGAIN * height, slant)):
         return True
     low, part, high = REPEAT
@@ -152,12 +111,6 @@ def _repeats(line: Line, other: Line, height: float) -> bool:
     ends = line.points[[0, -1], None] - other.points[None, [0, -1]]
     gaps = np.hypot(ends[..., 0], ends[..., 1])
     return bool(far <= off and (max(gaps[0, 0], gaps[1, 1]) <= off or max(gaps[0, 1], gaps[1, 0]) <= off))
-
-
-def _farthest(line: Line, shape: shapely.LineString) -> float:
-    """The greatest distance of a line's points from another line."""
-    s = np.union1d(line.along, np.linspace(0, line.length, 9))
-    return float(shapely.distance(shapely.points(line.at(s)), shape).max())
 
 
 def as_line(row: int, stroke_id: str, points, width, begun: float = np.nan) -> Line | None:

@@ -8,6 +8,8 @@ import numpy as np
 import shapely
 from jaxtyping import Float
 
+DOUBLED = 1e-9  # of a line's length: points nearer than this are one
+
 
 @dataclass(frozen=True, eq=False)
 class Line:
@@ -53,8 +55,9 @@ class Line:
         return dataclasses.replace(self, points=self.points[::-1], width=self.width[::-1])
 
     def cut(self, low: float, high: float) -> "Line":
-        """The part between two lengths (low < high)."""
-        inner = (self.along > low) & (self.along < high)
+        """The part between two lengths (low < high); a drawn point where it is cut is not doubled."""
+        same = DOUBLED * self.length
+        inner = (self.along > low + same) & (self.along < high - same)
         s = np.concatenate([[low], self.along[inner], [high]])
         points = np.concatenate([self.at(s[:1]), self.points[inner], self.at(s[-1:])])
         return dataclasses.replace(self, points=points, width=np.interp(s, self.along, self.width))

@@ -40,8 +40,9 @@ def test_a_cut_keeps_the_points_between_and_ends_where_it_was_cut():
     assert part.width.tolist() == [1.5, 2.0, 3.0, 3.5]
 
 
-def test_a_cut_at_a_point_does_not_double_it():
-    assert line(BENT).cut(3, 7).points.tolist() == [[3, 0], [3, 4]]
+@pytest.mark.parametrize("off", [0.0, 1e-12, -1e-12])
+def test_a_cut_at_a_point_does_not_double_it(off):
+    assert line(BENT).cut(3 + off, 7 + off).points == pytest.approx(np.array([[3, 0], [3, 4]]), abs=1e-9)
 
 
 @pytest.mark.parametrize("seed", range(5))
