@@ -25,6 +25,7 @@ from sketchtree.sketch.joining.candidates import MANY, Arcs, bridging_arcs, cand
 from sketchtree.sketch.joining.choices import Choices, solve
 from sketchtree.sketch.joining.evidence import slip_of
 from sketchtree.sketch.joining.lines import Line
+from sketchtree.sketch.joining.moves import hangs
 
 FORBIDDEN = 1e4  # dearer than any tree of sensible attachments
 STANDING, TOWERS = 8.0, 5.0  # what a rising stroke pays to stand beside the stem; how much less if it is tall
@@ -113,12 +114,13 @@ def _hanging(bundle: Bundle, arcs: Arcs, choices: Choices, chosen) -> Hanging:
 
 
 def _alternatives(choices: Choices, cost, chosen) -> tuple[tuple[tuple[int, float], ...], ...]:
-    """The two next best parents of every line, with what they would cost."""
-    others = np.flatnonzero((choices.tail < choices.count) & (choices.tail != choices.tail[chosen][choices.head]))
+    """The two next best parents of every line, with what they would cost; none that hangs on the line itself."""
+    above = choices.tail[chosen]
+    others = np.flatnonzero((choices.tail < choices.count) & (choices.tail != above[choices.head]))
     order = others[np.lexsort((cost[others], choices.head[others]))]
     rows: list[dict[int, float]] = [{} for _ in range(choices.count)]
     for line, other, price in zip(choices.head[order].tolist(), choices.tail[order].tolist(), cost[order].tolist(), strict=True):
-        if len(rows[line]) < 2 and other not in rows[line]:
+        if len(rows[line]) < 2 and other not in rows[line] and not hangs(other, line, above, choices.count):
             rows[line][other] = price
     return tuple(tuple(row.items()) for row in rows)
 

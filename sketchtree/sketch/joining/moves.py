@@ -44,13 +44,13 @@ def improved(
 def _best(gain, tail, head, parent) -> int:
     """The arc that gains most of those that make no circle; -1 if none gains. `gain` is used up."""
     while gain[arc := int(np.argmax(gain))] > LEAST:
-        if not _hangs(int(tail[arc]), int(head[arc]), parent, len(parent)):
+        if not hangs(int(tail[arc]), int(head[arc]), parent, len(parent)):
             return arc
         gain[arc] = 0.0
     return -1
 
 
-def _hangs(line: int, on: int, parent, ground: int) -> bool:
+def hangs(line: int, on: int, parent, ground: int) -> bool:
     """Whether a line hangs on another, directly or not; a line hangs on itself."""
     while line != ground and line != on:
         line = int(parent[line])

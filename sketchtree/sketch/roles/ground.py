@@ -82,9 +82,11 @@ def _in_two_pieces(m: Measures, rows: Int[np.ndarray, " row"], height: float) ->
     everything = m.drawing[1] - m.drawing[0]
     for a, b in combinations(straight[np.argsort(m.low[straight, 0], kind="stable")].tolist(), 2):
         gap, left, right = m.low[b, 0] - m.high[a, 0], m.low[a, 0], m.high[b, 0]
+        if abs(level[a] - level[b]) > STRAIGHT * height or not -STRAIGHT * height <= gap <= BROKEN * height:
+            continue
         below = np.flatnonzero((m.high[:, 1] <= min(m.low[a, 1], m.low[b, 1]) + STRAIGHT * height) & (m.size > STRAIGHT * height))
         below = below[(below != a) & (below != b)]
-        if abs(level[a] - level[b]) > STRAIGHT * height or not -STRAIGHT * height <= gap <= BROKEN * height or len(below) < ROOTS:
+        if len(below) < ROOTS:
             continue
         deep = level[a] - m.low[below, 1].min() >= DEEP * height
         wider = m.low[below, 0].min() >= left and m.high[below, 0].max() <= right
