@@ -66,7 +66,7 @@ def arm(edge: Edge, side: int, pen: float, skip: float) -> Arm:
     s = np.zeros(len(points))
     np.cumsum(np.hypot(*np.diff(points, axis=0).T), out=s[1:])
     width = float(half.mean())
-    swollen = half > SWOLLEN * max(float(np.median(half)), 0.5 * pen)
+    swollen = half > SWOLLEN * max(float(np.partition(half, len(half) // 2)[len(half) // 2]), 0.5 * pen)
     skip = min(max(skip, float(s[np.argmin(swollen)])), 0.4 * s[-1])
     far = min(skip + REACH * max(0.5 * pen, width), s[-1])
     x, y = np.interp([skip, far], s, points[:, 0]), np.interp([skip, far], s, points[:, 1])

@@ -12,7 +12,7 @@ from dataclasses import dataclass
 
 import numpy as np
 from jaxtyping import Bool, Float, Int
-from scipy.ndimage import binary_dilation, distance_transform_edt, find_objects, label, maximum
+from scipy.ndimage import binary_dilation, distance_transform_edt, find_objects, label
 from skimage.draw import line as pixels_between
 
 from sketchtree.sketch.raster.crossing import arm
@@ -94,7 +94,9 @@ def _measures(labels: Int[np.ndarray, "row col"], count: int):
     """(greatest width 2R, P / 4R, touches the picture's border) of every region of paper."""
     depth = distance_transform_edt(np.pad(labels > 0, 1))[1:-1, 1:-1]
     index = np.arange(1, count + 1)
-    radius = maximum(depth, labels, index)
+    radius = np.zeros(count + 1)
+    np.maximum.at(radius, labels.ravel(), depth.ravel())
+    radius = radius[1:]
     border = np.bincount(labels[(depth > 0) & (depth < 1.5)], minlength=count + 1)[1:]
     rim = np.concatenate([labels[0], labels[-1], labels[:, 0], labels[:, -1]])
     return 2.0 * radius, border / np.maximum(4.0 * radius, 1.0), np.isin(index, rim)
