@@ -2,11 +2,12 @@
 
 The ground may feed every stroke:
 
-    cost of standing on the ground   STANDING − TOWERS min(2 t, 1) + HANGS exp(−g / ε) + 50 |y − y_ground| / H + (1 − up) / 2
+    cost of standing on the ground   STANDING − TOWERS min(2 t, 1) + HANGS exp(−g / ε) + 50 |y − y_ground| / H + (1 − up) / 2 + taper
                                      for strokes that rise from the ground; FORBIDDEN + 100 (y − y_lowest) / H + … for others
 
     t    how far above its foot the stroke's other end is, of H: a low branch that hangs to the ground rises little
     g    how far that other end is from any line: there it may hang; ε see `evidence`
+    taper   what it costs to stand on the thinner end (`likelihood`)
     up   cosine between the stroke leaving that end and the vertical
 
 First only one stroke may stand on the ground (all are forbidden alike): its foot is y_ground, and the gaps of that tree
@@ -24,6 +25,7 @@ from sketchtree.sketch.joining.bundle import Bundle
 from sketchtree.sketch.joining.candidates import MANY, Arcs, bridging_arcs, candidate_arcs
 from sketchtree.sketch.joining.choices import Choices, solve
 from sketchtree.sketch.joining.evidence import slip_of
+from sketchtree.sketch.joining.likelihood import taper_costs
 from sketchtree.sketch.joining.lines import Line
 from sketchtree.sketch.joining.moves import hangs
 
@@ -53,7 +55,7 @@ def attach(lines: list[Line], progress: Callable[[float], None] | None = None) -
     rounds = ROUNDS if len(lines) <= MANY else FEWER
     rising, foot_y = _rising(bundle)
     lowest = float(foot_y.min())
-    alone = 100 * (foot_y - lowest) / bundle.height + 0.5 * (1 - rising) + _smallness(bundle)[:, None]
+    alone = 100 * (foot_y - lowest) / bundle.height + 0.5 * (1 - rising) + _smallness(bundle)[:, None] + _tapering(bundle)
     root = bundle.ends[int(np.argmin(alone))]
     arcs, slip = candidate_arcs(bundle, root)
     told(0.5)
@@ -84,7 +86,7 @@ def _standing(bundle: Bundle, arcs: Arcs, slip: float, alone, ground: float) -> 
     rising, foot_y = _rising(bundle)
     tall = np.clip(2 * (foot_y[:, ::-1] - foot_y) / bundle.height, 0.0, 1.0)
     hung = np.exp(-_nearest(bundle, arcs)[:, ::-1] / (slip * bundle.height))
-    standing = STANDING - TOWERS * tall + HANGS * hung + 50 * np.abs(foot_y - ground) / bundle.height + 0.5 * (1 - rising)
+    standing = STANDING - TOWERS * tall + HANGS * hung + 50 * np.abs(foot_y - ground) / bundle.height + 0.5 * (1 - rising) + _tapering(bundle)
     allowed = (np.abs(foot_y - ground) <= GROUND * bundle.height) & (rising > 0.2)
     return np.where(allowed, standing, alone + FORBIDDEN)
 
@@ -129,6 +131,11 @@ def _rising(bundle: Bundle) -> tuple[Float[np.ndarray, "line 2"], Float[np.ndarr
     """(cosine with the vertical of each line leaving each end, height of that end)."""
     reach = np.minimum(RISES * bundle.height, 0.5 * bundle.length)
     return bundle.leaving(reach)[:, 1].reshape(-1, 2), bundle.ends[:, 1].reshape(-1, 2)
+
+
+def _tapering(bundle: Bundle) -> Float[np.ndarray, "line 2"]:
+    """What it costs each line to stand on each end, by its widths."""
+    return taper_costs(bundle.thicker_away()).reshape(-1, 2)
 
 
 def _nearest(bundle: Bundle, arcs: Arcs) -> Float[np.ndarray, "line 2"]:

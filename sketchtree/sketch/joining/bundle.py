@@ -13,6 +13,8 @@ from jaxtyping import Float, Int
 
 from sketchtree.sketch.joining.lines import Line, unit
 
+TOWARD = (0.05, 0.35)  # of a line's length: the part that tells its width toward an end
+
 
 @dataclass(frozen=True, eq=False)
 class Bundle:
@@ -22,6 +24,7 @@ class Bundle:
     first: Int[np.ndarray, " line+1"]  # of each line's points
     along: Float[np.ndarray, " point"]
     width: Float[np.ndarray, " line"]  # the middle one of each line's widths; NaN if they say nothing
+    taper: Float[np.ndarray, " line"]  # log of the width toward its last point over that toward its first; 0 where they say nothing
     time: Float[np.ndarray, " line"]  # when each was begun, ms; NaN where the file does not say
     height: float
 
@@ -29,10 +32,10 @@ class Bundle:
     def of(cls, lines: list[Line]) -> "Bundle":
         """The lines as arrays; at least one line."""
         width = np.array([typical_width(line.width) for line in lines])
-        return cls.of_points([line.points for line in lines], width, np.array([line.begun for line in lines]))
+        return cls.of_points([line.points for line in lines], width, np.array([taper(line) for line in lines]), np.array([line.begun for line in lines]))
 
     @classmethod
-    def of_points(cls, lines: list[Float[np.ndarray, "point 2"]], width=np.nan, time=np.nan) -> "Bundle":
+    def of_points(cls, lines: list[Float[np.ndarray, "point 2"]], width=np.nan, taper=0.0, time=np.nan) -> "Bundle":
         """Polylines of two points or more as arrays; at least one polyline."""
         points = np.concatenate(lines)
         count = np.array([len(line) for line in lines])
@@ -42,7 +45,7 @@ class Bundle:
         step[first[:-1]] = 0.0
         total = np.cumsum(step)
         along = total - np.repeat(total[first[:-1]], count)
-        alike = [np.broadcast_to(np.asarray(column, float), len(lines)) for column in (width, time)]
+        alike = [np.broadcast_to(np.asarray(column, float), len(lines)) for column in (width, taper, time)]
         return cls(points, first, along, *alike, float(np.ptp(points, axis=0).max()))
 
     @cached_property
@@ -91,6 +94,10 @@ class Bundle:
         """Unit direction at `s`, in the order of drawing, over `reach` to either side as far as the line goes."""
         return unit(self.at(line, s + reach) - self.at(line, s - reach))
 
+    def thicker_away(self) -> Float[np.ndarray, " end"]:
+        """log of every line's width toward the other end over that toward this one."""
+        return np.stack([self.taper, -self.taper], 1).ravel()
+
     def leaving(self, reach: Float[np.ndarray, " line"]) -> Float[np.ndarray, "end 2"]:
         """Unit direction of every line as it leaves each of its ends, over `reach` of it."""
         line = np.repeat(np.arange(len(self)), 2)
@@ -99,6 +106,18 @@ class Bundle:
 
 
 def typical_width(width: Float[np.ndarray, " point"]) -> float:
-    """The middle one of a line's widths; NaN if they say nothing."""
-    known = width[np.isfinite(width)]
+    """The middle one of a line's widths; NaN if they say nothing. A width of 0 says nothing."""
+    known = width[width > 0]
     return float(np.median(known)) if len(known) else np.nan
+
+
+def taper(line: Line) -> float:
+    """log of a line's typical width over its last part to that over its first; 0 if they say nothing.
+
+    The very ends are left out: a pen presses lightly there whichever way it goes.
+    """
+    if not (line.width > 0).all() or line.width.max() == line.width.min():
+        return 0.0
+    width = np.interp(np.linspace(*TOWARD, 8) * line.length, line.along, line.width)
+    other = np.interp((1 - np.linspace(*TOWARD, 8)) * line.length, line.along, line.width)
+    return float(np.log(np.median(other) / np.median(width)))

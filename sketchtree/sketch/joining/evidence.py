@@ -20,6 +20,7 @@ how exactly this hand starts its strokes; r is the foot of the likeliest stem.
     tip         length along j from q to its tip
     place       foot / (foot + tip)
     thicker     log w_i / w_j of the drawn widths, where they say something
+    thins       log of i's drawn width toward its other end over that toward p, where it has more of it there: limbs taper to their tips
     before      1 if i was begun before j was, where the strokes have times
 
 `turn` to `place` depend on which end of j is its foot: column 0 if it is j's first point, 1 if its last.
@@ -74,6 +75,7 @@ def evidence(bundle: Bundle, arcs: Places, root: Float[np.ndarray, " 2"]) -> dic
         "aim": aims(bundle, row, arcs.parent, arcs.gap, NEAR),
         "aimed": aims(bundle, row, arcs.parent, arcs.gap, FAR_BACK),
         "thicker": np.nan_to_num(np.log(bundle.width[child] / bundle.width[parent]), nan=-np.inf),
+        "thins": np.maximum(bundle.thicker_away()[row], 0.0),
         "before": (bundle.time[child] < bundle.time[parent]).astype(float),
     }
     return {name: figure[:, None] for name, figure in figures.items()} | _turned(bundle, arcs, row)

@@ -1,11 +1,12 @@
 """Which lines make one limb, and where exactly do limbs meet?
 
-Every line is turned foot first. An overshoot at its foot is cut where it crosses its parent, a gap is
-bridged to the parent's nearest point. A line that starts at the foot of another
+Every line is turned foot first. An overshoot at its foot is cut where it crosses its parent; from there, or from the
+parent's nearest point, it is made to start: a narrow gap is closed, a wide one bridged. A line that starts at the foot of another
 is its sibling. Where lines start at the tip of another, the one that bends least carries that limb on (Chen §7 takes
 the smallest angle for the apical child).
 """
 
+import math
 from dataclasses import dataclass, field
 
 import numpy as np
@@ -29,7 +30,7 @@ STRAIGHT_ON = np.radians(75)  # a line that leaves a tip at more is a lateral th
 
 @dataclass(eq=False)
 class Limb:
-    """One branch: lines end to end. `parent` NULL for a stem."""
+    """One branch: lines end to end, from the point where it sits on its parent. `parent` NULL for a stem."""
 
     lines: list[int]
     points: Float[np.ndarray, "point 2"]
@@ -37,11 +38,19 @@ class Limb:
     row: Int[np.ndarray, " point"]  # stroke that drew each point
     parent: int = NULL
     s: float = 0.0  # where it sits, length along the parent limb
-    slack: float = 0.0  # its first points are dropped rather than bridged to where it sits, if no farther than this
     joins: list[float] = field(default_factory=list)  # lengths at which the next line begins
 
     def __post_init__(self):
-        self.along = np.r_[0.0, np.cumsum(np.hypot(*np.diff(self.points, axis=0).T))]
+        step = self.points[1:] - self.points[:-1]
+        self.along = np.zeros(len(self.points))
+        np.cumsum(np.hypot(step[:, 0], step[:, 1]), out=self.along[1:])
+
+    def at(self, s: float) -> Float[np.ndarray, " 2"]:
+        """The point at length `s`; beyond an end, the end."""
+        k = min(max(int(self.along.searchsorted(s)), 1), len(self.along) - 1)
+        low, high = float(self.along[k - 1]), float(self.along[k])
+        t = min(max((s - low) / (high - low), 0.0), 1.0) if high > low else 0.0
+        return self.points[k - 1] * (1 - t) + self.points[k] * t
 
     def line_at(self, s: float) -> int:
         """The line of this limb that drew length `s` (the earlier one at a join)."""
@@ -143,26 +152,36 @@ def _assemble(lines: list[Line], parent, s, order: list[int], heir: list[int], r
         while heir[chain[-1]] != NULL:
             chain.append(heir[chain[-1]])
         above = parent[first]
-        limb = _chain(lines, chain, offset, reach, height)
-        if above != NULL:
-            limb.parent, limb.s = limb_of[above], float(offset[above] + s[first])
-            limb.slack = max(SLACK * height, float(reach[above]))
+        if above == NULL:
+            limb = _chain(lines, chain, offset, reach, height)
+        else:
+            seat, place = limb_of[above], max(float(offset[above] + s[first]), 0.0)
+            limb = _chain(lines, chain, offset, reach, height, _started(lines[first], limbs[seat].at(place), max(SLACK * height, float(reach[above]))))
+            limb.parent, limb.s = seat, place
         for k in chain:
             limb_of[k] = len(limbs)
         limbs.append(limb)
     return limbs
 
 
-def _chain(lines: list[Line], chain: list[int], offset, reach, height: float) -> Limb:
-    """Lines end to end as one limb; writes the length at which each begins to `offset`."""
-    line = lines[chain[0]]
-    points, width, row, joins = line.points, line.width, np.full(len(line.points), line.row), []
-    length = line.length
+def _started(line: Line, junction, slack: float):
+    """(points, widths) of a line made to start at its junction, and what lengths along it gain by that."""
+    start = beyond(line.points, line.along, junction, slack)
+    points, width = np.concatenate([junction[None], line.points[start:]]), np.concatenate([line.width[start : start + 1], line.width[start:]])
+    return points, width, math.dist(line.points[start], junction) - float(line.along[start])
+
+
+def _chain(lines: list[Line], chain: list[int], offset, reach, height: float, started=None) -> Limb:
+    """Lines end to end as one limb, the first as `started` says; writes to `offset` what lengths along each gain."""
+    line, joins = lines[chain[0]], []
+    points, width, offset[chain[0]] = started or (line.points, line.width, 0.0)
+    row = np.full(len(points), line.row)
+    length = line.length + float(offset[chain[0]])
     for k, before in zip(chain[1:], chain, strict=False):
-        offset[k] = length
         joins.append(length)
         slack = max(SLACK * height, float(reach[before]))
         start = beyond(lines[k].points, lines[k].along, points[-1], slack)
+        offset[k] = length + math.dist(lines[k].points[start], points[-1]) - float(lines[k].along[start])
         points = np.concatenate([points, lines[k].points[start:]])
         width = np.concatenate([width, lines[k].width[start:]])
         row = np.concatenate([row, np.full(len(lines[k].points) - start, lines[k].row)])
@@ -172,7 +191,7 @@ def _chain(lines: list[Line], chain: list[int], offset, reach, height: float) ->
 
 def beyond(points, along, junction, slack: float) -> int:
     """The first point to keep when a line is made to start at `junction`: all, if the gap is wider than `slack`."""
-    gap = float(np.hypot(*(points[0] - junction)))
+    gap = math.dist(points[0], junction)
     if gap > slack:
         return 0
     return int(min(np.searchsorted(along, gap, side="right"), len(points) - 1))

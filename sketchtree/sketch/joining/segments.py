@@ -153,25 +153,13 @@ def _curves(limbs: list[Limb], bundle: Bundle, limb, s, row, table, height: floa
     """The drawn points strictly inside every segment."""
     of = np.repeat(np.arange(len(limbs)), np.diff(bundle.first))
     node = np.minimum(np.searchsorted(bundle.begin[limb] + s, bundle.run + SAME * height), len(limb) - 1)
-    start = table["xy"][table["parent"][row]][np.searchsorted(limb, np.arange(len(limbs)))]
-    kept = np.arange(len(of)) >= (bundle.first[:-1] + _skipped(limbs, bundle, start))[of]
+    kept = np.arange(len(of)) > bundle.first[of]
     begins = np.concatenate([[True], limb[1:] != limb[:-1]])
     since = np.where(begins[node], -np.inf, np.concatenate([[0.0], s[:-1]])[node] + SAME * height)
     apart = (bundle.points != table["xy"][table["parent"][row]][node]).any(1)
     kept &= (node < len(limb)) & (limb[node] == of) & (bundle.along < s[node] - SAME * height) & (bundle.along > since) & apart
     count = np.bincount(row[node[kept]], minlength=len(table["parent"]))
     return {"curve_points": bundle.points[kept], "curve_start": np.concatenate([[0], np.cumsum(count)])}
-
-
-def _skipped(limbs: list[Limb], bundle: Bundle, start) -> Int[np.ndarray, " limb"]:
-    """How many points at a limb's foot are dropped so that it starts at its junction, `start`: none if the gap is wide."""
-    begin = bundle.first[:-1]
-    gap = np.hypot(*(bundle.points[begin] - start).T)
-    slack = np.array([each.slack for each in limbs])
-    stem = np.array([each.parent == NULL for each in limbs])
-    past = np.searchsorted(bundle.run, bundle.begin + gap, side="right") - begin
-    past = np.where(gap > slack, 0, np.minimum(past, np.diff(bundle.first) - 1))
-    return np.where(stem, 1, past)
 
 
 def _trees(limbs: list[Limb], height: float) -> Int[np.ndarray, " limb"]:

@@ -24,7 +24,8 @@ def drawing(seed):
     made = random_lines(seed, 9)
     width = rng.choice([0.5, 1.0, 3.0, np.nan], 9)
     begun = rng.choice([*range(100), np.nan], 9)
-    return [replace(one, width=np.full(len(one.points), w), begun=t) for one, w, t in zip(made, width, begun, strict=True)]
+    taper = rng.choice([1.0, 0.4, 3.0], 9)
+    return [replace(one, width=w * np.linspace(1, r, len(one.points)), begun=t) for one, w, r, t in zip(made, width, taper, begun, strict=True)]
 
 
 class Twin:
@@ -49,7 +50,7 @@ class Twin:
     def gap(self):
         if self._crossing() is not None:
             return 0.0
-        half = 0.5 * float(np.nan_to_num(self.parent.width[0]))
+        half = 0.5 * float(np.nan_to_num(np.median(self.parent.width)))
         return (self.gap_drawn - 0.65 * min(self.gap_drawn, half)) / self.h
 
     def miss(self):
@@ -92,8 +93,13 @@ class Twin:
         return self.parent.shape.distance(shapely.Point(self.footed.at(reach))) / reach
 
     def thicker(self):
-        ratio = np.log(self.child.width[0] / self.parent.width[0])
+        ratio = np.log(np.median(self.child.width) / np.median(self.parent.width))
         return -np.inf if np.isnan(ratio) else ratio
+
+    def thins(self):
+        places = [np.linspace(0.05, 0.35, 8), np.linspace(0.65, 0.95, 8)]
+        near, far = (np.median(np.interp(at * self.footed.length, self.footed.along, self.footed.width)) for at in places)
+        return 0.0 if np.isnan(near) else max(np.log(far / near), 0.0)
 
     def before(self):
         return float(self.child.begun < self.parent.begun)
@@ -139,9 +145,10 @@ def test_every_figure_is_what_the_docstring_says(seed):
 
 def test_the_random_drawings_show_what_is_to_be_shown():
     parts = [(b := Bundle.of(drawing(seed)), p := nearest_places(b), evidence(b, p, ROOT)) for seed in range(8)]
-    shown = {name: np.concatenate([figures[name].ravel() for _, _, figures in parts]) for name in ("over", "aim", "at_tip", "before", "thicker", "gap")}
+    shown = {name: np.concatenate([figures[name].ravel() for _, _, figures in parts]) for name in ("over", "aim", "at_tip", "before", "thicker", "thins", "gap")}
     assert (shown["over"] > 0).sum() > 5 and (shown["aim"] < 2 * LOOK[NEAR]).sum() > 5 and (shown["at_tip"] > 0).sum() > 5
     assert {0.0, 1.0} == set(shown["before"]) and np.isinf(shown["thicker"]).any() and (shown["gap"] == 0).any()
+    assert (shown["thins"] > 0.5).sum() > 5 and (shown["thins"] == 0).any()
 
 
 def arc(*strokes, end=0):

@@ -2,12 +2,12 @@ import numpy as np
 import pytest
 
 from sketchtree.sketch.joining.fitted import BASE, CURVES
-from sketchtree.sketch.joining.likelihood import AS_THICK, BEFORE, THICKER, arc_costs, slip_costs
+from sketchtree.sketch.joining.likelihood import AS_THICK, BEFORE, EVEN, MOST, THICKER, THINS, arc_costs, slip_costs
 
 
 def figures(count=1, **columns):
     """Every figure 0 but those given."""
-    table = {name: np.zeros((count, 1)) for name in (*CURVES, "thicker", "before")}
+    table = {name: np.zeros((count, 1)) for name in (*CURVES, "thicker", "thins", "before")}
     table["thicker"] = np.full((count, 1), -np.inf)
     return table | {name: np.array(value, float).reshape(count, -1) for name, value in columns.items()}
 
@@ -34,6 +34,11 @@ def test_a_figure_of_two_columns_counts_for_each_by_itself():
 @pytest.mark.parametrize(("thicker", "cost"), [(-np.inf, 0.0), (-1.0, 0.0), (-AS_THICK, 0.0), (0.0, THICKER * AS_THICK), (1.0, THICKER * (1 + AS_THICK))])
 def test_a_branch_thicker_than_its_parent_costs_more(thicker, cost):
     assert arc_costs(figures(thicker=thicker)) - arc_costs(figures()) == pytest.approx(cost)
+
+
+@pytest.mark.parametrize(("thins", "cost"), [(0.0, 0.0), (EVEN, 0.0), (0.6, THINS * (0.6 - EVEN)), (9.0, THINS * MOST)])
+def test_to_grow_from_the_thinner_end_costs_more_up_to_a_bound(thins, cost):
+    assert arc_costs(figures(thins=thins)) - arc_costs(figures()) == pytest.approx(cost)
 
 
 def test_a_branch_begun_before_its_parent_costs_a_little_more():
