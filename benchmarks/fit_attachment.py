@@ -33,6 +33,8 @@ TARGET = Path(fitted.__file__)
 FIRST_SEED = 1000  # of the trees grown for this
 ORDERS = (2, 3, 4)
 HANDS: tuple[dict, ...] = (
+    {"jitter": 0.0, "slips": 0.0},
+    {"jitter": 0.2, "slips": 0.3},
     {"jitter": 0.0, "slips": 0.3},
     {"jitter": 0.0},
     {"jitter": 1.0},
@@ -41,6 +43,7 @@ HANDS: tuple[dict, ...] = (
     {"jitter": 1.0, "short": False},
     {"jitter": 2.0, "short": False},
     {"jitter": 1.0, "moored": False},
+    {"jitter": 2.0, "moored": False},
 )
 _TURNS = tuple(np.radians([0, 20, 40, 60, 80, 100, 120, 150, 180]).round(4).tolist())
 KNOTS = {

@@ -1,6 +1,6 @@
 """Does every stroke hang where it truly grows? Careless drawings of known trees, read and compared.
 
-    python -m benchmarks.topology                       the curve over the jitter, both ways of wobbling
+    python -m benchmarks.topology                       the curve over the jitter, for three hands
     python -m benchmarks.topology --drawings 20 --jitter 1 3
     python -m benchmarks.topology --record              write data/topology_record.json; the tests hold later versions to it
 
@@ -14,7 +14,11 @@ Trees: the exemplars of the database and the measured trees, seen from any side,
     strokes    share of true strokes of which that first segment is right (segments within a stroke are easy)
     reversed   share of strokes whose tip was taken for the foot
     joined     share of strokes wrongly taken to carry another on from its tip
+    listed     share of strokes whose true parent is the one taken or one of the report's alternatives
     nearest    share of strokes with the right parent by a baseline: longest first, each to the nearest before it
+
+Three hands (`shaky` says more): `short` stops short of the junction, `aside` starts off to any side of it, `adrift` does not look at
+what it has drawn: every stroke wanders by itself.
 """
 
 import argparse
@@ -41,7 +45,8 @@ WAYS: dict[str, dict[str, bool]] = {"short": {}, "aside": {"short": False}, "adr
 MARGIN = 0.03  # of H: how far beyond a junction the way to the root is looked at
 NEAR = 0.01  # of H: nearer than this to a line is on it
 STEP = 0.002  # of H, between points on the read curves
-FIGURES = ("segments", "strokes", "reversed", "joined", "nearest")
+FIXED, FIXED_SEED = (("short", 1.0), ("short", 3.0), ("aside", 1.0)), 500  # what the tests hold
+FIGURES = ("segments", "strokes", "listed", "reversed", "joined", "nearest")
 
 
 def trees(folder: Path | None = None) -> Iterator[tuple[str, object]]:
@@ -85,6 +90,7 @@ def score(drawn: Wobbly, graph: SketchGraph) -> dict[str, float]:
     return {
         "segments": float(np.concatenate(walked).mean()),
         "strokes": float(np.array([walk[0] for walk in walked])[inner].mean()),
+        "listed": float(_listed(drawn, graph)[inner].mean()),
         "reversed": float(_reversed(drawn, graph)[inner].mean()),
         "joined": float(_joined(drawn, graph)[inner].mean()),
         "nearest": float(_reported(drawn, nearest_first(drawn.sketch))[inner].mean()),
@@ -104,6 +110,16 @@ def _reported(drawn: Wobbly, pairs) -> np.ndarray:
         if child != above:
             found[child].add(above)
     return np.array([above == {int(true)} for above, true in zip(found, drawn.parent, strict=True)])
+
+
+def _listed(drawn: Wobbly, graph: SketchGraph) -> np.ndarray:
+    """Of every true stroke: is its parent the one taken, or among the alternatives?"""
+    owner, found = _owner(drawn), np.zeros(len(drawn.line), bool)
+    for a in graph.attachments:
+        k = owner[a.stroke]
+        named = {a.parent, *(name for name, _ in a.alternatives)}
+        found[k] |= int(drawn.parent[k]) in {NULL if name is None else owner.get(name, NULL) for name in named}
+    return found
 
 
 def _walked(drawn: Wobbly, graph: SketchGraph) -> list[np.ndarray]:
@@ -213,6 +229,16 @@ def curve(count: int, jitters, ways=tuple(WAYS), *, first_seed: int = 0, source=
     return table
 
 
+def fixed(source=None) -> dict[str, dict[str, float]]:
+    """The figures of the small set that the tests hold: "hand jitter" → figure."""
+    source = list(trees() if source is None else source)
+    found = {}
+    for hand, jitter in FIXED:
+        rows = curve(2 * len(source), [jitter], [hand], first_seed=FIXED_SEED, source=source)[hand]
+        found |= {f"{hand} {j}": figures for j, figures in rows.items()}
+    return found
+
+
 def printed(table) -> str:
     """The curve as text, percent."""
     lines = [f"{'':8s}{'j %H':>6s}" + "".join(f"{name:>10s}" for name in FIGURES)]
@@ -234,8 +260,13 @@ def main(arguments: list[str] | None = None) -> None:
     table = curve(options.drawings, options.jitter, options.way, first_seed=options.seed, source=trees(options.skeletons))
     print(printed(table))
     if options.record:
-        rounded = {way: {j: {name: round(v, 4) for name, v in row.items()} for j, row in rows.items()} for way, rows in table.items()}
-        RECORD.write_text(json.dumps({"drawings": options.drawings, "curve": rounded}, indent=1) + "\n")
+        rounded = {way: {j: _rounded(row) for j, row in rows.items()} for way, rows in table.items()}
+        small = {case: _rounded(row) for case, row in fixed().items()}
+        RECORD.write_text(json.dumps({"drawings": options.drawings, "curve": rounded, "fixed": small}, indent=1) + "\n")
+
+
+def _rounded(figures: dict[str, float]) -> dict[str, float]:
+    return {name: round(figure, 4) for name, figure in figures.items()}
 
 
 if __name__ == "__main__":

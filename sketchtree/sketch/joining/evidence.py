@@ -4,7 +4,7 @@ An arc is an end p of line i and the nearest point q of line j. Lengths are part
 how exactly this hand starts its strokes; r is the foot of the likeliest stem.
 
     gap         |p − q|; within the half width of j a third of it counts; 0 where i crosses j within OVERSHOOT of p
-    miss        the larger of `gap` and `over`; the caller makes of it the slip, miss / ε, once it knows ε
+    miss        |p − q|, within the half width of j a third of it, also where i crosses j: at an acute angle far less than `over`; the caller makes of it the slip, miss / ε, once it knows ε
     over        how far before that crossing i was begun
     rise        Δy / |i| from i's other end up to p: branches rise more often than they fall
     outward     (|tip − r| − |p − r|) / |i|: branches lead away from the stem's foot
@@ -60,12 +60,13 @@ def evidence(bundle: Bundle, arcs: Places, root: Float[np.ndarray, " 2"]) -> dic
     row = 2 * child + arcs.end
     over = overshoots(bundle, arcs)
     inside = np.minimum(arcs.gap, 0.5 * np.nan_to_num(bundle.width[parent]))
-    gap = np.where(over >= 0, 0.0, arcs.gap - 0.65 * inside)
+    miss = arcs.gap - 0.65 * inside
+    gap = np.where(over >= 0, 0.0, miss)
     foot, tip = bundle.ends[row], bundle.ends[row ^ 1]
     figures = {
         "gap": gap / h,
         "over": np.maximum(over, 0.0) / h,
-        "miss": np.maximum(gap, over) / h,
+        "miss": miss / h,
         "rise": (foot - tip)[:, 1] / length[child],
         "outward": (_away(tip, root) - _away(foot, root)) / length[child],
         "longer": np.log(length[child] / length[parent]),

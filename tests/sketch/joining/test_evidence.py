@@ -48,13 +48,11 @@ class Twin:
         return (self._crossing() or 0.0) / self.h
 
     def gap(self):
-        if self._crossing() is not None:
-            return 0.0
-        half = 0.5 * float(np.nan_to_num(np.median(self.parent.width)))
-        return (self.gap_drawn - 0.65 * min(self.gap_drawn, half)) / self.h
+        return 0.0 if self._crossing() is not None else self.miss()
 
     def miss(self):
-        return max(self.gap(), self.over())
+        half = 0.5 * float(np.nan_to_num(np.median(self.parent.width)))
+        return (self.gap_drawn - 0.65 * min(self.gap_drawn, half)) / self.h
 
     def rise(self):
         return (self.p - self.other)[1] / self.child.length
