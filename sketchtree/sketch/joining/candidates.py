@@ -13,6 +13,7 @@ from sketchtree.sketch.joining.lines import Line
 
 NEAREST = 16  # strokes tried for every end, half as many in a drawing of more than MANY
 MANY = 1000
+FEW = 200  # up to so many strokes they are looked for farther off at once
 LIKELY = 16  # arcs kept of every line
 TOUCHES = 0.001  # of H: up to eight times as many are tried where they are as near as this
 FOOT = 0.006  # of H: nearer to an end than this is at the end
@@ -91,7 +92,7 @@ def _near(bundle: Bundle):
     tree = shapely.STRtree(bundle.shapes)
     wanted = min(NEAREST if count <= MANY else NEAREST // 2, count - 1)
     points = shapely.points(bundle.ends)
-    pending, radius, found = np.arange(2 * count), 0.3 * bundle.height / np.sqrt(100 + count), []
+    pending, radius, found = np.arange(2 * count), (0.3 if count > FEW else 1.2) * bundle.height / np.sqrt(100 + count), []
     while len(pending) and wanted:
         row, line = tree.query(points[pending], predicate="dwithin", distance=radius)
         row = pending[row]
