@@ -62,10 +62,12 @@ def read_raster(
     tell = progress or (lambda part: None)
     picture = read_picture(data, name, max_megapixels=max_megapixels)
     tell(0.2)
-    ink, painted = _ink(picture, name)
+    ink, painted, table = _ink(picture, name)
     tell(0.5)
     read = _lines(ink, name)
     notes = read.warnings
+    if table:
+        notes.append("What lies around the page, far darker than it, was left out.")
     tell(0.9)
     if len(read.lines) > max_strokes:
         raise SketchError(
@@ -87,8 +89,8 @@ def read_raster(
     return Sketch(strokes, name=name, units="px", page=page, warnings=(*picture.warnings, *notes))
 
 
-def _ink(picture: Picture, name: str) -> tuple[Ink, Painted | None]:
-    """The ink of a picture, and what of it is painted area instead."""
+def _ink(picture: Picture, name: str) -> tuple[Ink, Painted | None, bool]:
+    """(the ink of a picture, what of it is painted area instead, whether something around the page was left out)."""
     painted = painted_areas(picture.rgb) if picture.rgb is not None else None
     dark = darkness(picture.grey)
     if painted is not None:
@@ -97,7 +99,7 @@ def _ink(picture: Picture, name: str) -> tuple[Ink, Painted | None]:
     if ink is None:
         raise no_ink(name)
     check_ink(ink, name)
-    return ink, painted
+    return ink, painted, dark.outside
 
 
 def _lines(ink: Ink, name: str) -> Read:

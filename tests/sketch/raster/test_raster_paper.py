@@ -72,6 +72,7 @@ def test_the_table_around_a_photographed_page_is_not_read():
     table = Image.new("L", (420, 480), 60)
     table.paste(page, (60, 60))
     sketch = sheets.read(table)
+    assert "What lies around the page, far darker than it, was left out." in sketch.warnings
     moved = [line + 60 for line in sheets.TREE]
     assert sheets.farthest(sheets.curves(sketch), moved) < 3.0
     assert sheets.farthest(moved, sheets.curves(sketch)) < 14.0  # the trunk ends 15 pixels from the page's edge
