@@ -4,7 +4,7 @@ import numpy as np
 import pytest
 from little_lines import line, lines, random_lines
 
-from sketchtree.sketch.joining.bundle import Bundle, typical_width
+from sketchtree.sketch.joining.bundle import Bundle, taper, typical_width
 from sketchtree.sketch.joining.lines import extent, unit
 
 SEEDS = pytest.mark.parametrize("seed", range(4))
@@ -81,3 +81,24 @@ def test_times_and_widths_are_one_a_line():
 def test_widths_that_say_nothing_are_left_out_of_the_middle_one():
     assert typical_width(np.array([np.nan, 3.0, 1.0, np.nan, 2.0])) == 2.0
     assert np.isnan(typical_width(np.array([np.nan])))
+
+
+def test_a_width_of_nothing_says_nothing():
+    assert typical_width(np.array([0.0, 0.0, 3.0])) == 3.0 and taper(line([(0, 0), (0, 9), (0, 10)], width=[0.0, 1.0, 2.0])) == 0.0
+
+
+def test_taper_is_the_log_ratio_of_the_widths_toward_both_ends():
+    y = np.linspace(0, 10, 101)
+    one = line(np.stack([0 * y, y], 1), width=np.where(y < 5, 4.0, 1.0))
+    assert taper(one) == pytest.approx(-np.log(4)) and taper(one.reversed()) == pytest.approx(np.log(4))
+    assert Bundle.of([one, one.reversed()]).thicker_away() == pytest.approx(np.log(4) * np.array([-1, 1, 1, -1]))
+
+
+def test_a_light_touch_at_the_very_ends_is_no_taper():
+    y = np.linspace(0, 10, 101)
+    pressed = line(np.stack([0 * y, y], 1), width=np.where((y < 0.4) | (y > 9.7), 0.5, 3.0))
+    assert taper(pressed) == pytest.approx(0.0)
+
+
+def test_without_widths_there_is_no_taper():
+    assert taper(line([(0, 0), (0, 10)])) == 0.0

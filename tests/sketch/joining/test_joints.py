@@ -135,6 +135,24 @@ def test_a_gap_within_the_ink_of_the_parent_is_closed_a_wider_one_bridged(ink, c
     assert branch.points.tolist() == [[0, 50], *([] if closed else [[5, 50]]), [20, 60], [40, 80]]
 
 
+@pytest.mark.parametrize(("twig", "parent_s"), [([(30, 50), (40, 80)], 20), ([(12, 50), (20, 80)], 2)])
+def test_lengths_along_a_bridged_limb_count_from_its_junction(twig, parent_s):
+    limbs = joined(TRUNK, [(10, 50), (50, 50)], twig, parent=[NULL, 0, 1], s=[0, 50, parent_s])
+    assert limbs[2].s == parent_s + 10 and limbs[1].at(limbs[2].s).tolist() == list(twig[0])
+
+
+def test_lengths_along_a_closed_limb_count_from_its_junction():
+    first = np.hypot(4, 0.5)
+    limbs = joined(TRUNK, [(1, 50), (5, 50.5), (50, 50.5)], [(30, 50.5), (40, 80)], parent=[NULL, 0, 1], s=[0, 50, first + 25])
+    assert limbs[1].points.tolist() == [[0, 50], [5, 50.5], [50, 50.5]]
+    assert limbs[1].at(limbs[2].s) == pytest.approx([30, 50.5])
+
+
+def test_lengths_beyond_a_limbs_ends_are_its_ends():
+    (stem,) = joined([(0, 0), (0, 40), (0, 100)], parent=[NULL])
+    assert [stem.at(s).tolist() for s in (-5, 0, 20, 40, 100, 105)] == [[0, 0], [0, 0], [0, 20], [0, 40], [0, 100], [0, 100]]
+
+
 def test_crossings_are_kept_apart():
     limbs, table, _ = grown(TRUNK, [(0, 20), (60, 80)], [(0, 80), (70, 50)])
     crossing = shapely.LineString([(0, 20), (60, 80)]).intersection(shapely.LineString([(0, 80), (70, 50)]))
