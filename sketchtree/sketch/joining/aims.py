@@ -29,5 +29,5 @@ def aims(bundle: Bundle, row: Int[np.ndarray, " arc"], parent: Int[np.ndarray, "
     met = shapely.intersects(rays[row[close]], shapes)
     close, shapes = close[met], shapes[met]
     places = shapely.intersection(rays[row[close]], shapes)
-    found[close] = shapely.distance(shapely.points(bundle.ends[row[close]]), places) / bundle.height
+    found[close] = shapely.distance(bundle.end_shapes[row[close]], places) / bundle.height
     return found

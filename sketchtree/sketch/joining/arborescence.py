@@ -24,10 +24,11 @@ def arborescence(
 
     Every node must be reachable from the root.
     """
-    chosen = _cheapest(head, cost, node_count, root)
+    order = np.lexsort((cost, head))
+    chosen = _cheapest(order, head, node_count, root)
     if _reaches(tail, chosen, root):
         return chosen
-    forest = _Contraction(tail.tolist(), head.tolist(), cost.tolist(), node_count)
+    forest = _Contraction(tail, head, cost, order, node_count)
     forest.state[root] = _DONE
     for start in range(node_count):
         forest.walk(start)
@@ -36,9 +37,8 @@ def arborescence(
     return chosen
 
 
-def _cheapest(head, cost, node_count: int, root: int) -> Int[np.ndarray, " node"]:
-    """The cheapest arc into every node."""
-    order = np.lexsort((cost, head))
+def _cheapest(order, head, node_count: int, root: int) -> Int[np.ndarray, " node"]:
+    """The cheapest arc into every node: the first of it in `order`."""
     chosen = np.full(node_count, NULL)
     nodes, first = np.unique(head[order], return_index=True)
     chosen[nodes] = order[first]
@@ -57,13 +57,12 @@ def _reaches(tail, chosen, root: int) -> bool:
 class _Contraction:
     """The graph while cycles are being contracted; nodes from `node_count` on are cycles."""
 
-    def __init__(self, tail: list[int], head: list[int], cost: list[float], node_count: int):
-        self.tail, self.head = tail, head
-        self.heap: list[list[tuple[float, int]]] = [[] for _ in range(node_count)]
-        for arc, (node, value) in enumerate(zip(head, cost, strict=True)):
-            self.heap[node].append((value, arc))
-        for heap in self.heap:
-            heapq.heapify(heap)
+    def __init__(self, tail, head, cost, order, node_count: int):
+        self.tail, self.head = tail.tolist(), head.tolist()
+        order = order[np.sort(np.unique(head[order] * node_count + tail[order], return_index=True)[1])]  # of arcs alike the cheapest
+        arcs = list(zip(cost[order].tolist(), order.tolist(), strict=True))
+        bounds = np.searchsorted(head[order], np.arange(node_count + 1)).tolist()
+        self.heap = [arcs[low:high] for low, high in zip(bounds[:-1], bounds[1:], strict=True)]  # in order: a heap
         self.taken_off = [0.0] * node_count
         self.state = [_NEW] * node_count
         self.arc = [NULL] * node_count  # the best into each

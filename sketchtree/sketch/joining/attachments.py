@@ -21,14 +21,13 @@ def describe(
     attachments = []
     foot = _foot_rows(len(cleaned.lines), limbs, rows)
     above = _owners(cleaned.lines, limbs)
-    for k, line in enumerate(cleaned.lines):
-        point = xy[foot[k]]
-        gap = float(np.hypot(*(line.points[-1 if hanging.end[k] else 0] - point)))
-        others = tuple((cleaned.lines[other].id, round(cost, 4)) for other, cost in hanging.alternatives[k])
+    feet = np.array([line.points[-1 if end else 0] for line, end in zip(cleaned.lines, hanging.end.tolist(), strict=True)])
+    off = feet - xy[foot]
+    figures = zip(xy[foot].tolist(), np.hypot(off[:, 0], off[:, 1]).tolist(), (hanging.cost % FORBIDDEN).tolist(), strict=True)
+    for k, (line, (place, gap, cost)) in enumerate(zip(cleaned.lines, figures, strict=True)):
+        others = tuple((cleaned.lines[other].id, round(price, 4)) for other, price in hanging.alternatives[k])
         parent, reason = above[k]
-        cost = float(hanging.cost[k] % FORBIDDEN)
-        place = (float(point[0]), float(point[1]))
-        attachments.append(Attachment(line.id, parent, place, gap, round(cost, 4), others, _reason(reason, gap, height)))
+        attachments.append(Attachment(line.id, parent, tuple(place), gap, round(cost, 4), others, _reason(reason, gap, height)))
     for line, owner, why in cleaned.merged:
         x, y = line.points[0].tolist()
         attachments.append(Attachment(line.id, stroke_ids[owner], (x, y), 0.0, 0.0, (), why))

@@ -31,8 +31,10 @@ class Bundle:
     @classmethod
     def of(cls, lines: list[Line]) -> "Bundle":
         """The lines as arrays; at least one line."""
-        width = np.array([typical_width(line.width) for line in lines])
-        return cls.of_points([line.points for line in lines], width, np.array([taper(line) for line in lines]), np.array([line.begun for line in lines]))
+        known = bool((np.concatenate([line.width for line in lines]) > 0).any())
+        width = np.array([typical_width(line.width) for line in lines]) if known else np.nan
+        tapers = np.array([taper(line) for line in lines]) if known else 0.0
+        return cls.of_points([line.points for line in lines], width, tapers, np.array([line.begun for line in lines]))
 
     @classmethod
     def of_points(cls, lines: list[Float[np.ndarray, "point 2"]], width=np.nan, taper=0.0, time=np.nan) -> "Bundle":
@@ -78,16 +80,21 @@ class Bundle:
         """First and last point of every line, alternating: end 2 k + e is end e of line k."""
         return self.points[np.stack([self.first[:-1], self.first[1:] - 1], 1).ravel()]
 
+    @cached_property
+    def end_shapes(self) -> np.ndarray:
+        """The same points for shapely (end)."""
+        return shapely.points(self.ends)
+
     def after(self, line: Int[np.ndarray, "*place"], s: Float[np.ndarray, "*place"]) -> Int[np.ndarray, "*place"]:
         """The point that ends the piece on which length `s` of each line lies."""
-        found = np.searchsorted(self.run, self.begin[line] + s)
-        return np.clip(found, self.first[line] + 1, self.first[line + 1] - 1)
+        found = self.run.searchsorted(self.begin[line] + s)
+        return np.minimum(np.maximum(found, self.first[line] + 1), self.first[line + 1] - 1)
 
     def at(self, line: Int[np.ndarray, "*place"], s: Float[np.ndarray, "*place"]) -> Float[np.ndarray, "*place 2"]:
         """The points at lengths `s` of lines `line`; beyond an end, the end."""
         after = self.after(line, s)
         low, high = self.along[after - 1], self.along[after]
-        t = np.clip((s - low) / np.where(high > low, high - low, 1.0), 0.0, 1.0)[..., None]
+        t = np.minimum(np.maximum((s - low) / np.where(high > low, high - low, 1.0), 0.0), 1.0)[..., None]
         return self.points[after - 1] * (1 - t) + self.points[after] * t
 
     def direction(self, line, s, reach) -> Float[np.ndarray, "*place 2"]:

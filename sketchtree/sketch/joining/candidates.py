@@ -1,5 +1,6 @@
 """Which strokes could each stroke grow from? Every end of a stroke is tried on the strokes nearest to it."""
 
+import math
 from dataclasses import dataclass, fields
 
 import numpy as np
@@ -66,12 +67,12 @@ def bridging_arcs(bundle: Bundle, inside: Bool[np.ndarray, " line"], root: Float
     rows = np.flatnonzero(np.repeat(inside, 2))
     outside = np.flatnonzero(~inside)
     tree = shapely.STRtree(bundle.shapes[outside])
-    (row, parent), gap = tree.query_nearest(shapely.points(bundle.ends[rows]), return_distance=True)
+    (row, parent), gap = tree.query_nearest(bundle.end_shapes[rows], return_distance=True)
     return _costed(bundle, _places(bundle, rows[row], outside[parent], gap), root)
 
 
 def _places(bundle: Bundle, row, parent, gap) -> Places:
-    s = shapely.line_locate_point(bundle.shapes[parent], shapely.points(bundle.ends[row]))
+    s = shapely.line_locate_point(bundle.shapes[parent], bundle.end_shapes[row])
     return Places(row // 2, row % 2, parent, s, gap)
 
 
@@ -82,8 +83,8 @@ def _costed(bundle: Bundle, places: Places, root) -> Arcs:
 
 def foot_reach(line: Line, height: float) -> float:
     """Within this length of an end, a point counts as being at that end: in the ink of it, or within little of H."""
-    width = np.nanmax(line.width) if np.isfinite(line.width).any() else 0.0
-    return float(min(max(FOOT * height, width), 0.3 * line.length))
+    widest = float(np.fmax.reduce(line.width))
+    return min(max(FOOT * height, widest) if math.isfinite(widest) else FOOT * height, 0.3 * line.length)
 
 
 def _near(bundle: Bundle):
@@ -91,21 +92,21 @@ def _near(bundle: Bundle):
     count = len(bundle)
     tree = shapely.STRtree(bundle.shapes)
     wanted = min(NEAREST if count <= MANY else NEAREST // 2, count - 1)
-    points = shapely.points(bundle.ends)
-    pending, radius, found = np.arange(2 * count), (0.3 if count > FEW else 1.2) * bundle.height / np.sqrt(100 + count), []
+    pending, radius, found = np.arange(2 * count), (0.3 if count > FEW else 2.5) * bundle.height / np.sqrt(100 + count), []
     while len(pending) and wanted:
-        row, line = tree.query(points[pending], predicate="dwithin", distance=radius)
+        x, y = bundle.ends[pending].T
+        row, line = tree.query(shapely.box(x - radius, y - radius, x + radius, y + radius))
         row = pending[row]
         other = row // 2 != line
         row, line = row[other], line[other]
-        enough = np.bincount(row, minlength=2 * count) >= wanted
-        done = enough[row]
-        found.append((row[done], line[done]))
+        gap = shapely.distance(bundle.end_shapes[row], bundle.shapes[line])
+        enough = np.bincount(row[gap <= radius], minlength=2 * count) >= wanted
+        done = enough[row] & (gap <= radius)
+        found.append((row[done], line[done], gap[done]))
         pending, radius = pending[~enough[pending]], radius * 2
     if not found:
         return (np.zeros(0, np.int64),) * 2 + (np.zeros(0),)
-    row, line = (np.concatenate(part) for part in zip(*found, strict=True))
-    gap = shapely.distance(points[row], bundle.shapes[line])
+    row, line, gap = (np.concatenate(part) for part in zip(*found, strict=True))
     order = np.lexsort((line, gap, row))
     row, line, gap = row[order], line[order], gap[order]
     rank = np.arange(len(row)) - np.searchsorted(row, row)

@@ -13,7 +13,7 @@ from jaxtyping import Float, Int
 
 from sketchtree.errors import SketchError
 from sketchtree.sketch.joining.folding import AGAIN, CUSP, DOT, farthest, unfolded
-from sketchtree.sketch.joining.lines import Line, extent, turning
+from sketchtree.sketch.joining.lines import Line, corners, ends_of, extent, turning
 from sketchtree.sketch.joining.tremor import STILL, without_tremor
 
 INK = 0.0012  # of H: a stroke nowhere farther than this from another is part of it
@@ -35,14 +35,15 @@ class Cleaned:
 def clean(lines: list[Line]) -> Cleaned:
     """Drop dots, cut strokes that turn back on themselves, still the tremor, merge repeated ones."""
     height = extent(lines)
-    kept = [line for line in lines if float(np.ptp(line.points, axis=0).max()) >= DOT * height]
+    low, high = corners(lines)
+    kept = [line for line, size in zip(lines, (high - low).max(1).tolist(), strict=True) if size >= DOT * height]
     if not kept:
         raise _far_apart(lines)
     kept_ids = {line.id for line in kept}
     dots = tuple(line.id for line in lines if line.id not in kept_ids)
     parts = [part for line, turn in zip(kept, turning(kept), strict=True) for part in (unfolded(line, height) if turn > CUSP else [line])]
     parts = [without_tremor(part, height) if turn > STILL else part for part, turn in zip(parts, turning(parts), strict=True)]
-    ordered = sorted((_upward(part) for part in parts), key=lambda line: _rank(line, height))
+    ordered = _ordered([_upward(part) for part in parts], height)
     owner = _owners(ordered, height)
     merged = [(line, ordered[o].row, AGAIN_OVER) for line, o in zip(ordered, owner, strict=True) if o >= 0]
     own = [line for line, o in zip(ordered, owner, strict=True) if o < 0]
@@ -78,10 +79,13 @@ def _upward(line: Line) -> Line:
     return line if (first[1], first[0]) <= (last[1], last[0]) else line.reversed()
 
 
-def _rank(line: Line, height: float) -> tuple:
-    """A place in the order that depends on the line's shape alone."""
-    rounded = np.round(np.r_[-line.length, line.points[0, 1], line.points[-1, 1]] / height, 9)
-    return (*rounded.tolist(), line.points[0, 0], line.points[-1, 0])
+def _ordered(lines: list[Line], height: float) -> list[Line]:
+    """The lines in an order that depends on their shapes alone: the longest first, then by the heights of their ends."""
+    ends = ends_of(lines).reshape(-1, 2, 2)
+    length = np.array([line.length for line in lines])
+    high = np.round(np.stack([-length, ends[:, 0, 1], ends[:, 1, 1]]) / height, 9)
+    order = np.lexsort((ends[:, 1, 0], ends[:, 0, 0], high[2], high[1], high[0]))
+    return [lines[k] for k in order.tolist()]
 
 
 def _owners(lines: list[Line], height: float) -> Int[np.ndarray, " line"]:

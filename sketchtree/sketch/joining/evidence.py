@@ -72,7 +72,7 @@ def evidence(bundle: Bundle, arcs: Places, root: Float[np.ndarray, " 2"]) -> dic
         "longer": np.log(length[child] / length[parent]),
         "size": np.log(length[parent] / h),
         "carries": _carries(bundle, arcs, row),
-        "beside": _beside(bundle, arcs),
+        "beside": _beside(bundle, arcs, row),
         "aim": aims(bundle, row, arcs.parent, arcs.gap, NEAR),
         "aimed": aims(bundle, row, arcs.parent, arcs.gap, FAR_BACK),
         "thicker": np.nan_to_num(np.log(bundle.width[child] / bundle.width[parent]), nan=-np.inf),
@@ -110,11 +110,10 @@ def _carries(bundle: Bundle, arcs: Places, row) -> Float[np.ndarray, " arc"]:
     return count[arcs.parent] - (nearest[row] == arcs.parent).astype(float)
 
 
-def _beside(bundle: Bundle, arcs: Places) -> Float[np.ndarray, " arc"]:
-    length = bundle.length[arcs.child]
-    reach = np.minimum(BESIDE * bundle.height, 0.5 * length)
-    point = bundle.at(arcs.child, np.where(arcs.end == 0, reach, length - reach))
-    return shapely.distance(shapely.points(point), bundle.shapes[arcs.parent]) / reach
+def _beside(bundle: Bundle, arcs: Places, row) -> Float[np.ndarray, " arc"]:
+    reach = np.minimum(BESIDE * bundle.height, 0.5 * bundle.length)
+    point = bundle.at(np.repeat(np.arange(len(bundle)), 2), np.stack([reach, bundle.length - reach], 1).ravel())
+    return shapely.distance(shapely.points(point)[row], bundle.shapes[arcs.parent]) / reach[arcs.child]
 
 
 def overshoots(bundle: Bundle, arcs: Places) -> Float[np.ndarray, " arc"]:
@@ -128,7 +127,7 @@ def overshoots(bundle: Bundle, arcs: Places) -> Float[np.ndarray, " arc"]:
     stub, parent = _stubs(bundle, feet // 2, feet % 2, reach[feet // 2])[index], bundle.shapes[arcs.parent[close]]
     met = np.flatnonzero(shapely.intersects(stub, parent))
     crossing = shapely.intersection(stub[met], parent[met])
-    over[close[met]] = shapely.hausdorff_distance(shapely.points(bundle.ends[feet[index[met]]]), crossing)
+    over[close[met]] = shapely.hausdorff_distance(bundle.end_shapes[feet[index[met]]], crossing)
     return over
 
 

@@ -7,7 +7,9 @@ the smallest angle for the apical child).
 """
 
 import math
+from bisect import bisect_left
 from dataclasses import dataclass, field
+from functools import cached_property
 
 import numpy as np
 import shapely
@@ -18,7 +20,7 @@ from sketchtree.sketch.joining.attach import Hanging
 from sketchtree.sketch.joining.bundle import Bundle
 from sketchtree.sketch.joining.candidates import foot_reach
 from sketchtree.sketch.joining.evidence import REACH
-from sketchtree.sketch.joining.lines import Line, angle_between, unit
+from sketchtree.sketch.joining.lines import Line, angle_between, lengths, unit
 
 SLACK = 0.012  # of H: a wider gap between a foot and its junction is bridged, a narrower one closed
 OVERSHOOT = 0.025  # of H: how far past its parent a foot may have been drawn
@@ -40,10 +42,10 @@ class Limb:
     s: float = 0.0  # where it sits, length along the parent limb
     joins: list[float] = field(default_factory=list)  # lengths at which the next line begins
 
-    def __post_init__(self):
-        step = self.points[1:] - self.points[:-1]
-        self.along = np.zeros(len(self.points))
-        np.cumsum(np.hypot(step[:, 0], step[:, 1]), out=self.along[1:])
+    @cached_property
+    def along(self) -> Float[np.ndarray, " point"]:
+        """Length of the limb up to each point."""
+        return lengths(self.points)
 
     def at(self, s: float) -> Float[np.ndarray, " 2"]:
         """The point at length `s`; beyond an end, the end."""
@@ -54,13 +56,13 @@ class Limb:
 
     def line_at(self, s: float) -> int:
         """The line of this limb that drew length `s` (the earlier one at a join)."""
-        return self.lines[int(np.searchsorted(self.joins, s - 1e-9 * self.along[-1]))]
+        return self.lines[bisect_left(self.joins, s - 1e-9 * self.along[-1])]
 
 
 def limbs_of(lines: list[Line], hanging: Hanging) -> list[Limb]:
     """The limbs, parents before children; lengths along a limb are from its foot."""
     oriented = [line.reversed() if end else line for line, end in zip(lines, hanging.end, strict=True)]
-    bundle = Bundle.of(oriented)
+    bundle = Bundle.of_points([line.points for line in oriented])
     height = bundle.height
     parent, s = hanging.parent.copy(), hanging.s.copy()
     cut, s = _meet(bundle, parent, s)
@@ -194,7 +196,7 @@ def beyond(points, along, junction, slack: float) -> int:
     gap = math.dist(points[0], junction)
     if gap > slack:
         return 0
-    return int(min(np.searchsorted(along, gap, side="right"), len(points) - 1))
+    return min(int(along.searchsorted(gap, side="right")), len(points) - 1)
 
 
 def _parents_first(parent) -> list[int]:

@@ -1,6 +1,5 @@
 """The strokes as clean polylines, measured along their length: what attaching works on."""
 
-import dataclasses
 from dataclasses import dataclass
 from functools import cached_property
 
@@ -24,10 +23,7 @@ class Line:
     @cached_property
     def along(self) -> Float[np.ndarray, " point"]:
         """Length of the line up to each point."""
-        step = self.points[1:] - self.points[:-1]
-        along = np.zeros(len(self.points))
-        np.cumsum(np.hypot(step[:, 0], step[:, 1]), out=along[1:])
-        return along
+        return lengths(self.points)
 
     @cached_property
     def length(self) -> float:
@@ -52,15 +48,26 @@ class Line:
 
     def reversed(self) -> "Line":
         """The same line drawn the other way."""
-        return dataclasses.replace(self, points=self.points[::-1], width=self.width[::-1])
+        return Line(self.row, self.id, self.points[::-1], self.width[::-1], self.begun)
 
     def cut(self, low: float, high: float) -> "Line":
         """The part between two lengths (low < high); a drawn point where it is cut is not doubled."""
         same = DOUBLED * self.length
-        inner = (self.along > low + same) & (self.along < high - same)
-        s = np.concatenate([[low], self.along[inner], [high]])
-        points = np.concatenate([self.at(s[:1]), self.points[inner], self.at(s[-1:])])
-        return dataclasses.replace(self, points=points, width=np.interp(s, self.along, self.width))
+        after, before = self.along.searchsorted(low + same, side="right"), self.along.searchsorted(high - same)
+        s, points = np.empty(max(before - after, 0) + 2), np.empty((max(before - after, 0) + 2, 2))
+        s[0], s[1:-1], s[-1] = low, self.along[after:before], high
+        points[0] = self.at(low) if low > 0 else self.points[0]
+        points[-1] = self.at(high) if high < self.length else self.points[-1]
+        points[1:-1] = self.points[after:before]
+        return Line(self.row, self.id, points, np.interp(s, self.along, self.width), self.begun)
+
+
+def lengths(points: Float[np.ndarray, "point 2"]) -> Float[np.ndarray, " point"]:
+    """Length of a polyline up to each of its points."""
+    step = points[1:] - points[:-1]
+    along = np.zeros(len(points))
+    np.hypot(step[:, 0], step[:, 1]).cumsum(out=along[1:])
+    return along
 
 
 def turning(lines: list[Line]) -> Float[np.ndarray, " line"]:
@@ -82,7 +89,19 @@ def unit(vector: Float[np.ndarray, "*row 2"]) -> Float[np.ndarray, "*row 2"]:
 
 def angle_between(a: Float[np.ndarray, "*row 2"], b: Float[np.ndarray, "*row 2"]) -> Float[np.ndarray, "*row"]:
     """Angle between directions, radians, 0 to π."""
-    return np.abs(np.arctan2(a[..., 0] * b[..., 1] - a[..., 1] * b[..., 0], (a * b).sum(-1)))
+    return np.abs(np.arctan2(a[..., 0] * b[..., 1] - a[..., 1] * b[..., 0], a[..., 0] * b[..., 0] + a[..., 1] * b[..., 1]))
+
+
+def ends_of(lines: list[Line]) -> Float[np.ndarray, "end 2"]:
+    """First and last point of every line, alternating."""
+    return np.array([point for line in lines for point in (line.points[0], line.points[-1])])
+
+
+def corners(lines: list[Line]) -> tuple[Float[np.ndarray, "line 2"], Float[np.ndarray, "line 2"]]:
+    """(lower left, upper right corner) of the box around every line; at least one line."""
+    points = np.concatenate([line.points for line in lines])
+    first = np.cumsum([0] + [len(line.points) for line in lines[:-1]])
+    return np.minimum.reduceat(points, first), np.maximum.reduceat(points, first)
 
 
 def extent(lines: list[Line]) -> float:

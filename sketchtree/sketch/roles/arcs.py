@@ -62,7 +62,8 @@ def crown_of_arcs(m: Measures, free: Bool[np.ndarray, " stroke"], wood: Bool[np.
     for foot in (ground,) if stems.any() else (ground, -np.inf):  # on a trunk, or a bush
         chosen, middle = _chosen(points, may_be, centre, foot, m.length[rows])
         flat = _between(m, rows, chosen, size) & free[rows] & (m.size[rows] >= 0.04 * size)
-        chosen |= flat & _outermost(points, middle, foot, m.length[rows])
+        if flat.any():
+            chosen |= flat & _outermost(points, middle, foot, m.length[rows])
         if FEWEST <= chosen.sum() <= MANY:
             found.append(_checked(m, rows[chosen], rows[~chosen], points[chosen], points[~chosen], middle, size))
     return max((arcs for arcs in found if arcs is not None), key=lambda arcs: len(arcs.rows), default=None)

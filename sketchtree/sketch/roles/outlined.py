@@ -12,7 +12,7 @@ import shapely
 from jaxtyping import Float, Int
 from scipy.spatial import cKDTree
 
-from sketchtree.sketch.joining.lines import Line, extent
+from sketchtree.sketch.joining.lines import Line, ends_of, extent
 from sketchtree.sketch.roles.brush import Middles, even_border, middles, simplified, squared
 
 MEET = 0.015  # of H: the two sides meet at the tip
@@ -45,9 +45,11 @@ def limbs_of_outlines(lines: list[Line], closed: list[bool]) -> Outlined:
         return Outlined(lines, [], [])
     height = extent(lines)
     lines, areas = _single_outlines(lines, closed, height)
+    if not areas:
+        return Outlined(*_pairs(lines, height), [])
     inside = shapely.union_all(list(areas.values()))
     outer = {lines[k].row for k in areas}
-    others = [k for k, line in enumerate(lines) if areas and line.row not in outer]
+    others = [k for k, line in enumerate(lines) if line.row not in outer]
     bark = [k for k in others if lines[k].shape.intersection(inside).length >= WITHIN * lines[k].length]
     kept, sides = _pairs([line for k, line in enumerate(lines) if k not in bark], height)
     return Outlined(kept, sides, [lines[k] for k in bark])
@@ -56,7 +58,7 @@ def limbs_of_outlines(lines: list[Line], closed: list[bool]) -> Outlined:
 def _single_outlines(lines: list[Line], closed: list[bool], height: float) -> tuple[list[Line], dict[int, shapely.Geometry]]:
     """(lines, those that run out and back replaced by their middle; of those that are closed, the area inside)."""
     length = np.array([line.length for line in lines])
-    ends = np.concatenate([line.points[[0, -1]] for line in lines])
+    ends = ends_of(lines)
     opening = np.hypot(*(ends[::2] - ends[1::2]).T)
     back = (np.array(closed) | (opening <= 0.3 * length)) & (length > 4 * WIDE * height)
     rows = [k for k in np.flatnonzero(back) if len(lines[k].points) > 3]
@@ -88,7 +90,7 @@ def _parted(middle: Line, start: Float[np.ndarray, " 2"]) -> list[Line]:
 def _pairs(lines: list[Line], height: float) -> tuple[list[Line], list[tuple[Line, Line]]]:
     """Two lines that meet at a free tip, and not far apart at the foot, become their middle."""
     length = np.array([line.length for line in lines])
-    ends = np.concatenate([line.points[[0, -1]] for line in lines])
+    ends = ends_of(lines)
     pairs = _meeting(ends, length, height)
     if length[np.unique(pairs // 2)].sum() < HABIT[1] * length.sum() or len(pairs) < HABIT[0]:
         return lines, []

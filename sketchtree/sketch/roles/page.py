@@ -10,7 +10,7 @@ import shapely
 from jaxtyping import Bool, Float
 
 from sketchtree.sketch.graph import Cut
-from sketchtree.sketch.joining.lines import Line, unit
+from sketchtree.sketch.joining.lines import Line, ends_of, unit
 from sketchtree.sketch.roles.found import Found
 from sketchtree.sketch.roles.measures import Measures
 
@@ -46,7 +46,7 @@ def cuts_of(lines: list[Line], page: tuple[float, float, float, float] | None) -
     size = max(page[2] - page[0], page[3] - page[1])
     if not size > 0:
         return (), []
-    tips = np.concatenate([line.points[[0, -1]] for line in lines])
+    tips = ends_of(lines)
     outside = np.stack([page[0] - tips[:, 0], page[1] - tips[:, 1], tips[:, 0] - page[2], tips[:, 1] - page[3]], 1)
     edge = outside.argmax(1)
     beyond = outside.max(1) > BEYOND * size

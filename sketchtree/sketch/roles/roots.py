@@ -14,7 +14,7 @@ from jaxtyping import Float
 from scipy.sparse import coo_array
 from scipy.sparse.csgraph import connected_components
 
-from sketchtree.sketch.joining.lines import Line
+from sketchtree.sketch.joining.lines import Line, corners, ends_of
 from sketchtree.sketch.roles.ground import level_at
 
 DEPTH, WHOLLY = 0.05, 0.02  # of H: what goes less deep below the ground is the foot of a stem; the same of a line that starts there
@@ -106,12 +106,13 @@ def _hanging_on(parts: list[Line], feet: Float[np.ndarray, "foot 2"], height: fl
 
 def _from_a_foot(lines: list[Line], height: float) -> Rooted:
     """Without a ground line: what runs downward from the foot of the tallest line."""
-    rise = np.array([abs(line.points[-1, 1] - line.points[0, 1]) for line in lines])
+    ends = ends_of(lines)
+    rise = np.abs(ends[1::2, 1] - ends[::2, 1])
     stem = int(np.argmax(rise))
     foot = min(lines[stem].points[[0, -1]].tolist(), key=lambda point: point[1])
     if rise[stem] < TALL * height:
         return Rooted(lines, [])
-    low = np.array([line.points[:, 1].max() <= foot[1] + KEEPS * height for line in lines])
+    low = corners(lines)[1][:, 1] <= foot[1] + KEEPS * height
     low[stem] = False
     first = [k for k in np.flatnonzero(low) if _falls_from(lines[k], foot, height)]
     sides = {np.sign(lines[k].points[:, 0].mean() - foot[0]) for k in first}

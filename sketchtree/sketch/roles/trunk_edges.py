@@ -12,7 +12,7 @@ import numpy as np
 import shapely
 from jaxtyping import Float
 
-from sketchtree.sketch.joining.lines import Line, angle_between, extent
+from sketchtree.sketch.joining.lines import Line, angle_between, corners, extent
 from sketchtree.sketch.roles.two_sides import MEETS, Side, middle_of, middle_of_pair, rises, side_of
 
 ON_GROUND = (0.15, 0.2)  # of H: both feet within this of the lowest point; under a crown
@@ -69,7 +69,7 @@ def _trunk_under(lines: list[Line], crowns: list[Float[np.ndarray, "point 2"]]) 
     if not lines:
         return Trunks(lines, [], [])
     height = extent(lines)
-    lowest = np.array([line.points[:, 1].min() for line in lines])
+    lowest = corners(lines)[0][:, 1]
     ground = float(lowest.min()) + ON_GROUND[bool(crowns)] * height
     near = np.flatnonzero(lowest <= ground).tolist()
     if len(near) == 0 or len(near) > MANY:

@@ -69,7 +69,7 @@ def _pen_lines(m: Measures, rows: list[int]) -> tuple[list[Line], list[bool]]:
     for row, stroke, width, plain in zip(rows, strokes, drawn_widths(strokes), clean.tolist(), strict=True):
         begun = np.nan if stroke.time is None else float(stroke.time[0])
         if plain and len(stroke.points) > 1:
-            line = Line(row, stroke.id, stroke.points, np.full(len(stroke.points), width) if np.ndim(width) == 0 else width, begun)
+            line = Line(row, stroke.id, stroke.points, np.full(len(stroke.points), width) if isinstance(width, float) else width, begun)
         else:
             line = as_line(row, stroke.id, stroke.points, width, begun)
         if line is not None:
