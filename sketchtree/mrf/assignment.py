@@ -33,6 +33,7 @@ class Assignment(NamedTuple):
     length: Float[Array, " segment"]  # L; 0 at a base
     tip: Vectors  # p
     limb_length: Float[Array, " limb"]  # Λ
+    is_segment: Bool[Array, " segment"]  # neither base nor padding
 
 
 class Walk(eqx.Module):
@@ -69,7 +70,7 @@ class Page(eqx.Module):
         length = self.length / cos
         tip = Vectors(self.xy[:, 0], self.xy[:, 1], sum_to_tips(self.length * sin / cos, self.walk))
         limb_length = jnp.zeros(self.limb_count, psi.dtype).at[self.limb].add(length)
-        return Assignment(psi, direction, above, angle(direction, above), length, tip, limb_length)
+        return Assignment(psi, direction, above, angle(direction, above), length, tip, limb_length, self.is_segment)
 
     def depth(self, elevation: Float[Array, " segment"]) -> Float[Array, " segment"]:
         """z of every tip."""

@@ -14,16 +14,17 @@ import numpy as np
 from jaxtyping import Array, Float, Key
 
 from sketchtree.keys import normal
-from sketchtree.mrf import chains
-from sketchtree.mrf.chains import Chains
+from sketchtree.mrf.sampling import chains
+from sketchtree.mrf.sampling.chains import Chains
 from sketchtree.mrf.compilation import compiled
 from sketchtree.mrf.factor_graph import FactorGraph
-from sketchtree.mrf.interpenetration import moved_apart
-from sketchtree.mrf.log_posterior import LogPosterior, bucket, log_posterior
+from sketchtree.mrf.answer.interpenetration import moved_apart
+from sketchtree.mrf.log_posterior import LogPosterior, log_posterior
+from sketchtree.mrf.padding import bucket
 from sketchtree.mrf.prior import Prior
-from sketchtree.mrf.proposals import Draws, Moves, draw, moves
+from sketchtree.mrf.sampling.proposals import Draws, Moves, draw, moves
 from sketchtree.mrf.solver import AbstractSolver
-from sketchtree.mrf.typical import depth_of, typical_elevation
+from sketchtree.mrf.answer.typical import depth_of, typical_elevation
 
 BLOCK = 40  # chain steps a block
 LARGE = ((4096, 2), (16384, 4))  # above so many rows only every second, every fourth block is run
@@ -165,7 +166,7 @@ class Elevation(AbstractSolver):
         return [(state.posterior, state.moves, chains, draws, hot, langevin) for chains, draws in each]
 
     def _polished(self, graph: FactorGraph, state: State) -> State:
-        from sketchtree.mrf.ascend import ascend  # takes longer to import than most drawings to solve
+        from sketchtree.mrf.sampling.ascend import ascend  # takes longer to import than most drawings to solve
 
         best, value = ascend(state.posterior, state.best, self.polish)
         return state._replace(best=best, best_value=value) if value > state.best_value else state

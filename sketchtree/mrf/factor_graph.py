@@ -40,6 +40,8 @@ class FactorGraph:
     is_apical: Bool[np.ndarray, " segment"]  # continues its parent row's limb (not the first of its limb)
     is_joined: Bool[np.ndarray, " segment"]  # apical only because the reader joined two strokes there
 
+    limb_id: Int[np.ndarray, " limb"]  # stable from drawing to drawing
+    limb_name: tuple[str, ...]  # id of the stroke that begins each limb
     limb_parent: Int[np.ndarray, " limb"]  # NULL for a stem
     limb_order: Int[np.ndarray, " limb"]  # 0 for a stem
     limb_spreads: Bool[np.ndarray, " limb"]  # may leave the page: laterals, and the stems of a shrub
@@ -70,6 +72,11 @@ class FactorGraph:
         lateral = np.zeros(len(self), bool)
         lateral[self.limb_first[self.limb_parent != NULL]] = True
         return lateral
+
+    @property
+    def tip_aside(self) -> Float[np.ndarray, " limb"]:
+        """x_t − x_trunk of every limb's tip."""
+        return self.xy[self.limb_tip, 0] - self.trunk_x
 
     def __str__(self) -> str:
         return (
@@ -103,7 +110,8 @@ def factor_graph(graph: SketchGraph) -> FactorGraph:
     return FactorGraph(
         scale=scale, parent=graph.parent, xy=xy, length=length, direction=direction, limb=graph.limb, order=order,
         tree=tree, radius=drawn_radius(graph) / scale, is_base=graph.is_base, is_apical=is_apical,
-        is_joined=graph.joined, limb_parent=graph.limb_parent, limb_order=graph.limb_order, limb_spreads=spreads,
+        is_joined=graph.joined, limb_id=graph.limb_id,
+        limb_name=tuple(graph.stroke_ids[k] if k != NULL else "(implied)" for k in graph.stroke[graph.limb_first]), limb_parent=graph.limb_parent, limb_order=graph.limb_order, limb_spreads=spreads,
         limb_first=graph.limb_first, limb_tip=tip, limb_length=limb_length, insertion=insertion,
         trunk_x=outline.trunk_x(xy[tip, 1], tree[tip]), half_width=outline.half_width(xy[tip, 1], tree[tip]),
         sibling=sibling, rank_gap=rank_gap, competitor=competitor,

@@ -7,8 +7,8 @@ from sketchtree.mrf.solver import AbstractSolver
 
 _SOLVER = {  # method → module and class
     "elevation": ("elevation", "Elevation"),
-    "chen": ("chen", "Chen"),
-    "chen-fixed": ("chen", "Chen"),
+    "chen": ("chen.method", "Chen"),
+    "chen-fixed": ("chen.method", "Chen"),
     "okabe": ("okabe", "Okabe"),
     "random-sign": ("baselines", "RandomSign"),
     "flat": ("baselines", "Flat"),

@@ -1,7 +1,6 @@
 """Which branches pass through each other, and how far must they move?
 
-Chen et al. 2008, §5.2.1: right after the bottom-up pass, branches that interpenetrate are moved away from each other
-along z. Two segments do so where their axes come nearer than the mean of their radii,
+Two segments do so where their axes come nearer than the mean of their radii,
 
     d_ik < ½ (r_i + r_k)          i, k not of one limb, sharing no node and no grandparent (forks are meant to touch)
 
@@ -10,31 +9,12 @@ and each tip, with all that grows from it, gives way by half of what is missing 
 
 import numpy as np
 import shapely
-from jaxtyping import Array, Float, Int, Key
+from jaxtyping import Float, Int
 
 from sketchtree.axes import NULL
-from sketchtree.mrf.estep import EStepPart, Reading
 from sketchtree.mrf.factor_graph import FactorGraph
-from sketchtree.parameters import TreeParameters
-from sketchtree.traverse import sum_from_root
 
 _SPARE = 1.05  # how much farther than they must the two move
-
-
-class MoveApart(EStepPart):
-    """Pushes interpenetrating branches apart along z."""
-
-    rounds: int = 10  # a push may cause another overlap
-
-    def __call__(self, graph: FactorGraph, theta: TreeParameters, reading: Reading, key: Key[Array, ""]) -> Reading:
-        pair = candidates(graph)
-        depth = np.array(reading.depth)
-        for _ in range(self.rounds):
-            push = pushes(graph, depth, pair)
-            if not push.any():
-                break
-            depth = depth + sum_from_root(graph.parent, push)
-        return reading._replace(depth=depth)
 
 
 def pushes(

@@ -4,9 +4,9 @@ import jax
 import numpy as np
 import pytest
 
-from sketchtree.mrf.bottom_up import BottomUp
-from sketchtree.mrf.em import log_probability, rotations_of
-from sketchtree.mrf.estep import Reading
+from sketchtree.mrf.chen.bottom_up import BottomUp
+from sketchtree.mrf.chen.em import log_probability, rotations_of
+from sketchtree.mrf.chen.estep import Reading
 from sketchtree.mrf.factor_graph import factor_graph
 from sketchtree.mrf.frames import child_vector, least_rotation
 from sketchtree.parameters import TreeParameters

@@ -6,10 +6,11 @@ import jax
 import numpy as np
 import pytest
 
-from sketchtree.mrf import chains, proposals
+from sketchtree.mrf.sampling import chains, proposals
 from sketchtree.mrf.compilation import compiled
 from sketchtree.mrf.factor_graph import factor_graph
-from sketchtree.mrf.log_posterior import bucket, log_posterior
+from sketchtree.mrf.log_posterior import log_posterior
+from sketchtree.mrf.padding import bucket
 from sketchtree.mrf.prior import Prior
 from tests.mrf.drawings import random_tree, sketch, small_tree
 

@@ -4,12 +4,12 @@ import jax
 import numpy as np
 import pytest
 
-from sketchtree.mrf.apart import MoveApart
-from sketchtree.mrf.bottom_up import BottomUp
-from sketchtree.mrf.chen import Chen
-from sketchtree.mrf.em import EM
+from sketchtree.mrf.chen.move_apart import MoveApart
+from sketchtree.mrf.chen.bottom_up import BottomUp
+from sketchtree.mrf.chen.method import Chen
+from sketchtree.mrf.chen.em import EM
 from sketchtree.mrf.factor_graph import factor_graph
-from sketchtree.mrf.icm import ICM
+from sketchtree.mrf.chen.icm import ICM
 from sketchtree.mrf.infer import infer
 from sketchtree.mrf.prior import Prior
 from sketchtree.mrf.solver import RESULTS

@@ -4,9 +4,9 @@ import jax
 import numpy as np
 import pytest
 
-from sketchtree.mrf.bottom_up import BottomUp
-from sketchtree.mrf.em import EM, FLOORS, Rotations, log_probability, maximise, rotations_of
-from sketchtree.mrf.estep import Reading
+from sketchtree.mrf.chen.bottom_up import BottomUp
+from sketchtree.mrf.chen.em import EM, FLOORS, Rotations, log_probability, maximise, rotations_of
+from sketchtree.mrf.chen.estep import Reading
 from sketchtree.mrf.factor_graph import factor_graph
 from sketchtree.mrf.prior import Prior
 from sketchtree.parameters import GENERIC

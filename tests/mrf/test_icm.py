@@ -6,10 +6,10 @@ import jax.numpy as jnp
 import numpy as np
 import pytest
 
-from sketchtree.mrf.bottom_up import BottomUp
-from sketchtree.mrf.estep import Reading
+from sketchtree.mrf.chen.bottom_up import BottomUp
+from sketchtree.mrf.chen.estep import Reading
 from sketchtree.mrf.factor_graph import factor_graph
-from sketchtree.mrf.icm import ICM, competing
+from sketchtree.mrf.chen.icm import ICM, competing
 from sketchtree.parameters import GENERIC
 from tests.mrf.drawings import lone_stroke, random_tree, sketch
 from tests.twins.chen_model import log_icm

@@ -4,7 +4,7 @@ import numpy as np
 import pytest
 
 from sketchtree.mrf.factor_graph import factor_graph
-from sketchtree.mrf.labels import best_labels, families, label_parameters, log_joint
+from sketchtree.mrf.chen.labels import best_labels, families, label_parameters, log_joint
 from sketchtree.parameters import GENERIC, TreeParameters
 from tests.mrf.drawings import lone_stroke, sketch
 from tests.twins.chen_model import best_permutation, log_eq2

@@ -8,7 +8,8 @@ import pytest
 
 from sketchtree.mrf.conjugate import GENERIC_BELIEF
 from sketchtree.mrf.factor_graph import factor_graph
-from sketchtree.mrf.log_posterior import LogPosterior, bucket, log_posterior
+from sketchtree.mrf.log_posterior import LogPosterior, log_posterior
+from sketchtree.mrf.padding import bucket
 from sketchtree.mrf.prior import Prior
 from tests.mrf.drawings import lone_stroke, random_tree, shrub, small_tree
 from tests.twins import limb_model as twin

@@ -3,8 +3,9 @@
 import jax
 import numpy as np
 
-from sketchtree.mrf.apart import MoveApart, candidates, pushes
-from sketchtree.mrf.estep import Reading
+from sketchtree.mrf.chen.move_apart import MoveApart
+from sketchtree.mrf.overlaps import candidates, pushes
+from sketchtree.mrf.chen.estep import Reading
 from sketchtree.mrf.factor_graph import factor_graph
 from sketchtree.parameters import GENERIC
 from tests.mrf.drawings import random_tree, sketch

@@ -4,8 +4,8 @@ import numpy as np
 import pytest
 
 from sketchtree.mrf.factor_graph import factor_graph
-from sketchtree.mrf.interpenetration import moved_apart
-from sketchtree.mrf.typical import (
+from sketchtree.mrf.answer.interpenetration import moved_apart
+from sketchtree.mrf.answer.typical import (
     CROWN_LIMIT,
     LIMB_LIMIT,
     STEM_SHARE,

@@ -2,7 +2,7 @@
 
 The factor is −w Σ softplus((½(r_i + r_k) − d_ik)/δ) with d_ik the distance of two axes, in the limit of a hard wall: of all
 depths without overlap those nearest to the inferred ones. Each round moves the overlapping tips, and all that grows from
-them, by what is missing (`apart.pushes`); a push may cause another overlap, so there are several. Kin do not count: pairs
+them, by what is missing (`overlaps.pushes`); a push may cause another overlap, so there are several. Kin do not count: pairs
 that share a node, a grandparent or a limb. Drawings without overlap are returned as they are, and so are those of more
 than `MOST_ROWS` rows: there the lines lie so close on the page that most of them would have to move.
 """
@@ -10,7 +10,7 @@ than `MOST_ROWS` rows: there the lines lie so close on the page that most of the
 import numpy as np
 from jaxtyping import Float
 
-from sketchtree.mrf.apart import candidates, pushes
+from sketchtree.mrf.overlaps import candidates, pushes
 from sketchtree.mrf.factor_graph import FactorGraph
 from sketchtree.traverse import sum_from_root
 

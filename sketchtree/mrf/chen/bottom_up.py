@@ -14,10 +14,10 @@ Beyond the paper, off by default: `apical_from_stroke` gives label 1 to the segm
 import numpy as np
 from jaxtyping import Array, Float, Int, Key
 
-from sketchtree.mrf.estep import EStepPart, Reading
+from sketchtree.mrf.chen.estep import EStepPart, Reading
 from sketchtree.mrf.factor_graph import FactorGraph
 from sketchtree.mrf.frames import least_rotation, local_angles, turn_then_tilt
-from sketchtree.mrf.labels import Families, Family, LabelParameters, best_labels, families, label_parameters, log_joint
+from sketchtree.mrf.chen.labels import Families, Family, LabelParameters, best_labels, families, label_parameters, log_joint
 from sketchtree.parameters import TreeParameters
 
 _REFINEMENTS, _FINER = 3, 12

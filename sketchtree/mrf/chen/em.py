@@ -19,10 +19,10 @@ import jax
 import numpy as np
 from jaxtyping import Array, Float, Key
 
-from sketchtree.mrf.estep import EStepPart, Reading
+from sketchtree.mrf.chen.estep import EStepPart, Reading
 from sketchtree.mrf.factor_graph import FactorGraph
 from sketchtree.mrf.frames import wrap
-from sketchtree.mrf.labels import LabelParameters, families, log_joint
+from sketchtree.mrf.chen.labels import LabelParameters, families, log_joint
 from sketchtree.mrf.measure import rotations
 from sketchtree.mrf.prior import Prior
 from sketchtree.mrf.solver import AbstractSolver

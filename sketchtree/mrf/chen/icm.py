@@ -26,9 +26,9 @@ import numpy as np
 from jaxtyping import Array, Bool, Float, Int, Key
 from scipy.spatial import cKDTree
 
-from sketchtree.mrf.estep import EStepPart, Reading
+from sketchtree.mrf.chen.estep import EStepPart, Reading
 from sketchtree.mrf.factor_graph import FactorGraph
-from sketchtree.mrf.labels import families
+from sketchtree.mrf.chen.labels import families
 from sketchtree.parameters import TreeParameters
 from sketchtree.traverse import generation
 

@@ -7,10 +7,10 @@ and, unless Θ is fixed, EM over Θ. Measured against trees of known depth it is
     EM(e_step=(BottomUp(apical_from_stroke=True, jacobian=True), MoveApart(), ICM(tol=0.001)))
 """
 
-from sketchtree.mrf.apart import MoveApart
-from sketchtree.mrf.bottom_up import BottomUp
-from sketchtree.mrf.em import EM
-from sketchtree.mrf.icm import ICM
+from sketchtree.mrf.chen.move_apart import MoveApart
+from sketchtree.mrf.chen.bottom_up import BottomUp
+from sketchtree.mrf.chen.em import EM
+from sketchtree.mrf.chen.icm import ICM
 
 
 def Chen(theta_mode: str = "fit") -> EM:  # noqa: N802 — stands where a solver's class stands

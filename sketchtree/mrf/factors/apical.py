@@ -9,13 +9,22 @@ Two log τ because a bend is a Gaussian step in two directions.
 
 import equinox as eqx
 import jax.numpy as jnp
+import numpy as np
 from jaxtyping import Array, Float
+
+from sketchtree.mrf.factor_graph import FactorGraph
+from sketchtree.mrf.padding import Padding
 
 
 class Apical(eqx.Module):
     """One factor a segment; 0 where it does not continue another of its limb."""
 
     kind: Float[Array, "segment 3"]  # 1 in the column of its order, 0 elsewhere and where it continues none
+
+    @classmethod
+    def of(cls, graph: FactorGraph, pad: Padding) -> "Apical":
+        """The factors of a drawing."""
+        return cls(pad.real(np.eye(3)[np.minimum(graph.order, 2)] * graph.is_apical[:, None], pad.segments))
 
     def log_potential(self, assignment, theta) -> Float[Array, " segment"]:
         """The Gaussian in two directions."""

@@ -11,12 +11,18 @@ It must stay local: extent and crown hold the scale of the depths.
 import equinox as eqx
 import jax
 import jax.numpy as jnp
+import numpy as np
 from jaxtyping import Array, Float, Int
 
+from sketchtree.mrf.factor_graph import FactorGraph
+from sketchtree.mrf.padding import Padding
 from sketchtree.mrf.factors.angles import total
 
 ATTENUATION = 5.0  # λ
 WEIGHT = 1.0  # w_d
+RIVALS = 12  # that one tip may have
+RIVALS_OF_MANY = 6  # in very large drawings
+MANY_LIMBS = 1024
 
 
 class Competition(eqx.Module):
@@ -27,6 +33,32 @@ class Competition(eqx.Module):
     present: Float[Array, "rival point"]
     page_square: Float[Array, "rival point"]  # squared distance on the page, which no ψ changes
     crown_radius: Float[Array, ""]  # R_c
+
+    @classmethod
+    def of(cls, graph: FactorGraph, pad: Padding, *, shape: float) -> "Competition":
+        """The factors of a drawing: every competing tip's nearest rivals, each pair from both ends or not at all."""
+        most = RIVALS if pad.limbs <= MANY_LIMBS else RIVALS_OF_MANY
+        rows, index = np.unique(graph.competitor, return_inverse=True)
+        both = index.reshape(-1, 2)
+        one, other = np.r_[both[:, 0], both[:, 1]], np.r_[both[:, 1], both[:, 0]]
+        pair = np.tile(np.arange(len(both)), 2)
+        apart = np.linalg.norm(graph.xy[rows[one]] - graph.xy[rows[other]], axis=1)
+        while len(one):
+            by = np.lexsort((np.arange(len(one)), apart, one))
+            one, other, pair, apart = one[by], other[by], pair[by], apart[by]
+            slot = np.arange(len(one)) - np.searchsorted(one, one)
+            if slot.max() < most:
+                break
+            keep = ~np.isin(pair, pair[slot >= most])
+            one, other, pair, apart = one[keep], other[keep], pair[keep], apart[keep]
+        rival, present, square = (np.zeros((2 * pad.limbs, most), kind) for kind in (int, float, float))
+        if len(one):
+            rival[one, slot], present[one, slot], square[one, slot] = other, shape, apart**2
+        points = 2 * pad.limbs
+        return cls(
+            pad.index(rows, points), pad.index(rival, points).T, pad.real(present, points).T,
+            pad.real(square, points).T, np.asarray(graph.crown_radius, pad.dtype),
+        )  # fmt: skip
 
     def log_potential(self, assignment, theta) -> Float[Array, " point"]:
         """−½ w_d Σ_k exp(−λ d / R_c). The gradient by p_k comes from k's own factor, so here it is held."""

@@ -9,7 +9,12 @@ The tail must be heavy: a drawn tip may well lie inside.
 
 import equinox as eqx
 import jax.numpy as jnp
+import numpy as np
 from jaxtyping import Array, Float, Int
+
+from sketchtree.mrf.factor_graph import FactorGraph
+from sketchtree.mrf.factors.extent import sidedness
+from sketchtree.mrf.padding import Padding
 
 NARROWEST = 0.06  # least R, H = 1
 MEAN = (0.0, -0.12)
@@ -25,6 +30,18 @@ class Crown(eqx.Module):
     mean: Float[Array, " limb"]  # m
     sd: Float[Array, " limb"]  # s
     weight: Float[Array, " limb"]  # 0 at stems and padding
+
+    @classmethod
+    def of(cls, graph: FactorGraph, pad: Padding, *, shape: float) -> "Crown":
+        """The factors of a drawing."""
+        above = np.minimum(np.maximum(graph.limb_order - 1, 0), 1)
+        weight = shape * graph.limb_spreads * sidedness(graph)[graph.tree[graph.limb_tip]]
+        return cls(
+            tip=pad.index(graph.limb_tip, pad.limbs), aside=pad.real(graph.tip_aside, pad.limbs),
+            half_width=pad.real(np.maximum(graph.half_width, NARROWEST), pad.limbs, fill=1.0),
+            mean=pad.real(np.array(MEAN)[above], pad.limbs), sd=pad.real(np.array(SD)[above], pad.limbs, fill=1.0),
+            weight=pad.real(weight, pad.limbs),
+        )  # fmt: skip
 
     def log_potential(self, assignment, theta) -> Float[Array, " limb"]:
         """The Cauchy in log ρ."""

@@ -8,10 +8,27 @@ over the tips t of a tree's laterals. `weight` is less than 1 for a tree drawn o
 
 import equinox as eqx
 import jax.numpy as jnp
+import numpy as np
 from jaxtyping import Array, Float, Int
+
+from sketchtree.mrf.factor_graph import FactorGraph
+from sketchtree.mrf.padding import Padding
 
 EXTENT_SD = 0.2
 BALANCE_SD = 0.35
+ONE_SIDED = (0.7, 0.9)  # |mean dx| / rms dx at which extent and crown begin to weaken, and have
+
+
+def sidedness(graph: FactorGraph) -> Float[np.ndarray, " tree"]:
+    """Weight of extent and crown per tree: 1, falling to .15 where every tip is on one side."""
+    lateral = graph.limb_spreads
+    tree = graph.tree[graph.limb_tip][lateral]
+    aside = graph.tip_aside[lateral]
+    count = np.maximum(np.bincount(tree, minlength=graph.tree.max() + 1), 1)
+    mean = np.bincount(tree, aside, minlength=len(count)) / count
+    rms = np.sqrt(np.bincount(tree, aside**2, minlength=len(count)) / count)
+    low, high = ONE_SIDED
+    return 1 - 0.85 * np.clip((np.abs(mean) / np.maximum(rms, 1e-9) - low) / (high - low), 0, 1)
 
 
 class Extent(eqx.Module):
@@ -23,6 +40,21 @@ class Extent(eqx.Module):
     count: Float[Array, " tree"]  # limbs that count, at least 1
     width_square: Float[Array, " tree"]  # Σ (x_t − x_trunk)²
     weight: Float[Array, " tree"]  # 0 at padding
+
+    @classmethod
+    def of(cls, graph: FactorGraph, pad: Padding, *, shape: float) -> "Extent":
+        """The factors of a drawing."""
+        lateral = graph.limb_spreads
+        tree = graph.tree[graph.limb_tip] % pad.limbs
+        square = np.bincount(tree[lateral], graph.tip_aside[lateral] ** 2, minlength=pad.limbs)
+        some = np.bincount(tree[lateral], minlength=pad.limbs) > 0
+        weight = np.zeros(pad.limbs)
+        weight[: graph.tree.max() + 1] = sidedness(graph)[: pad.limbs]
+        return cls(
+            tip=pad.index(graph.limb_tip, pad.limbs), tree=pad.index(tree, pad.limbs), lateral=pad.real(lateral, pad.limbs),
+            count=pad.real(np.maximum(np.bincount(tree[lateral], minlength=pad.limbs), 1), pad.limbs),
+            width_square=pad.real(square, pad.limbs), weight=pad.real(shape * some * weight, pad.limbs),
+        )  # fmt: skip
 
     def log_potential(self, assignment, theta) -> Float[Array, " two_trees"]:
         """Extent of every tree, then balance of every tree."""

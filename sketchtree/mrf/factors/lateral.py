@@ -9,13 +9,22 @@ The last term makes the density one over the angle: a sphere has 2π sin a direc
 
 import equinox as eqx
 import jax.numpy as jnp
+import numpy as np
 from jaxtyping import Array, Float
+
+from sketchtree.mrf.factor_graph import FactorGraph
+from sketchtree.mrf.padding import Padding
 
 
 class Lateral(eqx.Module):
     """One factor a segment; 0 where it is not the first of a limb that grows from another."""
 
     kind: Float[Array, "segment 2"]  # 1 in the column of its order (1, 2+), 0 elsewhere
+
+    @classmethod
+    def of(cls, graph: FactorGraph, pad: Padding) -> "Lateral":
+        """The factors of a drawing."""
+        return cls(pad.real(np.eye(2)[np.clip(graph.order, 1, 2) - 1] * graph.is_lateral[:, None], pad.segments))
 
     def log_potential(self, assignment, theta) -> Float[Array, " segment"]:
         """The Gaussian in a, per solid angle."""

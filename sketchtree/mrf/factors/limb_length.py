@@ -9,7 +9,12 @@ A prior on whole limbs, not on segments, whose lengths are dominated by where la
 
 import equinox as eqx
 import jax.numpy as jnp
+import numpy as np
 from jaxtyping import Array, Float, Int
+
+from sketchtree.axes import NULL
+from sketchtree.mrf.factor_graph import FactorGraph
+from sketchtree.mrf.padding import Padding
 
 SLOPE = -0.8  # b
 
@@ -20,6 +25,16 @@ class LimbLength(eqx.Module):
     parent: Int[Array, " limb"]  # itself at a stem
     kind: Float[Array, "limb 2"]  # 1 in the column of its order (1, 2+), 0 elsewhere
     insertion: Float[Array, " limb"]
+
+    @classmethod
+    def of(cls, graph: FactorGraph, pad: Padding) -> "LimbLength":
+        """The factors of a drawing."""
+        lateral = graph.limb_parent != NULL
+        return cls(
+            parent=pad.index(np.where(lateral, graph.limb_parent, np.arange(graph.limb_count)), pad.limbs),
+            kind=pad.real(np.eye(2)[np.clip(graph.limb_order, 1, 2) - 1] * lateral[:, None], pad.limbs),
+            insertion=pad.real(graph.insertion, pad.limbs),
+        )
 
     def excess(self, assignment) -> Float[Array, " limb"]:
         """r_j − b (u_j − ½)."""

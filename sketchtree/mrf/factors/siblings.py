@@ -9,8 +9,11 @@ The phase of the spiral is marginalised: only differences of azimuth matter.
 import equinox as eqx
 import jax
 import jax.numpy as jnp
+import numpy as np
 from jaxtyping import Array, Float, Int
 
+from sketchtree.mrf.factor_graph import FactorGraph
+from sketchtree.mrf.padding import Padding
 from sketchtree.mrf.factors.angles import Vectors, dot, total
 
 KAPPA = 0.35
@@ -23,6 +26,15 @@ class Siblings(eqx.Module):
     first: Int[Array, " limb"]  # row
     sibling: Int[Array, "6 limb"]  # limbs up to three ranks before and after
     strength: Float[Array, "6 limb"]  # κ c_d; 0 where there is none
+
+    @classmethod
+    def of(cls, graph: FactorGraph, pad: Padding, *, shape: float) -> "Siblings":
+        """The factors of a drawing: every limb's siblings up to three ranks away, each pair from both ends."""
+        sibling, strength = np.zeros((pad.limbs, 6), int), np.zeros((pad.limbs, 6))
+        for (a, b), gap in zip(graph.sibling, graph.rank_gap, strict=True):
+            for limb, other, slot in ((a, b, gap - 1), (b, a, gap + 2)):
+                sibling[limb, slot], strength[limb, slot] = other, shape * KAPPA * DECAY[gap]
+        return cls(pad.index(graph.limb_first, pad.limbs), pad.index(sibling, pad.limbs).T, pad.real(strength, pad.limbs).T)
 
     def log_potential(self, assignment, theta) -> Float[Array, " limb"]:
         """−½ κ Σ_k c_d w_j · w_k. The gradient by w_k comes from k's own factor, so here it is held."""

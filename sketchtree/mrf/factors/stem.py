@@ -4,7 +4,12 @@ a is the angle between the stem's first segment and its drawn direction, which i
 """
 
 import equinox as eqx
+import numpy as np
 from jaxtyping import Array, Float, Int
+
+from sketchtree.axes import NULL
+from sketchtree.mrf.factor_graph import FactorGraph
+from sketchtree.mrf.padding import Padding
 
 SD = 0.08  # radians
 SHRUB_SD = 0.5
@@ -16,6 +21,16 @@ class Stem(eqx.Module):
     row: Int[Array, " stem"]  # first segment
     sd: Float[Array, " stem"]  # radians
     present: Float[Array, " stem"]
+
+    @classmethod
+    def of(cls, graph: FactorGraph, pad: Padding) -> "Stem":
+        """The factors of a drawing."""
+        stem = np.flatnonzero(graph.limb_parent == NULL)
+        return cls(
+            row=pad.index(graph.limb_first[stem], pad.limbs),
+            sd=pad.real(np.where(graph.limb_spreads[stem], SHRUB_SD, SD), pad.limbs, fill=1.0),
+            present=pad.real(np.ones(len(stem)), pad.limbs),
+        )
 
     def log_potential(self, assignment, theta) -> Float[Array, " stem"]:
         """The Gaussian in ψ."""

@@ -12,9 +12,9 @@ import jax.numpy as jnp
 import numpy as np
 from jaxtyping import Array, Float
 
-from sketchtree.mrf import proposals
+from sketchtree.mrf.sampling import proposals
 from sketchtree.mrf.log_posterior import LogPosterior
-from sketchtree.mrf.proposals import Draws, Moves
+from sketchtree.mrf.sampling.proposals import Draws, Moves
 
 TAKEN = 0.57
 ADAPT = 0.15

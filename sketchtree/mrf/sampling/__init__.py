@@ -1,0 +1,1 @@
+"""Where may the chains of the default method go, and how do they get there?"""
