@@ -1,6 +1,6 @@
 """What tree do the strokes make? From a sketch to its rooted segment graph, one step after the other.
 
-    strokes → what each is → clean lines → what each grows from → limbs → nodes and segments
+    strokes → copies apart → what each is → clean lines → what each grows from → limbs → nodes and segments
 """
 
 import dataclasses
@@ -13,6 +13,7 @@ from jaxtyping import Int
 from sketchtree.axes import NULL
 from sketchtree.errors import OptionError, SketchError
 from sketchtree.limb_ids import stroke_limb_id
+from sketchtree.sketch.copies import with_copies, without_copies
 from sketchtree.sketch.graph import Attachment, Role, SketchGraph
 from sketchtree.sketch.joining.attach import Hanging, attach
 from sketchtree.sketch.joining.attachments import describe
@@ -36,6 +37,13 @@ def sketch_graph(sketch: Sketch, *, crown: str = "auto", progress: Progress | No
     """
     if crown not in ("auto", "off"):
         raise OptionError(f"crown={crown!r}; 'auto' or 'off' was expected.", remedy="Leave it out for 'auto'.")
+    drawn, copies = without_copies(sketch)
+    graph = _graph(drawn, crown, progress)
+    return with_copies(graph, sketch, copies) if copies else graph
+
+
+def _graph(sketch: Sketch, crown: str, progress: Progress | None) -> SketchGraph:
+    """The graph of a sketch without copies."""
     parts = sort_strokes(sketch)
     _check(sketch, parts)
     tree = _grown(parts.lines, _from(progress, 0.1, 0.9))

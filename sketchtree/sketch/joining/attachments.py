@@ -74,12 +74,13 @@ def _doubts(attachments: list[Attachment], cleaned: Cleaned, height: float) -> l
     if len(far) > 5:
         warnings.append(f"{len(far) - 5} more strokes start far from any other.")
     if cleaned.dots:
-        warnings.append(f"{len(cleaned.dots)} dot(s) smaller than 0.5 % of the drawing were left out (strokes {_named(cleaned.dots)}).")
+        warnings.append(f"{len(cleaned.dots)} dot(s) smaller than 0.5 % of the drawing were left out (strokes {named(cleaned.dots)}).")
     again = list(dict.fromkeys(line.id for line, _, why in cleaned.merged if why == AGAIN_OVER))
     if again:
-        warnings.append(f"{len(again)} stroke(s) drawn over others were merged with them (strokes {_named(again)}).")
+        warnings.append(f"{len(again)} stroke(s) drawn over others were merged with them (strokes {named(again)}).")
     return warnings
 
 
-def _named(ids) -> str:
+def named(ids) -> str:
+    """The first few of these ids."""
     return ", ".join(ids[:5]) + (", …" if len(ids) > 5 else "")
