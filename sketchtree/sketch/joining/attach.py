@@ -21,6 +21,7 @@ import numpy as np
 from jaxtyping import Bool, Float, Int
 
 from sketchtree.axes import NULL
+from sketchtree.sketch.joining.boughs import heavier_foot
 from sketchtree.sketch.joining.bundle import Bundle
 from sketchtree.sketch.joining.candidates import MANY, Arcs, bridging_arcs, candidate_arcs
 from sketchtree.sketch.joining.choices import Choices, solve
@@ -29,6 +30,7 @@ from sketchtree.sketch.joining.likelihood import taper_costs
 from sketchtree.sketch.joining.lines import Line
 from sketchtree.sketch.joining.moves import hangs
 
+ALOFT = 30.0  # how much less the foot of a bough costs than the lowest end
 FORBIDDEN = 1e4  # dearer than any tree of sensible attachments
 STANDING, TOWERS = 8.0, 5.0  # what a rising stroke pays to stand beside the stem; how much less if it is tall
 HANGS = 6.0  # and how much more if its upper end is on another stroke
@@ -56,6 +58,9 @@ def attach(lines: list[Line], progress: Callable[[float], None] | None = None) -
     rising, foot_y = _rising(bundle)
     lowest = float(foot_y.min())
     alone = 100 * (foot_y - lowest) / bundle.height + 0.5 * (1 - rising) + _smallness(bundle)[:, None] + _tapering(bundle)
+    aloft = heavier_foot(bundle, int(np.argmin(alone)))
+    if aloft is not None:
+        alone.ravel()[aloft] = alone.min() - ALOFT
     root = bundle.ends[int(np.argmin(alone))]
     arcs, slip = candidate_arcs(bundle, root)
     told(0.5)
@@ -65,7 +70,7 @@ def attach(lines: list[Line], progress: Callable[[float], None] | None = None) -
     stands = choices.tail[chosen] == len(lines)
     slip = slip_of(arcs.gap[chosen[~stands]] / bundle.height)
     stem = int(np.argmin(np.where(stands, choices.cost(choices.end[chosen])[chosen], np.inf)))
-    standing = _standing(bundle, arcs, slip, alone, foot_y[stem, choices.end[chosen[stem]]])
+    standing = _standing(bundle, arcs, slip, alone, foot_y[stem, choices.end[chosen[stem]]]) if aloft is None else alone + FORBIDDEN
     choices = Choices.of(arcs, slip, standing)
     chosen = solve(choices, rounds[1], choices.end[chosen])
     told(0.9)
