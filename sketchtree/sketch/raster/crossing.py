@@ -10,6 +10,7 @@ across the bridge if both lines go on straight over it.
 from dataclasses import dataclass
 
 import numpy as np
+from jaxtyping import Float
 
 from sketchtree.sketch.raster.tracing import Edge, Web
 
@@ -58,6 +59,20 @@ def link(web: Web, pen: float) -> Links:
     for pairs in bridges.values():
         onward.update({a: b for pair in pairs for a, b in (pair, pair[::-1])})
     return Links(onward, bridges)
+
+
+def crossings(web: Web, pen: float) -> Float[np.ndarray, "place 3"]:
+    """(x, y, length of the shortest edge there) where two lines go on through each other: in a joint, or at either end of a bridge."""
+    links = link(web, pen)
+    found = []
+    for node in (node for node in sorted(web.at) if web.degree(node) > 3):
+        ends = _ends(web, node)
+        if sum(end in links.onward for end in ends) > 3:
+            found.append((*web.place[node], min(web.edges[key].length for key, _ in ends)))
+    for key, pairs in links.bridges.items():
+        shortest = min(web.edges[end[0]].length for pair in pairs for end in pair)
+        found += [(*web.place[node], shortest) for node in (web.edges[key].a, web.edges[key].b)]
+    return np.array(found, float).reshape(-1, 3)
 
 
 def arm(edge: Edge, side: int, pen: float, skip: float) -> Arm:

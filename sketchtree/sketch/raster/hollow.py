@@ -3,7 +3,7 @@
 The paper that the ink encloses falls into regions. With R the radius of the largest disc in a region and P the length of
 its border, a limb has P / 4R ≥ LIMB (a disc has π/2, a square 2). Crossing branches enclose slender regions too, but they
 end in a corner at the foot, and others stand beside them. What tells an outline is the trunk: a slender region low in the drawing,
-about as wide at its foot as further up, with nothing drawn near either side. From it the regions that touch it across one line
+about as wide at its foot as further up, with nothing drawn near either side, and not a corner between two lines that cross at its top. From it the regions that touch it across one line
 are followed, as long as they are limbs and narrower. Outlines left open, at the foot or at a tip, are closed where
 two free ends lie side by side.
 """
@@ -15,7 +15,7 @@ from jaxtyping import Bool, Float, Int
 from scipy.ndimage import binary_dilation, distance_transform_edt, find_objects, label
 from skimage.draw import line as pixels_between
 
-from sketchtree.sketch.raster.crossing import arm
+from sketchtree.sketch.raster.crossing import arm, crossings
 from sketchtree.sketch.raster.tracing import Web
 
 LIMB = 3.2  # least P / 4R of a limb …
@@ -26,6 +26,8 @@ FOOT = 0.35  # of the drawing's height: the trunk's lower end is lower
 FLAT = 0.55  # of the trunk's middle width: least width at its foot
 UPRIGHT = 1.2  # of its middle width: least height of a trunk
 LEVELS = (0.04, 0.5)  # of the trunk's height: where its foot is measured, and up to where it stands alone
+CORNER = 0.65  # of its width at the foot: half way up, a region below a crossing is no wider
+GOES_ON = 0.5  # of that width: lines that cross go on for longer; sides that meet at a tip may overshoot it
 ALONE = 0.6  # least share of the rows of its lower half in which nothing stands within its own width of it
 THIN = 0.03  # of the drawing's height: a line wider than this is a limb, no outline's
 CAP = 0.18  # of the drawing's height: free ends side by side are no farther apart
@@ -61,8 +63,9 @@ def filled_outlines(mask: Bool[np.ndarray, "row col"], web: Web, pen: float) -> 
     tall = np.array([box[0].stop - box[0].start for box in boxes])
     limb = ~outside & (width >= 0.7 * pen) & (width <= WIDE * height)
     trunk = limb & (slender >= TRUNK) & (tall >= HIGH * height) & (low >= bottom - FOOT * height)
+    crossed = crossings(web, pen) if trunk.any() else np.zeros((0, 3))
     for k in np.flatnonzero(trunk):
-        trunk[k] = _is_trunk(labels, boxes[k], k + 1, mask, pen)
+        trunk[k] = _is_trunk(labels, boxes[k], k + 1, mask, pen) and not _below(labels, boxes[k], k + 1, crossed, pen)
     if not trunk.any():
         return None
     taken = _follow(labels, boxes, trunk, np.where(limb & (slender >= LIMB), width, np.inf), width, pen)
@@ -88,6 +91,16 @@ def _is_trunk(labels, box, number: int, mask: Bool[np.ndarray, "row col"], pen: 
         right = mask[rows[k], last[k] + 1 + edge : last[k] + 1 + away]
         alone += not (left.any() or right.any())
     return alone >= ALONE * half
+
+
+def _below(labels, box, number: int, crossed: Float[np.ndarray, "place 3"], pen: float) -> bool:
+    """Whether a region is the corner below a crossing: it ends there, narrows towards it all the way, and both lines go on."""
+    inside = labels[box] == number
+    width = inside.sum(1)
+    foot = float(np.median(width[-max(1, len(width) // 10) :]))
+    top = np.array([box[1].start + np.flatnonzero(inside[0]).mean(), box[0].start]) + 0.5
+    near = (np.hypot(*(crossed[:, :2] - top).T) <= 2 * ACROSS * pen) & (crossed[:, 2] >= GOES_ON * foot)
+    return bool(near.any() and width[len(width) // 2] <= CORNER * foot)
 
 
 def _measures(labels: Int[np.ndarray, "row col"], count: int):

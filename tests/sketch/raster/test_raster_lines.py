@@ -148,6 +148,24 @@ def test_limbs_drawn_by_their_outlines_collapse_to_their_middles(tone):
     assert all(stroke.wood for stroke in sketch.strokes)
 
 
+@pytest.mark.parametrize("crossing", [260, 220, 180, 140])
+@pytest.mark.parametrize("apart", [14, 24, 36, 50])
+def test_two_lines_that_cross_above_their_feet_are_no_outlined_trunk(apart, crossing):
+    far = apart * (345 - 40) / (345 - crossing)
+    lines = [[(150 + side * apart / 2, 345), (150 + side * (apart / 2 - far), 40)] for side in (-1, 1)]
+    sketch = sheets.read(sheets.cover(lines, 3.0))
+    assert len(sketch) == 2 and all(s.width < 4 and not s.wood for s in sketch.strokes)
+    assert sheets.farthest(sheets.curves(sketch), lines) < 3.0
+
+
+@pytest.mark.parametrize("past", [0, 6, 14])
+def test_a_trunk_whose_sides_meet_at_the_tip_and_run_past_it_is_outlined(past):
+    sides = [[(150 - side * 15, 345), (150 + side * 15 * past / 265, 80 - past)] for side in (-1, 1)]
+    sketch = sheets.read(sheets.cover([*sides, [(157, 230), (250, 150)], [(145, 260), (60, 170)]], 2.5))
+    trunk = max(sketch.strokes, key=lambda stroke: np.ptp(stroke.points[:, 1]))
+    assert len(sketch) == 3 and trunk.wood and np.median(sheets.widths(trunk)) > 12
+
+
 def test_a_painted_silhouette_is_its_middle_lines():
     shape = [shapely.LineString([(150, 290), (150, 30)]).buffer(11, cap_style="flat"), shapely.LineString([(150, 180), (250, 100)]).buffer(6)]
     outline = np.array(shapely.union_all(shape).exterior.coords)
