@@ -20,6 +20,7 @@ INK = 0.0012  # of H: a stroke nowhere farther than this from another is part of
 MOST = 0.6  # of the other: a stroke that covers so much of it may lie off by AGAIN
 REPEAT = (0.003, 0.06, 0.012)  # of H, of its length, of H: how far a repeated stroke may lie off, ends too: least, part, most
 SLANT = 0.15  # never farther than this part of its own length: a twig leaves its parent at 9° or more
+BATCH = 1000  # lines compared with each other at once: many may lie on one another
 AGAIN_OVER = "drawn over that stroke, merged with it"
 
 
@@ -92,17 +93,26 @@ def _owners(lines: list[Line], height: float) -> Int[np.ndarray, " line"]:
     """For every line the earlier (longer) line that it repeats, else -1. An owner is no one's own."""
     owner = np.full(len(lines), -1)
     shapes = np.array([line.shape for line in lines], object)
-    near = np.minimum(REPEAT[2] * height, SLANT * np.array([line.length for line in lines]))
-    middle = shapely.line_interpolate_point(shapes, 0.5, normalized=True)
-    inner, outer = shapely.STRtree(shapes).query(middle, predicate="dwithin", distance=near)
-    for end in (0, -1):
-        points = shapely.points(np.array([line.points[end] for line in lines]))
-        close = (outer < inner) & (shapely.distance(points[inner], shapes[outer]) <= near[inner])
-        inner, outer = inner[close], outer[close]
-    for a, b in sorted(zip(inner.tolist(), outer.tolist(), strict=True)):
-        if owner[a] < 0 and owner[b] < 0 and _repeats(lines[a], lines[b], height):
-            owner[a] = b
+    for first in range(0, len(lines), BATCH):
+        here, before = np.arange(first, min(first + BATCH, len(lines))), np.flatnonzero(owner[:first] < 0)
+        for others in (before, here) if first else (here,):
+            own = here[owner[here] < 0]
+            for a, b in _beside(lines, shapes, own, others, height):
+                if owner[a] < 0 and owner[b] < 0 and _repeats(lines[a], lines[b], height):
+                    owner[a] = b
     return owner
+
+
+def _beside(lines: list[Line], shapes, inner, outer, height: float) -> list[tuple[int, int]]:
+    """(line of `inner`, earlier line of `outer` that its middle and both ends lie near to), in order."""
+    near = np.minimum(REPEAT[2] * height, SLANT * np.array([lines[k].length for k in inner.tolist()]))
+    middle = shapely.line_interpolate_point(shapes[inner], 0.5, normalized=True)
+    row, other = shapely.STRtree(shapes[outer]).query(middle, predicate="dwithin", distance=near)
+    for end in (0, -1):
+        points = shapely.points(np.array([lines[k].points[end] for k in inner.tolist()]).reshape(-1, 2))
+        close = (outer[other] < inner[row]) & (shapely.distance(points[row], shapes[outer[other]]) <= near[row])
+        row, other = row[close], other[close]
+    return sorted(zip(inner[row].tolist(), outer[other].tolist(), strict=True))
 
 
 def _repeats(line: Line, other: Line, height: float) -> bool:

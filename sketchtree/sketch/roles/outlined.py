@@ -17,6 +17,7 @@ from sketchtree.sketch.roles.brush import Middles, even_border, middles, simplif
 
 MEET = 0.015  # of H: the two sides meet at the tip
 FREE = 0.02  # of H: and nothing else comes nearer to it
+CROWD, FEW = 5, 1000  # so many ends in one place are of three lines or more; looked for where there are more ends than that
 HELD = 0.05  # of H: at the foot something else does
 NARROW = 0.12  # widest mean distance of the sides of an open outline, of its length
 PAIRED = 0.25  # the same of two lines that meet at the tip
@@ -131,11 +132,18 @@ def _middle_line(line: Line, found: Middles, n: int, height: float) -> Line:
 
 def _meeting(ends: Float[np.ndarray, "end 2"], length: Float[np.ndarray, " line"], height: float) -> Int[np.ndarray, "pair 2"]:
     """Pairs of ends (two a line) that meet, of lines alike in length whose other ends are not far apart."""
-    pairs = cKDTree(ends).query_pairs(MEET * height, output_type="ndarray")
+    alone = np.arange(len(ends)) if len(ends) <= FEW else np.flatnonzero(~_crowded(ends, height))
+    pairs = alone[cKDTree(ends[alone]).query_pairs(MEET * height, output_type="ndarray")]
     a, b = pairs.T // 2
     feet = np.hypot(*(ends[pairs[:, 0] ^ 1] - ends[pairs[:, 1] ^ 1]).T)
     alike = np.minimum(length[a], length[b]) >= LIKE * np.maximum(length[a], length[b])
     return pairs[(a != b) & alike & (feet <= FEET * np.minimum(length[a], length[b])) & (feet >= WIDE * height)]
+
+
+def _crowded(ends: Float[np.ndarray, "end 2"], height: float) -> np.ndarray:
+    """Ends so near to those of two other lines that they are no free tips; without them thousands in one place make no pairs."""
+    near, _ = cKDTree(ends).query(ends, k=CROWD, distance_upper_bound=(FREE - 0.5 * MEET) * height)
+    return np.isfinite(near).all(1)
 
 
 def _free_and_held(lines: list[Line], ends, pairs, height: float) -> np.ndarray:

@@ -3,6 +3,7 @@ import pytest
 from little_lines import TRUNK, line, lines, random_lines, read
 
 from sketchtree.errors import SketchError
+from sketchtree.sketch.joining import cleaning
 from sketchtree.sketch.joining.cleaning import AGAIN_OVER, as_line, clean, without_doubles
 from sketchtree.sketch.joining.folding import DOT
 
@@ -111,6 +112,24 @@ def test_neither_order_nor_direction_changes_the_lines(seed):
 def test_lines_come_longest_first_and_from_their_lower_end():
     found = cleaned([(0, 100), (0, 0)], [(30, 70), (0, 50)], [(-60, 90), (0, 60)]).lines
     assert [one.id for one in found] == ["s0", "s2", "s1"] and all(one.points[0, 1] < one.points[-1, 1] for one in found)
+
+
+@pytest.mark.parametrize("batch", [1, 2, 3, 7])
+def test_lines_compared_batch_after_batch_find_the_owners_they_find_all_at_once(batch, monkeypatch):
+    rng = np.random.default_rng(batch)
+    strokes = [TRUNK, *(np.array(LIMB) + rng.normal(0, 0.2, 2) + (0, 20 * (k % 3)) for k in range(12))]
+    whole = cleaned(*strokes)
+    monkeypatch.setattr(cleaning, "BATCH", batch)
+    found = cleaned(*strokes)
+    assert [(one.id, owner) for one, owner, _ in found.merged] == [(one.id, owner) for one, owner, _ in whole.merged]
+    assert [one.id for one in found.lines] == [one.id for one in whole.lines] and len(whole.merged) >= 6
+
+
+def test_thousands_of_strokes_nearly_over_one_another_are_one_limb_and_each_is_accounted_for():
+    rng = np.random.default_rng(0)
+    graph = read(TRUNK, *(np.array(LIMB) + rng.normal(0, 0.02, (3, 2)) for _ in range(6000)))
+    assert len(graph.limb_id) == 2 and len(graph.attachments) == 6001
+    assert sum(a.reason == AGAIN_OVER for a in graph.attachments) == 5999
 
 
 def test_a_trembling_stroke_is_stilled():

@@ -3,6 +3,7 @@ import pytest
 from drawn import graph_of
 
 from sketchtree.sketch.joining.cleaning import as_line
+from sketchtree.sketch.roles import outlined
 from sketchtree.sketch.roles.outlined import limbs_of_outlines
 
 
@@ -64,3 +65,13 @@ def test_what_lies_inside_a_closed_limb_is_bark():
 
 def test_nothing_comes_of_nothing():
     assert limbs_of_outlines([], []).lines == []
+
+
+def test_looking_for_crowds_first_pairs_the_same_tips(monkeypatch):
+    fronds = [side for k in range(8) for side in frond((70 * np.cos(k), 100 + 70 * np.sin(k)))]
+    crowd = [[(90, 10), (95, 13 + 1e-3 * k)] for k in range(12)]
+    drawn = lines([(0, 0), (0, 100)], *fronds, *crowd)
+    plain = limbs_of_outlines(drawn, [False] * len(drawn))
+    monkeypatch.setattr(outlined, "FEW", 0)
+    found = limbs_of_outlines(drawn, [False] * len(drawn))
+    assert len(found.sides) == 6 and [(a.id, b.id) for a, b in found.sides] == [(a.id, b.id) for a, b in plain.sides]
