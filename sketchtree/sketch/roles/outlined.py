@@ -1,7 +1,7 @@
 """Which lines are the sides of a limb rather than limbs? Limbs drawn by their outline become their middle line.
 
 Three ways to draw one: a closed thin outline; one line out and back again, open at the foot; two lines that meet at
-the tip, where much of the drawing is drawn so. All of them, once closed, enclose a slender shape (`brush`). What is wider, or encloses next to nothing, stays
+the tip, where much of the drawing is drawn so. Whoever does not lift the pen goes on from there as the next limb. All of them, once closed, enclose a slender shape (`brush`). What is wider, or encloses next to nothing, stays
 as it was drawn: a limb that arches over, or a line gone over twice.
 """
 
@@ -12,7 +12,7 @@ import shapely
 from jaxtyping import Float, Int
 from scipy.spatial import cKDTree
 
-from sketchtree.sketch.joining.lines import Line, ends_of, extent
+from sketchtree.sketch.joining.lines import Line, ends_of, extent, turning
 from sketchtree.sketch.roles.brush import Middles, even_border, middles, simplified, squared
 
 MEET = 0.015  # of H: the two sides meet at the tip
@@ -27,6 +27,8 @@ HABIT = (2, 0.35)  # pairs, and their part of all that is drawn: two limbs' tips
 LIKE = 0.5  # least ratio of the lengths of two sides
 SHUT = 0.6  # an outline whose ends come this near, of its mean width, is as good as closed
 WITHIN = 0.9  # least part of a line inside the outline of a limb that makes it bark
+LEAVES, RETURNS = 0.1, 0.1  # of H: an outline leads so far from its stroke's end; and back, to this part of that, before its stroke goes on
+OPENED = 0.03  # of H: least mean width of such an outline: a trembling hand comes back past where it was by less
 PINCHED = 0.5  # of its middle width: an outline that is no wider where its stroke begins, in its middle part, is two limbs from there
 LOOSE = 2.5  # widest opening of an outline at the foot, of its mean width
 
@@ -45,6 +47,7 @@ def limbs_of_outlines(lines: list[Line], closed: list[bool]) -> Outlined:
     if not lines:
         return Outlined(lines, [], [])
     height = extent(lines)
+    lines, closed = _loops_apart(lines, closed, height)
     lines, areas = _single_outlines(lines, closed, height)
     if not areas:
         return Outlined(*_pairs(lines, height), [])
@@ -54,6 +57,41 @@ def limbs_of_outlines(lines: list[Line], closed: list[bool]) -> Outlined:
     bark = [k for k in others if lines[k].shape.intersection(inside).length >= WITHIN * lines[k].length]
     kept, sides = _pairs([line for k, line in enumerate(lines) if k not in bark], height)
     return Outlined(kept, sides, [lines[k] for k in bark])
+
+
+def _loops_apart(lines: list[Line], closed: list[bool], height: float) -> tuple[list[Line], list[bool]]:
+    """The lines, those that outline a limb and then go on as another cut there; which are closed now."""
+    turns = turning(lines) >= np.pi  # what comes back turns round
+    parts = [_loop_and_rest(line, height) if turn and not shut else () for line, turn, shut in zip(lines, turns, closed, strict=True)]
+    cut = [part for part in parts if part]
+    if not cut:
+        return lines, closed
+    found = middles(np.array([even_border(loop.points) for loop, _ in cut]))
+    limbs = {id(loop) for n, (loop, _) in enumerate(cut) if _is_limb(found, n, np.inf, height) and found.width[n].mean() >= OPENED * height}
+    whole = [part if part and id(part[0]) in limbs else (line,) for line, part in zip(lines, parts, strict=True)]
+    flags = [(True, False) if len(part) == 2 else (shut,) for part, shut in zip(whole, closed, strict=True)]
+    return [line for part in whole for line in part], [flag for part in flags for flag in part]
+
+
+def _loop_and_rest(line: Line, height: float) -> tuple[Line, ...]:
+    """(the part of a line that leaves one of its ends and comes back to it, what goes on from there); () if it does neither."""
+    if line.length < LEAVES * height:
+        return ()
+    s = np.linspace(0.0, line.length, 129)
+    at = line.at(s)
+    for start in (0, -1):
+        away = np.hypot(*(at - line.points[start]).T)[:: 1 if start == 0 else -1]
+        back = (np.maximum.accumulate(away) >= LEAVES * height) & (away <= RETURNS * np.maximum.accumulate(away))
+        if not back.any():
+            continue
+        first = int(np.argmax(back))
+        run = first + int(np.argmin(np.r_[back[first:], False]))
+        turn = first + int(np.argmin(away[first:run]))
+        if away[turn:].max() >= LEAVES * height:
+            place = float(s[turn]) if start == 0 else float(line.length - s[turn])
+            parts = line.cut(0.0, place), line.cut(place, line.length)
+            return parts if start == 0 else parts[::-1]
+    return ()
 
 
 def _single_outlines(lines: list[Line], closed: list[bool], height: float) -> tuple[list[Line], dict[int, shapely.Geometry]]:

@@ -75,3 +75,38 @@ def test_looking_for_crowds_first_pairs_the_same_tips(monkeypatch):
     monkeypatch.setattr(outlined, "FEW", 0)
     found = limbs_of_outlines(drawn, [False] * len(drawn))
     assert len(found.sides) == 6 and [(a.id, b.id) for a, b in found.sides] == [(a.id, b.id) for a, b in plain.sides]
+
+
+TRUNK = [(0, 0), (0, 100)]
+NEXT = [(15, 108), (30, 104), (45, 85), (50, 60)]
+
+
+@pytest.mark.parametrize("turned", [False, True])
+def test_an_outline_from_which_the_pen_goes_on_is_a_limb_and_the_next(turned):
+    upper, lower = frond((-80, 80), width=14.0)
+    stroke = np.vstack([upper, lower[::-1], NEXT])
+    found = limbs_of_outlines(lines(TRUNK, stroke[::-1] if turned else stroke), [False, False])
+    assert [one.id for one in found.lines] == ["s0", "s1", "s1"]
+    ends = {tuple(end) for one in found.lines[1:] for end in one.points[[0, -1]].round(-1).tolist()}
+    assert ends == {(-80.0, 80.0), (0.0, 100.0), (50.0, 60.0)}
+
+
+def test_fronds_of_one_stroke_hang_side_by_side_at_the_head():
+    upper, lower = frond((-80, 80), width=14.0)
+    graph = graph_of(TRUNK, np.vstack([upper, lower[::-1], NEXT]))
+    tips = graph.xy[graph.limb_tip]
+    assert {tuple(tip) for tip in tips.round(-1).tolist()} >= {(-80.0, 80.0), (50.0, 60.0)} and len(tips) <= 3
+
+
+@pytest.mark.parametrize("width", [0.0, 2.0])
+def test_a_line_gone_over_from_which_the_pen_goes_on_is_no_outline(width):
+    upper, lower = frond((-80, 80), width=width)
+    drawn = lines(TRUNK, np.vstack([upper, lower[::-1], NEXT]))
+    assert limbs_of_outlines(drawn, [False, False]).lines == drawn
+
+
+def test_a_limb_that_curls_past_its_foot_stays_one_line():
+    turn = np.radians(np.linspace(90, 450, 40))
+    curl = np.c_[30 * np.cos(turn), 70 + 30 * np.sin(turn)]
+    drawn = lines(TRUNK, np.vstack([curl, [(20, 105), (60, 115)]]))
+    assert limbs_of_outlines(drawn, [False, False]).lines == drawn
