@@ -55,7 +55,7 @@ class Table:
     def add_bark(self, bark: list[Line], lines: list[Line]) -> None:
         """Strokes of which nothing is left but lines between the sides of a limb."""
         rows = {line.row for line in bark} - {line.row for line in lines}
-        self.take([Found(row, "hatching", "drawn between the two sides of a limb", (("branch", 0.6),)) for row in sorted(rows)])
+        self.take([Found(row, "hatching", "drawn between the two sides of a limb, or along one", (("branch", 0.6),)) for row in sorted(rows)])
 
     def add_rims(self, wood: Wood) -> None:
         """Strokes that ran along a crown's outline, in part or wholly."""

@@ -3,7 +3,7 @@
 Two lines that reach the ground are its sides if they run side by side (`two_sides`). The trunk is their
 middle, as wide as they are apart. A side may be drawn in several pieces, and
 one line may draw both: down, along the ground and up again; under a crown also up, across and down again.
-What lies between the sides, or across from one to the other, is bark.
+What lies between the sides, across from one to the other, or along one of them all the way, is bark.
 """
 
 from dataclasses import dataclass
@@ -12,6 +12,7 @@ import numpy as np
 import shapely
 from jaxtyping import Float
 
+from sketchtree.sketch.joining.folding import farthest
 from sketchtree.sketch.joining.lines import Line, angle_between, corners, extent
 from sketchtree.sketch.roles.two_sides import MEETS, Side, middle_of, middle_of_pair, rises, side_of
 
@@ -25,6 +26,7 @@ BENDS = np.radians(60)  # … and bend no more there
 IN_CROWN = 0.8  # least part of what goes on above a side that lies in the crown, to belong to it
 SPUR = 1.5  # what goes on above a side for less than this, of the trunk's width there, is its shoulder
 CAP = 0.3  # of the trunk's width: a line across it starts and ends this near to its edges
+ALONG = 0.1  # of the trunk's width: a line nowhere farther than this from a side, and longer than that, goes over it again
 INSIDE = 0.02  # of H: what lies this far outside the sides still counts as bark between them
 
 
@@ -136,7 +138,9 @@ def _replaced(lines: list[Line], used: set[int], middle: Line, sides: tuple[Side
     between = shapely.make_valid(shapely.Polygon(ring)).buffer(INSIDE * height)
     kept = [line for k, line in enumerate(lines) if k not in used]
     caps = {id(line) for line in kept if _caps(line, [lines[k] for k in used], float(middle.width.max()))}
-    bark = [line for line in kept if id(line) in caps or line.shape.intersection(between).length >= 0.9 * line.length]
+    near = ALONG * float(np.median(middle.width))
+    again = {id(line) for line in kept if line.length > 4 * near and any(farthest(line, lines[k].shape) <= near for k in used)}
+    bark = [line for line in kept if id(line) in caps | again or line.shape.intersection(between).length >= 0.9 * line.length]
     crown = shapely.union_all([shapely.make_valid(shapely.Polygon(points)).buffer(INSIDE * height) for points in crowns])
     rest = [line for side in sides for line in side.rest if line.length > max(2 * INSIDE * height, SPUR * float(middle.width[-1]))]
     rest = [line for line in rest if line.shape.intersection(crown).length < IN_CROWN * line.length]

@@ -81,3 +81,14 @@ def test_a_short_line_across_the_top_of_a_trunk_is_no_limb():
 def test_two_limbs_from_one_place_are_no_trunk_without_a_crown():
     left, right = [(0, 0), (-9, 25), (-10, 60), (-9, 90)], [(0, 0), (9, 25), (10, 60), (9, 90)]
     assert len(trunks_of_edges(lines(left, right), []).lines) == 2
+
+
+def test_a_side_gone_over_again_outside_the_trunk_is_bark():
+    graph = graph_of(CROWN, edge(-16, high=60), edge(16, high=60), [(18.9, 30), (19.0, 40), (18.9, 52)])
+    assert roles(graph) == {"s0": "crown", "s3": "hatching"} and len(graph.limb_id) == 1
+    assert next(role for role in graph.roles if role.stroke == "s3").reason.endswith("or along one")
+
+
+def test_a_limb_that_leaves_a_side_is_no_bark():
+    graph = graph_of(CROWN, edge(-12), edge(12), [(12.5, 20.0), (14.0, 28.0), (24.0, 40.0)])
+    assert roles(graph) == {"s0": "crown"} and len(graph.limb_id) == 2
