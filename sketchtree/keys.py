@@ -28,6 +28,11 @@ def stage_key(key: Key[Array, ""], name: str) -> Key[Array, ""]:
     return jax.random.fold_in(key, zlib.crc32(name.encode()))
 
 
+def numpy_generator(key: Key[Array, ""]) -> np.random.Generator:
+    """A numpy generator (Philox) that draws the same numbers for the same key."""
+    return np.random.Generator(np.random.Philox(np.asarray(jax.random.key_data(key)).astype(np.uint64)))
+
+
 def uniform(key: Key[Array, ""] | np.uint64, limb_id: Int[np.ndarray, " limb"], draw: int) -> Float[np.ndarray, " limb"]:
     """One number in [0, 1) per limb; `draw` numbers the independent draws of one limb."""
     with np.errstate(over="ignore"):

@@ -51,14 +51,15 @@ class Program:
 _PROGRAMS: dict[tuple, Program] = {}
 
 
-def compiled(function: Callable, *arguments, name: str) -> Program:
-    """`function` compiled for arguments of these shapes; the same object for the same shapes."""
+def compiled(function: Callable, *arguments, name: str, keep: bool = True) -> Program:
+    """`function` compiled for arguments of these shapes; the same object for the same shapes. Without `keep` the program
+    is not kept on disk: it holds code that the file's name does not tell."""
     leaves, structure = jax.tree_util.tree_flatten(arguments)
     shapes = tuple((leaf.shape, str(leaf.dtype)) for leaf in leaves)
     key = (name, structure, shapes)
     if key not in _PROGRAMS:
         _use_disk_cache()
-        path = _path(f"{name} {structure} {shapes} {jax.config.jax_enable_x64}")
+        path = None if not keep else _path(f"{name} {structure} {shapes} {jax.config.jax_enable_x64}")
         columns = [jax.ShapeDtypeStruct(leaf.shape, leaf.dtype) for leaf in leaves]
         make = partial(_make, function, columns, structure, path)
         _PROGRAMS[key] = _read(path, len(leaves), make) or make()

@@ -33,6 +33,8 @@ class LimbTheta(NamedTuple):
     divergence_sd: Float[Array, " 2"]  # σ_o
     length_mean: Float[Array, " 2"]  # a_o, log ratio of limb lengths
     length_sd: Float[Array, " 2"]  # ς_o
+    segment_mean: Float[Array, " 2"]  # m_o, log of segment lengths, H = 1
+    segment_sd: Float[Array, " 2"]  # s_o
     bend_sd: Float[Array, " 3"]  # τ_o, radians, o = 0, 1, 2+
 
 
@@ -42,6 +44,7 @@ class LimbData(NamedTuple):
 
     divergence: tuple[Array, Array, Array]
     length: tuple[Array, Array, Array]
+    segment: tuple[Array, Array, Array]
     bend: tuple[Array, Array]
 
 
@@ -50,32 +53,38 @@ class LimbBelief(eqx.Module):
 
     divergence: Float[Array, "4 2"]  # m, κ, ν, s² per order 1, 2+
     length: Float[Array, "4 2"]
+    segment: Float[Array, "4 2"]
     bend: Float[Array, "2 3"]  # ν, s² per order 0, 1, 2+
 
     def mean(self) -> LimbTheta:
         """Θ with means m and variances s²."""
-        return LimbTheta(
-            self.divergence[0], jnp.sqrt(self.divergence[3]), self.length[0], jnp.sqrt(self.length[3]), jnp.sqrt(self.bend[1])
-        )
+        normal = [column for kind in self._normals for column in (kind[0], jnp.sqrt(kind[3]))]
+        return LimbTheta(*normal, jnp.sqrt(self.bend[1]))
 
     def mode(self) -> LimbTheta:
         """Θ at the joint mode, σ²_MAP = (ν s²/2)/(ν/2 + 1) (the Normal's own σ in the joint density left out)."""
-        sd = [jnp.sqrt(nu * s2 / (nu + 2)) for nu, s2 in (self.divergence[2:], self.length[2:], self.bend)]
-        return LimbTheta(self.divergence[0], sd[0], self.length[0], sd[1], sd[2])
+        sd = [jnp.sqrt(nu * s2 / (nu + 2)) for nu, s2 in (*(kind[2:] for kind in self._normals), self.bend)]
+        return LimbTheta(*[column for kind, own in zip(self._normals, sd) for column in (kind[0], own)], sd[-1])
+
+    @property
+    def _normals(self):
+        return self.divergence, self.length, self.segment
 
     def updated(self, data: LimbData) -> "LimbBelief":
         """The posterior given one assignment's statistics."""
         count, square = data.bend
         nu = self.bend[0] + 2 * count
         bend = jnp.stack([nu, (self.bend[0] * self.bend[1] + square) / nu])
-        return LimbBelief(_normal_update(self.divergence, *data.divergence), _normal_update(self.length, *data.length), bend)
+        normals = zip(self._normals, (data.divergence, data.length, data.segment), strict=True)
+        return LimbBelief(*(_normal_update(belief, *seen) for belief, seen in normals), bend)
 
-    def log_density(self, theta: LimbTheta) -> Float[Array, " 7"]:
+    def log_density(self, theta: LimbTheta) -> Float[Array, " 9"]:
         """log density of (mean, variance) of each kind and order at Θ, up to terms of κ0, ν0 and counts alone."""
         return jnp.concatenate(
             [
                 _normal_inverse_gamma(self.divergence, theta.divergence_mean, theta.divergence_sd**2),
                 _normal_inverse_gamma(self.length, theta.length_mean, theta.length_sd**2),
+                _normal_inverse_gamma(self.segment, theta.segment_mean, theta.segment_sd**2),
                 _inverse_chi2(self.bend[0], self.bend[1], theta.bend_sd**2),
             ]
         )
@@ -84,6 +93,7 @@ class LimbBelief(eqx.Module):
 GENERIC_BELIEF = {
     "divergence": [[1.045, 0.893], [0.42, 1.37], [6.0, 6.0], [0.039, 0.040]],
     "length": [[-1.35, -1.09], [0.69, 0.36], [6.0, 6.0], [0.075, 0.026]],
+    "segment": [[-2.35, -2.5], [0.5, 0.5], [6.0, 6.0], [0.35, 0.20]],
     "bend": [[6.0, 6.0, 6.0], [0.016, 0.051, 0.165]],
 }
 
@@ -135,3 +145,23 @@ def _normal_inverse_gamma(belief, mean, variance):
 def _inverse_chi2(nu, s2, variance):
     half = nu / 2
     return half * jnp.log(half * s2) - (half + 1) * jnp.log(variance) - half * s2 / variance
+
+
+def theta_names() -> tuple[str, ...]:
+    """The names of the columns that `draw_theta` fills: LimbTheta's fields with their orders."""
+    return tuple(
+        f"{field}_{order}{'+' if order == 2 else ''}"
+        for field in LimbTheta._fields
+        for order in ((0, 1, 2) if field.startswith("bend") else (1, 2))
+    )
+
+
+def draw_theta(belief: LimbBelief, generator: np.random.Generator) -> Float[np.ndarray, "sample parameter"]:
+    """One Θ from each of many beliefs (columns with a sample axis in front): σ² = ν s² / χ²_ν, μ ~ N(m, σ²/κ)."""
+    columns = []
+    for kind in belief._normals:
+        mean, kappa, nu, s2 = np.moveaxis(np.asarray(kind), 1, 0)
+        variance = nu * s2 / generator.chisquare(nu)
+        columns += [mean + np.sqrt(variance / kappa) * generator.standard_normal(mean.shape), np.sqrt(variance)]
+    nu, s2 = np.moveaxis(np.asarray(belief.bend), 1, 0)
+    return np.concatenate([*columns, np.sqrt(nu * s2 / generator.chisquare(nu))], axis=1)

@@ -3,35 +3,39 @@
 Many chains start from random limbs, warm → T = 1 (burn-in), are kept for a while at T = 1 (samples), and are cooled to the best
 tree. The model is `log_posterior`, a step `chains`, what is shown `typical`; Θ is integrated out in `conjugate`.
 
-One step of this solver is a block of 40 chain steps at one temperature, so that a bucket needs one small program.
+One step of this solver is a block of 40 chain steps at one temperature, so that a bucket needs one small program. From a
+`start`, as while somebody draws, the hot blocks are left out, and its signs are kept unless others are much likelier.
 """
 
-from concurrent.futures import ThreadPoolExecutor
+from collections.abc import Mapping
 from typing import Any, NamedTuple
 
+import equinox as eqx
 import jax
 import numpy as np
-from jaxtyping import Array, Float, Key
+from jaxtyping import Array, Bool, Float, Key
 
-from sketchtree.keys import normal
+from sketchtree.errors import InferenceError
+from sketchtree.mrf.answer.interpenetration import moved_apart
+from sketchtree.mrf.answer.posterior import Posterior
+from sketchtree.mrf.answer.readings import Reading, distinct_readings
+from sketchtree.mrf.answer.typical import depth_of, most_typical, typical_readings
+from sketchtree.mrf.factor_graph import FactorGraph
+from sketchtree.mrf.log_posterior import LogPosterior, log_posterior
+from sketchtree.mrf.okabe import Okabe
+from sketchtree.mrf.prior import Prior
 from sketchtree.mrf.sampling import chains
 from sketchtree.mrf.sampling.chains import Chains
-from sketchtree.mrf.compilation import compiled
-from sketchtree.mrf.factor_graph import FactorGraph
-from sketchtree.mrf.answer.interpenetration import moved_apart
-from sketchtree.mrf.log_posterior import LogPosterior, log_posterior
-from sketchtree.mrf.padding import bucket
-from sketchtree.mrf.prior import Prior
-from sketchtree.mrf.sampling.proposals import Draws, Moves, draw, moves
+from sketchtree.mrf.sampling.locks import held_depths
+from sketchtree.mrf.sampling.proposals import Moves, moves
+from sketchtree.mrf.sampling.start import starts
+from sketchtree.mrf.sampling.teams import TEAMS, block_of, in_teams
 from sketchtree.mrf.solver import AbstractSolver
-from sketchtree.mrf.answer.typical import depth_of, typical_elevation
 
-BLOCK = 40  # chain steps a block
 LARGE = ((4096, 2), (16384, 4))  # above so many rows only every second, every fourth block is run
-TEAMS = 2  # the chains run in so many threads
 LEADING = 4  # one in so many of the cooled chains, the likeliest, proposes its signs
 THIN = 10  # chain steps between kept samples
-START_SD = 0.5  # radians, of a lateral's first ψ
+LOYAL = 4.0  # nats that another tree must be likelier before the signs of a `start` are given up
 
 
 class State(NamedTuple):
@@ -40,10 +44,13 @@ class State(NamedTuple):
     posterior: LogPosterior | None  # None: nothing to infer
     moves: Moves | None
     chains: Chains | None
-    samples: tuple[Float[np.ndarray, "sample segment"], ...]
+    samples: tuple[Float[np.ndarray, "draw chain segment"], ...]  # ψ
+    values: tuple[Float[np.ndarray, "draw chain"], ...]  # E
     block: int
     best: Float[np.ndarray, " segment"]  # ψ of the best tree so far
-    best_value: float  # its E
+    best_value: float  # its E; −inf before the first block
+    held: Bool[np.ndarray, " segment"]
+    start: Float[np.ndarray, " segment"] | None  # ψ to begin with, NaN where it is not known
 
 
 class Block(NamedTuple):
@@ -68,6 +75,9 @@ class Elevation(AbstractSolver):
 
     theta_mode: str = "fit"  # "fit": Θ is learnt; "fixed": it stays the prior's
     planar: bool = False  # the tree grew flat
+    factors: Mapping[str, Any] = eqx.field(default_factory=dict)  # the user's, by name; see `log_posterior`
+    start: Any = None  # z of every row to begin with, sketch units, NaN where it is not known
+    locked: Mapping[int, float] = eqx.field(default_factory=dict)  # row → z of its tip, sketch units
     typical: bool = True  # show median steepness and stretch; False: the best tree itself
     chain_count: int = 24  # fewer on drawings above 256 rows
     burn: tuple[float, ...] = (3.0, 1.7, 1.0)  # temperature of each block
@@ -83,87 +93,145 @@ class Elevation(AbstractSolver):
     def default_steps(self) -> int:
         return len(self.burn) + self.keep + len(self.cool)
 
-    def schedule(self, graph: FactorGraph) -> list[Block]:
-        """What the blocks do; drawings of thousands of segments have fewer."""
+    def with_samples(self, count: int, graph: FactorGraph) -> "Elevation":
+        """The same solver, keeping at least `count` samples of this drawing (and no fewer than it would anyway)."""
+        from sketchtree.mrf.padding import bucket
+        from sketchtree.mrf.sampling.teams import BLOCK
+
+        a_block = self._chain_count(bucket(graph)[0]) * (BLOCK // THIN)
         every = max([1, *(thin for rows, thin in LARGE if len(graph) > rows)])
-        burn, cool = ([Block(t, False) for t in heat[every - 1 :: every]] for heat in (self.burn, self.cool))
+        return eqx.tree_at(lambda solver: solver.keep, self, max(self.keep, every * -(-count // a_block)))
+
+    def schedule(self, graph: FactorGraph) -> list[Block]:
+        """What the blocks do; drawings of thousands of segments have fewer, and so has a run from a `start`."""
+        every = max([1, *(thin for rows, thin in LARGE if len(graph) > rows)])
+        hot = self.burn if self.start is None else tuple(t for t in self.burn if t <= 1.0)
+        burn, cool = ([Block(t, False) for t in heat[every - 1 :: every]] for heat in (hot, self.cool))
         return [*burn, *[Block(1.0, True)] * -(-self.keep // every), *cool]
 
     def compile(self, graph: FactorGraph, prior: Prior) -> None:
         if graph.limb_spreads.any():
-            state = self.init(graph, prior, jax.random.key(0))
-            compiled(chains.run, *self._parts(graph, state, jax.random.key(0), 1.0)[0], name="chains")
+            self._run(graph, self.init(graph, prior, jax.random.key(0)), jax.random.key(0), 1.0, compile_only=True)
 
     def init(self, graph: FactorGraph, prior: Prior, key: Key[Array, ""]) -> State:
-        nothing = np.zeros(len(graph))
-        if not graph.limb_spreads.any():
-            return State(None, None, None, (), 0, nothing, 0.0)
-        segments, limbs = bucket(graph)
-        posterior = log_posterior(graph, prior, learns=self.theta_mode == "fit", planar=self.planar)
-        start = _random_limbs(graph, key, self._chain_count(segments), segments)
-        return State(posterior, moves(graph, segments, limbs), chains.start(start), (), 0, nothing, -np.inf)
+        nothing, free = np.zeros(len(graph)), np.zeros(len(graph), bool)
+        if not graph.limb_spreads.any() and not self.locked:
+            return State(None, None, None, (), (), 0, nothing, 0.0, free, None)
+        learns = self.theta_mode == "fit"
+        posterior = log_posterior(graph, prior, learns=learns, planar=self.planar, factors=self.factors)
+        known, held = self._known(graph)
+        segments, limbs = len(posterior.page.length), posterior.page.limb_count
+        start = starts(graph, key, self._chain_count(segments), segments, known=known, held=held)
+        best = nothing if known is None else np.nan_to_num(known)
+        return State(posterior, moves(graph, segments, limbs, held=held), chains.start(start), (), (), 0, best, -np.inf, held, known)
+
+    def _known(self, graph: FactorGraph):
+        """(ψ to begin with or None, which rows are held)."""
+        depth = None
+        if self.start is not None:
+            depth = np.asarray(self.start, float) / graph.scale
+            if depth.shape != (len(graph),) or np.isinf(depth).any():
+                raise InferenceError(
+                    f"`start` has the shape {depth.shape}, or a depth that is infinite.", remedy=f"Give {len(graph)} depths, NaN where none is known."
+                )
+        held = np.zeros(len(graph), bool)
+        if self.locked:
+            locks = {row: z / graph.scale for row, z in self.locked.items()}
+            depth, held = held_depths(graph, locks, np.zeros(len(graph)) if depth is None else np.nan_to_num(depth))
+        if depth is None:
+            return None, held
+        rise = depth - np.where(graph.is_base, depth, depth[np.maximum(graph.parent, 0)])
+        psi = np.where(graph.is_base, 0.0, np.arctan2(rise, np.maximum(graph.length, 1e-12)))
+        return (np.where(held, psi, np.nan) if self.start is None else psi), held
 
     def step(self, graph: FactorGraph, prior: Prior, state: State, key: Key[Array, ""]) -> tuple[State, Info]:
         schedule = self.schedule(graph)
         block = schedule[state.block]
-        after, path = self._run(graph, state, key, block.temperature)
-        value = after.value
-        leader = int(np.argmax(value))
-        samples = state.samples
+        after, path, values = self._run(graph, state, key, block.temperature)
+        return self.taken(graph, state, block, after, path, values)
+
+    def taken(self, graph: FactorGraph, state: State, block: Block, after: Chains, path, values) -> tuple[State, Info]:
+        """The state after a block that led to `after`."""
+        leader = int(np.argmax(after.value))
+        samples, kept_values = state.samples, state.values
         if block.kept:
-            samples = (*samples, path[THIN - 1 :: THIN, :, : len(graph)].reshape(-1, len(graph)))
+            samples = (*samples, path[THIN - 1 :: THIN, :, : len(graph)])
+            kept_values = (*kept_values, values[THIN - 1 :: THIN])
         best, best_value = state.best, state.best_value
-        if value[leader] >= best_value:
-            best, best_value = after.elevation[leader, : len(graph)].astype(np.float64), float(value[leader])
+        if after.value[leader] >= best_value:
+            best, best_value = after.elevation[leader, : len(graph)].astype(np.float64), float(after.value[leader])
         moved = float(np.abs(after.elevation - state.chains.elevation).sum(axis=1).mean())
-        state = State(state.posterior, state.moves, after, samples, state.block + 1, best, best_value)
-        if state.block == len(schedule) and self.polish is not None:
+        state = state._replace(chains=after, samples=samples, values=kept_values, block=state.block + 1, best=best, best_value=best_value)
+        if state.block == len(self.schedule(graph)) and self.polish is not None:
             state = self._polished(graph, state)
         pace = float(np.exp(np.median(after.log_step)))
-        return state, Info(state.best_value, float(np.median(value)), block.temperature, pace, moved)
+        return state, Info(state.best_value, float(np.median(after.value)), block.temperature, pace, moved)
 
     def terminate(self, graph: FactorGraph, prior: Prior, state: State) -> bool:
         return state.posterior is None or state.block >= len(self.schedule(graph))
 
     def depth(self, graph: FactorGraph, state: State) -> Float[np.ndarray, " segment"]:
-        psi = state.best
-        if self.typical and state.samples:
-            leading = np.argsort(-state.chains.value, kind="stable")[: -(-len(state.chains.value) // LEADING)]
-            trees = np.vstack([state.best, state.chains.elevation[leading, : len(graph)].astype(np.float64)])
-            psi = typical_elevation(graph, np.concatenate(state.samples), trees)
-        return moved_apart(graph, depth_of(graph, psi))
+        if state.posterior is not None and state.block == 0 and state.start is None:
+            return Okabe().answer(graph)
+        return self._shown(graph, state)[0]
+
+    def _shown(self, graph: FactorGraph, state: State):
+        """(the depths shown, depths of every tree that might be, their E, which of them is shown)."""
+        if not (self.typical and state.samples):
+            z = moved_apart(graph, depth_of(graph, state.best), held=state.held)
+            return z, z[:, None], np.array([state.best_value]), 0
+        order = np.argsort(-state.chains.value, kind="stable")
+        cooled = state.chains.elevation[order, : len(graph)].astype(np.float64)
+        trees = np.vstack([state.best, cooled])
+        value = np.r_[state.best_value, np.asarray(state.chains.value, float)[order]]
+        samples = _together(state.samples)
+        psi, some = typical_readings(graph, samples, trees)
+        psi = np.where(state.held[:, None], state.best[:, None], psi)
+        leading = -(-len(order) // LEADING) + 1
+        chosen = most_typical(graph, psi[:, :leading], some)
+        if state.start is not None:
+            chosen = self._loyal(graph, state, order, value, chosen)
+        z = depth_of(graph, psi)
+        return moved_apart(graph, z[:, chosen], held=state.held), z, value, chosen
+
+    def _loyal(self, graph, state, order, value, chosen):
+        """The tree nearest to the start, unless another is much likelier."""
+        known = np.isfinite(state.start) & ~graph.is_base
+        own = depth_of(graph, np.nan_to_num(state.start))
+        trees = np.column_stack([state.best, state.chains.elevation[order, : len(graph)].T])
+        away = np.abs(depth_of(graph, trees) - own[:, None])[known].mean(axis=0) if known.any() else np.zeros(len(value))
+        near = value >= value.max() - LOYAL
+        return int(np.argmin(np.where(near, away, np.inf)))
 
     def depth_sd(self, graph: FactorGraph, state: State) -> Float[np.ndarray, " segment"]:
         """Standard deviation of |z| over the samples: the mirror image left out."""
         if not state.samples:
             return np.full(len(graph), np.nan)
-        return np.std(np.abs(depth_of(graph, np.concatenate(state.samples).T)), axis=1)
+        return np.std(np.abs(depth_of(graph, _together(state.samples).T)), axis=1)
 
     def log_posterior(self, graph: FactorGraph, prior: Prior, state: State) -> float | None:
-        return None if state.posterior is None else state.best_value
+        return None if state.posterior is None or state.block == 0 else state.best_value
+
+    def posterior(self, graph: FactorGraph, state: State, depth: Float[np.ndarray, " segment"], key: Key[Array, ""]) -> Posterior | None:
+        if not state.samples:
+            return None
+        return Posterior(graph, np.concatenate(state.samples), np.concatenate(state.values), depth, state.posterior, key)
+
+    def readings(self, graph: FactorGraph, state: State, count: int, *, mirrors: bool = False) -> list[Reading]:
+        if state.posterior is None or not state.samples:
+            return []
+        _, trees, value, chosen = self._shown(graph, state)
+        samples = depth_of(graph, _together(state.samples).T)
+        found = distinct_readings(graph, trees, value, chosen, samples, count, mirrors=mirrors)
+        return [reading._replace(depth=moved_apart(graph, reading.depth, held=state.held)) for reading in found]
 
     def _chain_count(self, segments: int) -> int:
         return TEAMS * max(1, min(self.chain_count, self.chain_count * 256 // segments) // TEAMS)
 
-    def _run(self, graph: FactorGraph, state: State, key, temperature: float):
-        """The chains after one block, and ψ after every step. Teams of chains run side by side, and the numbers
-        are the same on any count of cores."""
-        parts = self._parts(graph, state, key, temperature)
-        program = compiled(chains.run, *parts[0], name="chains")
-        with ThreadPoolExecutor(TEAMS) as pool:
-            done = list(pool.map(lambda part: jax.tree.map(np.asarray, program(*part)), parts))
-        after = Chains(*map(np.concatenate, zip(*(chains for chains, _ in done), strict=True)))
-        return after, np.concatenate([path for _, path in done], axis=1)
-
-    def _parts(self, graph: FactorGraph, state: State, key, temperature: float) -> list[tuple]:
-        """What the program takes, for every team."""
-        hot = np.full(BLOCK, temperature, np.float32)
-        langevin = (np.arange(BLOCK) % 2).astype(np.float32)
-        chain_count, segments = state.chains.elevation.shape
-        draws = draw(key, BLOCK, chain_count, len(graph), segments)
-        teams = np.array_split(np.arange(chain_count), TEAMS)
-        each = [(Chains(*(x[team] for x in state.chains)), Draws(*(x[:, team] for x in draws))) for team in teams]
-        return [(state.posterior, state.moves, chains, draws, hot, langevin) for chains, draws in each]
+    def _run(self, graph: FactorGraph, state: State, key, temperature: float, *, compile_only: bool = False):
+        """(the chains after one block, ψ and E after every step)."""
+        block = block_of(key, state.chains, len(graph), temperature)
+        return in_teams(state.posterior, state.moves, state.chains, block, keep=not self.factors, compile_only=compile_only)
 
     def _polished(self, graph: FactorGraph, state: State) -> State:
         from sketchtree.mrf.sampling.ascend import ascend  # takes longer to import than most drawings to solve
@@ -172,11 +240,8 @@ class Elevation(AbstractSolver):
         return state._replace(best=best, best_value=value) if value > state.best_value else state
 
 
-def _random_limbs(graph: FactorGraph, key, chain_count: int, segments: int) -> Float[np.ndarray, "chain segment"]:
-    """One ψ a limb, N(0, .5); 0 on stems."""
-    start = np.zeros((chain_count, segments), np.float32)
-    limb = np.arange(graph.limb_count)
-    for chain in range(chain_count):
-        psi = np.clip(START_SD * normal(key, limb, chain), -1.2, 1.2) * graph.limb_spreads
-        start[chain, : len(graph)] = np.where(graph.is_base, 0.0, psi[graph.limb])
-    return start
+def _together(samples) -> Float[np.ndarray, "sample segment"]:
+    """All samples in one axis."""
+    return np.concatenate(samples).reshape(-1, samples[0].shape[-1])
+
+

@@ -1,20 +1,24 @@
 """How deep is each segment? The one loop that runs every solver.
 
 The loop owns the step limit, the check that depths are finite, the trace and the clock. What the
-solver compiles first is not on the clock.
+solver compiles first is not on the clock. `infer` returns the last answer, `refine` every answer on the way.
 """
 
 import time
+from collections.abc import Iterator
 from dataclasses import dataclass, field
+from typing import Any
 
 import jax
 import numpy as np
-from jaxtyping import Array, Float, Key
+from jaxtyping import Array, Float, Int, Key
 
-from sketchtree.errors import InferenceError
+from sketchtree.errors import InferenceError, OptionError
 from sketchtree.keys import stage_key
+from sketchtree.mrf.answer.readings import Reading
 from sketchtree.mrf.factor_graph import FactorGraph
 from sketchtree.mrf.measure import measured_theta
+from sketchtree.mrf.overlaps import overlapping
 from sketchtree.mrf.prior import Prior
 from sketchtree.mrf.solver import RESULTS, AbstractSolver
 from sketchtree.parameters import TreeParameters
@@ -34,6 +38,9 @@ class Fit:
     seconds_warm: float  # solving, compilation left out
     method: str
     trace: dict[str, Float[np.ndarray, " step"]] = field(default_factory=dict)  # one column a field of Info
+    alternatives: tuple[Reading, ...] = ()  # distinct readings, sketch units, this one first; empty if none were asked for
+    posterior: Any = None  # the samples (`answer.posterior.Posterior`); None where the method has none
+    overlaps: Int[np.ndarray, "pair 2"] = field(default_factory=lambda: np.zeros((0, 2), np.int64))  # rows that still pass through each other
 
 
 def infer(
@@ -43,43 +50,82 @@ def infer(
     *,
     key: Key[Array, ""],
     max_steps: int | None = None,
+    alternatives: int = 0,
+    mirrors: bool = False,
     throw: bool = True,
 ) -> Fit:
     """Run `solver` until it terminates, or for `max_steps` (None: the solver's own limit).
 
-    With `throw`, a run that did not converge raises `InferenceError` with the result's sentence;
+    `alternatives`: how many distinct readings are wanted, this one included; there may be fewer. With `mirrors`, mirror images
+    count as distinct. With `throw`, a run that did not converge raises `InferenceError` with the result's sentence;
     without, the sentence's member is in `Fit.result` and non-finite depths are set to 0.
     """
-    limit = solver.default_steps if max_steps is None else max_steps
-    solver.compile(graph, prior)
-    clock = time.perf_counter()
-    state = solver.init(graph, prior, stage_key(key, "init"))
-    step_key = stage_key(key, "step")
-    rows, steps = [], 0
-    while steps < limit and not solver.terminate(graph, prior, state):
-        state, info = solver.step(graph, prior, state, jax.random.fold_in(step_key, steps))
-        rows.append(info._asdict())
-        steps += 1
-    result = RESULTS.converged if solver.terminate(graph, prior, state) else RESULTS.out_of_steps
-    depth = np.asarray(solver.depth(graph, state), np.float64)
-    seconds = time.perf_counter() - clock
-    finite = np.isfinite(depth)
-    if not finite.all():
-        result, depth = RESULTS.not_finite, np.where(finite, depth, 0.0)
-    if throw and result != RESULTS.converged:
-        raise _error(result, solver)
-    return Fit(
-        depth=depth * graph.scale,
-        depth_sd=np.asarray(solver.depth_sd(graph, state), np.float64) * graph.scale,
-        theta=solver.theta(graph, prior, state) or measured_theta(graph, depth, prior.theta),
-        theta_before=prior.theta,
-        result=result,
-        log_posterior=solver.log_posterior(graph, prior, state),
-        steps=steps,
-        seconds_warm=seconds,
-        method=solver.name,
-        trace=_columns(rows),
-    )
+    if alternatives < 0:
+        raise OptionError(f"`alternatives={alternatives}` is negative.", remedy="Give how many readings are wanted, 0 for none but the answer.")
+    run = _Run(graph, prior, solver, key, max_steps)
+    for _ in run:
+        pass
+    return run.fit(alternatives, mirrors, throw=throw)
+
+
+def refine(
+    graph: FactorGraph, prior: Prior, solver: AbstractSolver, *, key: Key[Array, ""], max_steps: int | None = None
+) -> Iterator[Fit]:
+    """Answers that improve: the first at once, one after every step, the last that of `infer`. Whoever iterates may stop at
+    any of them; nothing runs on. A run that is not over yet has the result `out_of_steps`.
+    """
+    run = _Run(graph, prior, solver, key, max_steps)
+    yield run.fit(throw=False)
+    for _ in run:
+        yield run.fit(throw=False)
+
+
+class _Run:
+    """One run of a solver: iterating takes a step."""
+
+    def __init__(self, graph, prior, solver, key, max_steps):
+        self.graph, self.prior, self.solver, self.key = graph, prior, solver, key
+        self.limit = solver.default_steps if max_steps is None else max_steps
+        solver.compile(graph, prior)
+        self.clock = time.perf_counter()
+        self.state = solver.init(graph, prior, stage_key(key, "init"))
+        self.rows: list[dict] = []
+
+    def __iter__(self):
+        step_key = stage_key(self.key, "step")
+        while len(self.rows) < self.limit and not self.solver.terminate(self.graph, self.prior, self.state):
+            own = jax.random.fold_in(step_key, len(self.rows))
+            self.state, info = self.solver.step(self.graph, self.prior, self.state, own)
+            self.rows.append(info._asdict())
+            yield
+
+    def fit(self, alternatives: int = 0, mirrors: bool = False, *, throw: bool) -> Fit:
+        """The answer as it stands."""
+        graph, solver, state = self.graph, self.solver, self.state
+        result = RESULTS.converged if solver.terminate(graph, self.prior, state) else RESULTS.out_of_steps
+        depth = np.asarray(solver.depth(graph, state), np.float64)
+        seconds = time.perf_counter() - self.clock
+        finite = np.isfinite(depth)
+        if not finite.all():
+            result, depth = RESULTS.not_finite, np.where(finite, depth, 0.0)
+        if throw and result != RESULTS.converged:
+            raise _error(result, solver)
+        readings = solver.readings(graph, state, alternatives, mirrors=mirrors) if alternatives else []
+        return Fit(
+            depth=depth * graph.scale,
+            depth_sd=np.asarray(solver.depth_sd(graph, state), np.float64) * graph.scale,
+            theta=solver.theta(graph, self.prior, state) or measured_theta(graph, depth, self.prior.theta),
+            theta_before=self.prior.theta,
+            result=result,
+            log_posterior=solver.log_posterior(graph, self.prior, state),
+            steps=len(self.rows),
+            seconds_warm=seconds,
+            method=solver.name,
+            trace=_columns(self.rows),
+            alternatives=tuple(reading._replace(depth=reading.depth * graph.scale) for reading in readings),
+            posterior=solver.posterior(graph, state, depth, stage_key(self.key, "theta")),
+            overlaps=overlapping(graph, depth),
+        )
 
 
 def _columns(rows: list[dict]) -> dict[str, np.ndarray]:

@@ -5,6 +5,7 @@
 The sum runs over the kinds of `KINDS`, less those left out or replaced, and over the factors of a user's own.
 """
 
+import dataclasses
 from collections.abc import Mapping
 from typing import Any
 
@@ -26,6 +27,7 @@ from sketchtree.mrf.factors.lateral import Lateral
 from sketchtree.mrf.factors.limb_length import LimbLength
 from sketchtree.mrf.factors.own import Own, own_factor
 from sketchtree.mrf.factors.plane import Plane
+from sketchtree.mrf.factors.segment_length import SegmentLength
 from sketchtree.mrf.factors.siblings import Siblings
 from sketchtree.mrf.factors.solid_angle import SolidAngle
 from sketchtree.mrf.factors.stem import Stem
@@ -33,7 +35,7 @@ from sketchtree.mrf.padding import Padding
 from sketchtree.mrf.prior import Prior
 
 KINDS = (
-    "solid_angle", "lateral", "apical", "stem", "limb_length", "siblings", "competition", "extent", "crown", "plane",
+    "solid_angle", "lateral", "apical", "stem", "limb_length", "segment_length", "siblings", "competition", "extent", "crown", "plane",
 )  # fmt: skip
 LATERALS_FOR_TRUNK = 3  # below which a trunk's bend is not learnt
 
@@ -47,6 +49,7 @@ class LogPosterior(eqx.Module):
     apical: Apical
     stem: Stem
     limb_length: LimbLength
+    segment_length: SegmentLength
     siblings: Siblings
     competition: Competition
     extent: Extent
@@ -87,12 +90,14 @@ class LogPosterior(eqx.Module):
 
     def data(self, assignment: Assignment) -> LimbData:
         """What these depths say about Θ. A kind that does not count says nothing."""
-        lateral, length, bend = (float(name not in self.left_out) for name in ("lateral", "limb_length", "apical"))
+        kinds = ("lateral", "limb_length", "segment_length", "apical")
+        lateral, length, segment, bend = (float(name not in self.left_out) for name in kinds)
         learns_bend = jnp.concatenate([self.learns_trunk[None], jnp.ones(2, self.learns.dtype)])
         bend_kind = self.apical.kind * (bend * self.learns) * learns_bend
         return LimbData(
             divergence=_moments(assignment.turn, self.lateral.kind * (lateral * self.learns)),
             length=_moments(self.limb_length.excess(assignment), self.limb_length.kind * (length * self.learns)),
+            segment=_moments(self.segment_length.log_length(assignment), self.segment_length.kind * (segment * self.learns)),
             bend=(jnp.sum(bend_kind, axis=0), assignment.turn**2 @ bend_kind),
         )
 
@@ -116,7 +121,7 @@ def log_posterior(
 
     `factors` are the user's, by name: the name of a kind replaces it, any other adds one, None leaves the kind out. Each
     has `log_potential(assignment, theta)`, or makes such an object from the graph (see `factors.own`). Where `lateral`,
-    `limb_length` or `apical` does not count, the part of Θ that belongs to it stays the prior's.
+    `limb_length`, `segment_length` or `apical` does not count, the part of Θ that belongs to it stays the prior's.
     Raises `InferenceError` for a factor that can't be used.
     """
     pad = Padding(graph, dtype)
@@ -128,6 +133,7 @@ def log_posterior(
         apical=Apical.of(graph, pad),
         stem=Stem.of(graph, pad),
         limb_length=LimbLength.of(graph, pad),
+        segment_length=SegmentLength.of(graph, pad),
         siblings=Siblings.of(graph, pad, shape=shape),
         competition=Competition.of(graph, pad, shape=shape),
         extent=Extent.of(graph, pad, shape=shape),
@@ -140,4 +146,4 @@ def log_posterior(
         learns_trunk=np.asarray(float(np.sum(graph.limb_parent != NULL) >= LATERALS_FOR_TRUNK), dtype),
     )
     own = tuple(own_factor(name, given, posterior, graph) for name, given in factors.items() if given is not None)
-    return eqx.tree_at(lambda p: p.own, posterior, own, is_leaf=lambda x: x == ()) if own else posterior
+    return dataclasses.replace(posterior, own=own)

@@ -52,7 +52,20 @@ class Okabe(AbstractSolver):
     name = "okabe"
     default_steps = 10_000  # more orders than any drawing has
 
+    def answer(self, graph: FactorGraph) -> Float[np.ndarray, " segment"]:
+        """The depths after the last order, H = 1. Nothing is drawn at random and no prior is asked."""
+        state = self._start(graph)
+        while not self.terminate(graph, Prior(), state):
+            state, _ = self._placed(graph, state)
+        return state.depth
+
     def init(self, graph: FactorGraph, prior: Prior, key: Key[Array, ""]) -> State:
+        return self._start(graph)
+
+    def step(self, graph: FactorGraph, prior: Prior, state: State, key: Key[Array, ""]) -> tuple[State, Info]:
+        return self._placed(graph, state)
+
+    def _start(self, graph: FactorGraph) -> State:
         depth = np.zeros(len(graph))
         stems = np.flatnonzero(graph.limb_parent == NULL)
         chains = _chains(graph)
@@ -60,7 +73,7 @@ class Okabe(AbstractSolver):
         points = [_points(graph, chains[stem], depth[chains[stem]], along) for stem in stems]
         return State(depth, np.concatenate([np.zeros((0, 3)), *points]), 1, np.inf)
 
-    def step(self, graph: FactorGraph, prior: Prior, state: State, key: Key[Array, ""]) -> tuple[State, Info]:
+    def _placed(self, graph: FactorGraph, state: State) -> tuple[State, Info]:
         depth, placed = np.array(state.depth), [state.placed]
         chains, half_depth = _chains(graph), self._half_depth(graph)
         limbs = np.flatnonzero(graph.limb_order == state.order)

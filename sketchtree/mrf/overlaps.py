@@ -36,6 +36,13 @@ def pushes(
     return np.where(stem_start, 0.0, push)
 
 
+def overlapping(graph: FactorGraph, depth: Float[np.ndarray, " segment"]) -> Int[np.ndarray, "pair 2"]:
+    """Pairs of segments that pass through each other at these depths (H = 1)."""
+    pair = candidates(graph)
+    need = 0.5 * (graph.radius[pair[:, 0]] + graph.radius[pair[:, 1]])
+    return pair[np.linalg.norm(_between(graph, depth, pair), axis=1) < need]
+
+
 def candidates(graph: FactorGraph) -> Int[np.ndarray, "pair 2"]:
     """Pairs of segments that lie so near on the page that they may overlap in space, and are no kin."""
     row = np.flatnonzero(~graph.is_base)

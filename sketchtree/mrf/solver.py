@@ -91,3 +91,12 @@ class AbstractSolver(eqx.Module):
     def theta(self, graph: FactorGraph, prior: Prior, state: Any) -> TreeParameters | None:
         """Θ as the solver learnt it; None: it is measured on the result."""
         return None
+
+    def posterior(self, graph: FactorGraph, state: Any, depth: Float[np.ndarray, " segment"], key: Key[Array, ""]) -> Any:
+        """The samples that led to `depth` (H = 1), an `answer.posterior.Posterior`; None where the solver has none."""
+        return None
+
+    def readings(self, graph: FactorGraph, state: Any, count: int, *, mirrors: bool = False) -> list:
+        """Up to `count` distinct readings (`answer.readings.Reading`, H = 1), the answer first; empty where the solver
+        knows of one only."""
+        return []

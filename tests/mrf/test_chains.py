@@ -29,7 +29,7 @@ def _run(graph, blocks, seed=0, temperature=1.0):
         key = jax.random.fold_in(jax.random.key(seed), block)
         draws = proposals.draw(key, BLOCK, CHAINS, len(graph), segments)
         arguments = (posterior, moves, state, draws, heat, langevin)
-        state, path = compiled(chains.run, *arguments, name="chains")(*arguments)
+        state, path, _ = compiled(chains.run, *arguments, name="chains")(*arguments)
         paths.append(np.asarray(path)[:, :, : len(graph)])
     return np.concatenate(paths), state
 

@@ -14,7 +14,7 @@ from sketchtree.mrf.prior import Prior
 from tests.mrf.drawings import lone_stroke, random_tree, shrub, small_tree
 from tests.twins import limb_model as twin
 
-KINDS = ("solid_angle", "lateral", "apical", "stem", "limb_length", "siblings", "competition", "extent", "crown")
+KINDS = ("solid_angle", "lateral", "apical", "stem", "limb_length", "segment_length", "siblings", "competition", "extent", "crown")
 
 
 @cache
@@ -84,7 +84,8 @@ def test_a_base_and_the_padding_have_no_gradient(small, double):
 def test_theta_is_the_conjugate_update_of_the_limbs(small, double):
     psi = _psi(small, 4)
     theta = _evaluate(small, psi)[2]
-    for name, data in (("divergence", twin.divergences(small, psi)), ("length", twin.excesses(small, psi))):
+    told = {"divergence": twin.divergences, "length": twin.excesses, "segment": twin.log_lengths}
+    for name, data in ((name, told[name](small, psi)) for name in told):
         for o in (1, 2):
             prior = [row[o - 1] for row in GENERIC_BELIEF[name]]
             m, _, _, s2 = twin.normal_update(*prior, [x for order, x in data if order == o])

@@ -65,6 +65,13 @@ def excesses(graph, psi):
     return out
 
 
+def log_lengths(graph, psi):
+    """(order 1 or 2, log L) of every segment that is no stem's."""
+    _, length, *_ = vectors(graph, psi)
+    rows = [i for i in range(len(graph)) if not graph.is_base[i] and graph.order[i] > 0]
+    return [(min(graph.order[i], 2), math.log(length[i] + 1e-9)) for i in rows]
+
+
 def bends(graph, psi):
     """(order 0, 1 or 2, a) of every segment that continues its limb."""
     v, *_ = vectors(graph, psi)
@@ -76,7 +83,7 @@ def kinds(graph, psi, theta):
     """{kind of factor: sum of its log potentials}. `theta` has lists: divergence_mean, ... as LimbTheta."""
     v, length, tip, limb_length = vectors(graph, psi)
     out = dict.fromkeys(
-        ("solid_angle", "lateral", "apical", "stem", "limb_length", "siblings", "competition", "extent", "crown"), 0.0
+        ("solid_angle", "lateral", "apical", "stem", "limb_length", "segment_length", "siblings", "competition", "extent", "crown"), 0.0
     )
     for i in range(len(graph)):
         if not graph.is_base[i]:
@@ -90,6 +97,9 @@ def kinds(graph, psi, theta):
     for o, r in excesses(graph, psi):
         m, s = theta.length_mean[o - 1], theta.length_sd[o - 1]
         out["limb_length"] += -0.5 * ((r - m) / s) ** 2 - math.log(s)
+    for o, x in log_lengths(graph, psi):
+        m, s = theta.segment_mean[o - 1], theta.segment_sd[o - 1]
+        out["segment_length"] += -0.5 * ((x - m) / s) ** 2 - math.log(s)
     for j in range(graph.limb_count):
         if graph.limb_parent[j] < 0:
             out["stem"] += -0.5 * (psi[graph.limb_first[j]] / (0.5 if j in spreading_limbs(graph) else 0.08)) ** 2

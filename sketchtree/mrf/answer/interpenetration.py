@@ -8,7 +8,7 @@ than `MOST_ROWS` rows: there the lines lie so close on the page that most of the
 """
 
 import numpy as np
-from jaxtyping import Float
+from jaxtyping import Bool, Float
 
 from sketchtree.mrf.overlaps import candidates, pushes
 from sketchtree.mrf.factor_graph import FactorGraph
@@ -18,8 +18,10 @@ ROUNDS = 24
 MOST_ROWS = 6000
 
 
-def moved_apart(graph: FactorGraph, depth: Float[np.ndarray, " segment"]) -> Float[np.ndarray, " segment"]:
-    """Depths (H = 1) with as few overlapping segments as the rounds allow, near the given ones."""
+def moved_apart(
+    graph: FactorGraph, depth: Float[np.ndarray, " segment"], *, held: Bool[np.ndarray, " segment"] | None = None
+) -> Float[np.ndarray, " segment"]:
+    """Depths (H = 1) with as few overlapping segments as the rounds allow, near the given ones. Rows that are `held` stay."""
     if len(graph) > MOST_ROWS:
         return depth
     pair = candidates(graph)
@@ -27,6 +29,8 @@ def moved_apart(graph: FactorGraph, depth: Float[np.ndarray, " segment"]) -> Flo
     for _ in range(ROUNDS + 1):
         push = pushes(graph, depth, pair)
         overlaps = np.count_nonzero(push)
+        if held is not None:
+            push = np.where(held, 0.0, push)
         if fewest is None or overlaps < fewest:
             best, fewest = depth, overlaps
         if overlaps == 0:

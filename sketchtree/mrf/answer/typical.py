@@ -34,12 +34,19 @@ def typical_elevation(
     graph: FactorGraph, samples: Float[np.ndarray, "sample segment"], trees: Float[np.ndarray, "tree segment"]
 ) -> Float[np.ndarray, " segment"]:
     """ψ of every row, radians, from samples of ψ and the trees whose signs may be taken."""
+    readings, some = typical_readings(graph, samples, trees)
+    return readings[:, most_typical(graph, readings, some)]
+
+
+def typical_readings(
+    graph: FactorGraph, samples: Float[np.ndarray, "sample segment"], trees: Float[np.ndarray, "tree segment"]
+) -> tuple[Float[np.ndarray, "segment tree"], Float[np.ndarray, "segment some"]]:
+    """(ψ with typical steepness and the signs of each tree, the samples that were looked at)."""
     size = np.median(np.abs(samples), axis=0)
     size = np.where(graph.limb_spreads[graph.limb], size, STEM_SHARE * size)
     some = samples[:: -(-len(samples) // ENOUGH)].T
     readings = np.where(trees < 0, -size, size).T
-    readings = stretched_crown(graph, stretched_limbs(graph, readings, some), some)
-    return readings[:, most_typical(graph, readings, some)]
+    return stretched_crown(graph, stretched_limbs(graph, readings, some), some), some
 
 
 def stretched_limbs(

@@ -43,16 +43,17 @@ def run(
     draws: Draws,
     temperature: Float[Array, " step"],
     langevin: Float[Array, " step"],
-) -> tuple[Chains, Float[Array, "step chain segment"]]:
+) -> tuple[Chains, Float[Array, "step chain segment"], Float[Array, "step chain"]]:
     """As many steps as there are temperatures; `langevin` is 1 at Langevin steps and 0 at mirror moves.
-    Returns the chains after the last step, and ψ after every step."""
+    Returns the chains after the last step, and ψ and E after every step."""
 
     def step(chains, scheduled):
         draws, t, is_langevin = scheduled
         after = jax.vmap(lambda c, d: _step(posterior, moves, c, d, t, is_langevin))(chains, draws)
-        return after, after.elevation
+        return after, (after.elevation, after.value)
 
-    return jax.lax.scan(step, chains, (draws, temperature, langevin))
+    after, (elevation, value) = jax.lax.scan(step, chains, (draws, temperature, langevin))
+    return after, elevation, value
 
 
 def _step(posterior, moves, chain, draws, temperature, is_langevin):

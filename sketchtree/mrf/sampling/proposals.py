@@ -12,12 +12,12 @@ proposal densities.
 from typing import NamedTuple
 
 import equinox as eqx
-import jax
 import jax.numpy as jnp
 import numpy as np
-from jaxtyping import Array, Float, Int, Key
+from jaxtyping import Array, Bool, Float, Int, Key
 
 from sketchtree.axes import NULL
+from sketchtree.keys import numpy_generator
 from sketchtree.mrf.assignment import Page
 from sketchtree.mrf.conjugate import GENERIC_BELIEF
 from sketchtree.mrf.factor_graph import FactorGraph
@@ -46,16 +46,20 @@ class Draws(NamedTuple):
     accept: Float[Array, ""]  # [0, 1)
 
 
-def moves(graph: FactorGraph, segments: int, limbs: int, dtype=np.float32) -> Moves:
-    """The moves of a drawing padded to `segments` and `limbs`."""
-    lateral = np.flatnonzero(graph.limb_spreads)
+def moves(
+    graph: FactorGraph, segments: int, limbs: int, *, held: Bool[np.ndarray, " segment"] | None = None, dtype=np.float32
+) -> Moves:
+    """The moves of a drawing padded to `segments` and `limbs`. Rows that are `held` stay where they are, and so do
+    limbs that carry one."""
+    held = np.zeros(len(graph), bool) if held is None else held
+    lateral = np.setdiff1d(np.flatnonzero(graph.limb_spreads), graph.limb[held])
     fill = np.zeros(limbs - len(lateral), int)
     pace = np.zeros(segments)
-    pace[: len(graph)] = np.where(graph.is_base, 0.0, 1 / np.sqrt(stiffness(graph)))
+    pace[: len(graph)] = np.where(graph.is_base | held, 0.0, 1 / np.sqrt(stiffness(graph)))
     return Moves(
         lateral=np.asarray(np.r_[lateral, fill], np.int32),
         first=np.asarray(np.r_[graph.limb_first[lateral], fill], np.int32),
-        lateral_count=np.asarray(max(len(lateral), 1), np.int32),
+        lateral_count=np.asarray(len(lateral), np.int32),
         pace=np.asarray(pace, dtype),
     )
 
@@ -80,7 +84,7 @@ def draw(key: Key[Array, ""], steps: int, chain_count: int, rows: int, segments:
     """Everything random in a block of steps, with axes (step, chain) in front. Drawn on the host (Philox, seeded
     by the key's words) for the drawing's own rows, so that the numbers do not depend on the padding and the compiled
     program needs no generator."""
-    generator = np.random.Generator(np.random.Philox(np.asarray(jax.random.key_data(key)).astype(np.uint64)))
+    generator = numpy_generator(key)
     noise = np.zeros((steps, chain_count, segments), np.float32)
     noise[:, :, :rows] = generator.standard_normal((steps, chain_count, rows), np.float32)
     limb, kind, accept = generator.random((3, steps, chain_count), np.float32)
@@ -102,7 +106,7 @@ def langevin_log_density(moves: Moves, at, start, gradient, step, temperature):
 
 def mirror(moves: Moves, page: Page, psi, draws: Draws):
     """One limb negated, a limb and its subtree negated, or a limb shifted."""
-    j = jnp.minimum((draws.limb * moves.lateral_count).astype(jnp.int32), moves.lateral_count - 1)
+    j = jnp.clip((draws.limb * moves.lateral_count).astype(jnp.int32), 0, jnp.maximum(moves.lateral_count - 1, 0))
     on_limb = (page.limb == moves.lateral[j]) & page.is_segment
     rank = page.walk.rank - page.walk.rank[moves.first[j]]
     in_subtree = (rank >= 0) & (rank < page.walk.extent[moves.first[j]])
