@@ -13,7 +13,7 @@ from jaxtyping import Float, Int
 
 from sketchtree.errors import SketchError
 from sketchtree.sketch.joining.folding import AGAIN, CUSP, DOT, farthest, unfolded
-from sketchtree.sketch.joining.lines import Line, corners, ends_of, extent, turning
+from sketchtree.sketch.joining.lines import Line, corners, ends_of, extent, shapes_of, turning
 from sketchtree.sketch.joining.tremor import STILL, without_tremor
 
 INK = 0.0012  # of H: a stroke nowhere farther than this from another is part of it
@@ -42,9 +42,11 @@ def clean(lines: list[Line]) -> Cleaned:
         raise _far_apart(lines)
     kept_ids = {line.id for line in kept}
     dots = tuple(line.id for line in lines if line.id not in kept_ids)
-    parts = [part for line, turn in zip(kept, turning(kept), strict=True) for part in (unfolded(line, height) if turn > CUSP else [line])]
-    parts = [without_tremor(part, height) if turn > STILL else part for part, turn in zip(parts, turning(parts), strict=True)]
-    ordered = _ordered([_upward(part) for part in parts], height)
+    turns = turning(kept)
+    if (turns > min(CUSP, STILL)).any():
+        parts = [part for line, turn in zip(kept, turns, strict=True) for part in (unfolded(line, height) if turn > CUSP else [line])]
+        kept = [without_tremor(part, height) if turn > STILL else part for part, turn in zip(parts, turning(parts), strict=True)]
+    ordered = _ordered([_upward(line) for line in kept], height)
     owner = _owners(ordered, height)
     merged = [(line, ordered[o].row, AGAIN_OVER) for line, o in zip(ordered, owner, strict=True) if o >= 0]
     own = [line for line, o in zip(ordered, owner, strict=True) if o < 0]
@@ -92,7 +94,7 @@ def _ordered(lines: list[Line], height: float) -> list[Line]:
 def _owners(lines: list[Line], height: float) -> Int[np.ndarray, " line"]:
     """For every line the earlier (longer) line that it repeats, else -1. An owner is no one's own."""
     owner = np.full(len(lines), -1)
-    shapes = np.array([line.shape for line in lines], object)
+    shapes = shapes_of(lines)
     for first in range(0, len(lines), BATCH):
         here, before = np.arange(first, min(first + BATCH, len(lines))), np.flatnonzero(owner[:first] < 0)
         for others in (before, here) if first else (here,):

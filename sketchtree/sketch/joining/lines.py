@@ -97,6 +97,12 @@ def ends_of(lines: list[Line]) -> Float[np.ndarray, "end 2"]:
     return np.array([point for line in lines for point in (line.points[0], line.points[-1])])
 
 
+def shapes_of(lines: list[Line]) -> np.ndarray:
+    """The lines for shapely (line)."""
+    index = np.repeat(np.arange(len(lines)), [len(line.points) for line in lines])
+    return shapely.linestrings(np.concatenate([line.points for line in lines]), indices=index)
+
+
 def corners(lines: list[Line]) -> tuple[Float[np.ndarray, "line 2"], Float[np.ndarray, "line 2"]]:
     """(lower left, upper right corner) of the box around every line; at least one line."""
     points = np.concatenate([line.points for line in lines])
