@@ -27,8 +27,13 @@ class ReadingOptions(DrawingOptions):
     method: str = "elevation"
     height: float | None = None  # metres, > 0; None: the template's
     planar: bool = False
+    samples: int = 0  # posterior samples wanted at least, ≥ 0; 0: as many as the method keeps anyway
+    alternatives: int = 0  # distinct readings wanted, the answer included; 0: only the answer
 
     def __post_init__(self):
+        for name, most in (("samples", 1_000_000), ("alternatives", 64)):
+            if not 0 <= getattr(self, name) <= most:
+                raise OptionError(f"`--{name} {getattr(self, name)}` is out of range.", remedy=f"Give 0 to {most}.")
         if self.height is not None and not (np.isfinite(self.height) and 0 < self.height <= 1000):
             raise OptionError(f"`--height {self.height:g}` is no height of a tree.", remedy="Give metres above 0, at most 1000.")
 

@@ -61,7 +61,7 @@ class DrawnTree:
     def warnings(self) -> tuple[str, ...]:
         """What the user should know about the reading and the depths."""
         unsettled = () if self.fit.result == RESULTS.converged else (str(RESULTS[self.fit.result]),)
-        return self.graph.warnings + unsettled
+        return self.graph.warnings + unsettled + self.fit.warnings
 
 
 @dataclass(frozen=True, eq=False)
@@ -110,8 +110,10 @@ def draw_out(
         habit = exemplar.habit if exemplar else Habit()
         prior = Prior(exemplar.theta, exemplar.limbs) if exemplar else Prior(GENERIC)
     with watch("infer"):
+        factors = factor_graph(above)
         solver = solver_named(options.method, theta=options.theta, planar=options.planar)
-        fit = infer(factor_graph(above), prior, solver, key=stage_key(key, "infer"), throw=False)
+        solver = solver.with_samples(options.samples, factors) if options.samples else solver
+        fit = infer(factors, prior, solver, key=stage_key(key, "infer"), alternatives=options.alternatives, throw=False)
         if fit.result == RESULTS.not_finite:
             raise InferenceError(f"The depths could not be inferred by `{options.method}`.", remedy=str(RESULTS[fit.result]))
         fit = _with_roots(fit, graph)
@@ -129,7 +131,8 @@ def _with_roots(fit: Fit, graph: SketchGraph) -> Fit:
         return fit
     depth, sd = root_depth(graph), np.full(len(graph), np.nan)
     depth[~graph.root], sd[~graph.root] = fit.depth, fit.depth_sd
-    return dataclasses.replace(fit, depth=depth, depth_sd=sd)
+    others = tuple(reading._replace(depth=np.r_[reading.depth, depth[graph.root]]) for reading in fit.alternatives)
+    return dataclasses.replace(fit, depth=depth, depth_sd=sd, alternatives=others)
 
 
 def complete(

@@ -6,6 +6,8 @@ Angles are in degrees, lengths in metres unless a key says sketch units; a missi
 import json
 from importlib.resources import files
 
+import numpy as np
+
 from sketchtree.mrf.solver import RESULTS
 from sketchtree.parameters import TreeParameters
 from sketchtree.pipeline import DrawnTree, TreeModel
@@ -58,18 +60,25 @@ def _theta(theta: TreeParameters | None) -> dict | None:
 
 
 def _inference(drawn: DrawnTree) -> dict:
-    fit = drawn.fit
+    fit, samples = drawn.fit, drawn.fit.posterior
     return {
         "method": fit.method,
         "result": _result_name(fit.result),
         "log_posterior": fit.log_posterior,
         "seconds_warm": fit.seconds_warm,
         "steps": fit.steps,
-        "rhat": None,
-        "ess": None,
-        "intervals": [],
-        "alternatives": [],
+        "rhat": None if samples is None else samples.rhat,
+        "ess": None if samples is None else samples.ess,
+        "intervals": [] if samples is None else _intervals(drawn),
+        "alternatives": [{"log_posterior": reading.log_posterior, "odds": reading.odds} for reading in fit.alternatives],
     }
+
+
+def _intervals(drawn: DrawnTree) -> list[dict]:
+    """|dz|/|v| of every drawn segment above the ground; `id` is that of its tip in the SWC."""
+    spread, ids = drawn.fit.posterior.intervals, drawn.skeleton.node_id
+    rows = np.flatnonzero(np.isfinite(spread.q50))
+    return [{"id": int(ids[row])} | {name: round(float(getattr(spread, name)[row]), 6) for name in spread._fields} for row in rows]
 
 
 def _result_name(result: RESULTS) -> str:

@@ -85,6 +85,12 @@ class TreeSkeleton:
         return len(self.parent)
 
     @property
+    def node_id(self) -> Int[np.ndarray, " segment"]:
+        """The number of every row's tip, from 1, when the drawn points between tips are numbered too, each row's just
+        before its tip: the ids of an SWC file."""
+        return np.cumsum(np.diff(self.curve_start) + 1)
+
+    @property
     def is_base(self):
         """Bool[segment]: rows that are points on the ground."""
         return self.parent == NULL

@@ -6,7 +6,6 @@ from pathlib import Path
 import click
 
 from sketchtree.commands import options
-from sketchtree.commands.planned import not_yet
 from sketchtree.commands.progress import Progress
 
 
@@ -15,19 +14,17 @@ from sketchtree.commands.progress import Progress
 @click.option("-o", "--output", required=True, type=click.Path(path_type=Path), metavar="DRAWN.swc", help=".swc or .json")
 @click.option("--frame", type=click.Choice(["sketch", "world"]), default="world", show_default=True, help="The sketch's own units (y up), or metres with the root at the origin.")
 @options.reading
-@click.option("--samples", type=int, hidden=True)
-@click.option("--posterior", hidden=True)
-@click.option("--alternatives", type=int, hidden=True)
+@click.option("--samples", type=click.IntRange(0, 1_000_000), default=0, metavar="N", help="Sample the posterior at least N times.")
+@click.option("--posterior", type=click.Path(path_type=Path), metavar="P.npz", help="Write the samples.")
+@click.option("--alternatives", type=click.IntRange(0, 64), default=0, metavar="K", help="K distinct readings; the others go to DRAWN.2.swc, ….")
 @options.common
-def infer(sketch: Path, output: Path, frame: str, seed: int, quiet: bool, json_log: bool, report: Path | None, db: Path | None, **wanted) -> None:
+def infer(sketch: Path, output: Path, frame: str, seed: int, quiet: bool, json_log: bool, report: Path | None, db: Path | None, posterior: Path | None, **wanted) -> None:
     """Infer the depths of the strokes in SKETCH and write the drawn branches as a skeleton."""
     began = time.perf_counter()
-    for name in ("samples", "posterior", "alternatives"):
-        if wanted.pop(name):
-            raise not_yet(f"--{name}", "The inference engine")
     from sketchtree.commands import writing
 
-    writing.check_outputs(sketch, output, report, kinds=writing.SKELETONS)
+    others = writing.other_readings(output, wanted["alternatives"])
+    writing.check_outputs(sketch, output, report, posterior=posterior, others=others, kinds=writing.SKELETONS)
     from sketchtree import options as choices
     from sketchtree import pipeline
     from sketchtree.keys import root_key
@@ -43,7 +40,8 @@ def infer(sketch: Path, output: Path, frame: str, seed: int, quiet: bool, json_l
         drawn = pipeline.draw_out(sketch, templates, key=root_key(seed), options=reading, watch=watch)
         run = writing.Run("infer", seed, imported, began, watch, choices.options_as_dict(reading) | {"frame": frame})
         with watch("export"):
-            writing.write_drawn(drawn, output, run, frame=frame)
+            writing.write_posterior(posterior, drawn, frame=frame)
+            writing.write_drawn(drawn, output, run, frame=frame, others=others)
         record = writing.record(run, drawn)
         writing.write_report(report, record)
     writing.conclude(record, output, progress)

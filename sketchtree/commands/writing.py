@@ -10,6 +10,7 @@ from sketchtree.errors import ExportError
 from sketchtree.export.files import MESHES, SKELETONS, check_extension, check_writable, write_whole
 
 PICTURES = (".png",)
+POSTERIORS = (".npz",)
 
 
 @dataclass(frozen=True)
@@ -26,11 +27,12 @@ class Run:
 
 def check_outputs(
     sketch: Path, output: Path, report: Path | None = None, skeleton: Path | None = None, preview: Path | None = None,
-    *, kinds: tuple[str, ...] = MESHES + SKELETONS + PICTURES,
+    *, posterior: Path | None = None, others: tuple[Path, ...] = (), kinds: tuple[str, ...] = MESHES + SKELETONS + PICTURES,
 ) -> None:
     """Refuse, before any work, an output that can't be written. Raises ExportError."""
     taken = {sketch.resolve(): "the sketch itself"}
-    wanted = (("-o", output, kinds), ("--report", report, None), ("--skeleton", skeleton, SKELETONS), ("--preview", preview, PICTURES))
+    wanted = (("-o", output, kinds), ("--report", report, None), ("--skeleton", skeleton, SKELETONS), ("--preview", preview, PICTURES),
+              ("--posterior", posterior, POSTERIORS), *(("--alternatives", other, None) for other in others))  # fmt: skip
     for option, path, allowed in wanted:
         if path is None:
             continue
@@ -72,17 +74,44 @@ def _picture(model, path: Path) -> tuple[str, ...]:
     return () if drawn else (f"{path} was not drawn: {reason}",)
 
 
-def write_drawn(drawn, output: Path, run: Run, *, frame: str) -> None:
-    """The drawn branches as a skeleton file, in metres or in the sketch's own units (INTERFACES §2)."""
-    if frame == "world":
-        _write_skeleton(output, drawn.skeleton, run)
-        return
+def write_drawn(drawn, output: Path, run: Run, *, frame: str, others: tuple[Path, ...] = ()) -> None:
+    """The drawn branches as a skeleton file, in metres or in the sketch's own units (INTERFACES §2); other readings
+    than the answer into `others`, as far as there are any."""
+    told = [(output, drawn.fit.depth), *zip(others, [reading.depth for reading in drawn.fit.alternatives[1:]])]
+    for path, depth in told:
+        _write_skeleton(path, _framed(drawn, depth, frame), run, **({} if frame == "world" else {"units": "sketch units", "frame": "sketch"}))
+
+
+def _framed(drawn, depth, frame: str):
+    if frame == "world" and depth is drawn.fit.depth:
+        return drawn.skeleton
     from sketchtree.mrf.lift import lift
     from sketchtree.similarity import Similarity
 
-    page = lift(drawn.graph, drawn.fit.depth, Similarity(1.0, (0.0, 0.0, 0.0)), depth_sd=drawn.fit.depth_sd)
-    page = page.replace(radius=drawn.skeleton.radius / drawn.similarity.scale)
-    _write_skeleton(output, page, run, units="sketch units", frame="sketch")
+    similarity = drawn.similarity if frame == "world" else Similarity(1.0, (0.0, 0.0, 0.0))
+    tree = lift(drawn.graph, depth, similarity, depth_sd=drawn.fit.depth_sd)
+    return tree.replace(radius=drawn.skeleton.radius * similarity.scale / drawn.similarity.scale)
+
+
+def write_posterior(path: Path | None, drawn, *, frame: str) -> None:
+    """The samples, in the units of the skeleton that is written beside them."""
+    if path is None:
+        return
+    import io
+
+    import numpy as np
+
+    if drawn.fit.posterior is None:
+        raise ExportError(f"`--posterior {path}`: there is nothing to sample in this drawing.", remedy="Draw a limb beside the stem, or leave the option out.")
+    scale = drawn.similarity.scale if frame == "world" else 1.0
+    whole = io.BytesIO()
+    np.savez_compressed(whole, **drawn.fit.posterior.columns(drawn.skeleton.node_id, scale))
+    write_whole(path, whole.getvalue())
+
+
+def other_readings(output: Path, count: int) -> tuple[Path, ...]:
+    """DRAWN.2.swc, DRAWN.3.swc, … beside DRAWN.swc."""
+    return tuple(output.with_suffix(f".{k}{output.suffix}") for k in range(2, count + 1))
 
 
 def _write_skeleton(path: Path, tree, run: Run, *, units: str = "metres", frame: str = "world") -> None:

@@ -17,13 +17,9 @@ from sketchtree.axes import NULL
 from sketchtree.errors import ExportError, SkeletonError
 from sketchtree.export.files import check_extension, write_whole
 from sketchtree.export.gltf import read_glb_json
-from sketchtree.skeleton import Kind, TreeSkeleton
-from sketchtree.traverse import generations
+from sketchtree.skeleton import TreeSkeleton
+from sketchtree.skeleton_files import FLOATS, FORMAT, INTEGERS, shaped
 from sketchtree.version import __version__
-
-_FLOATS = ("tip", "radius", "depth_sd", "age", "curve_points")
-_INTEGERS = ("parent", "order", "limb", "stroke", "tree", "kind", "curve_start")
-_FORMAT = 1
 
 
 def write_swc(path: str | os.PathLike, tree: TreeSkeleton, *, header: Mapping[str, object]) -> None:
@@ -45,7 +41,7 @@ def write_swc(path: str | os.PathLike, tree: TreeSkeleton, *, header: Mapping[st
 def swc_nodes(tree: TreeSkeleton) -> dict[str, np.ndarray]:
     """Columns `point`, `radius`, `parent` (ids from 1, −1 none), `type`, and `id_of_row` (segment → id of its tip)."""
     inner = np.diff(tree.curve_start)
-    id_of_row = np.cumsum(inner + 1)  # a row's drawn points come just before its tip
+    id_of_row = tree.node_id
     size = int(id_of_row[-1]) if len(tree) else 0
     point, radius, parent = np.empty((size, 3)), np.empty(size), np.arange(size)
     row = np.repeat(np.arange(len(tree)), inner)
@@ -77,132 +73,12 @@ def _share_along(tree: TreeSkeleton, row):
     return gone / np.where(whole > 0, whole, 1.0)
 
 
-def read_swc(path: str | os.PathLike) -> TreeSkeleton:
-    """The tree of an SWC file: one row a node, in the file's units and axes; kind OBSERVED.
-
-    Ids may be any numbers in any order. Limbs follow the thickest child, the straightest of equals. A radius that is
-    not positive becomes the smallest positive one of the file. Raises `SkeletonError` naming the line at fault.
-    """
-    table, line = _swc_table(path)
-    ids, parent_id = table[:, 0].astype(np.int64), table[:, 6].astype(np.int64)
-    row_of = {node: row for row, node in enumerate(ids.tolist())}
-    if len(row_of) < len(ids):
-        twin = int(np.flatnonzero(np.bincount(np.unique(ids, return_inverse=True)[1]) > 1)[0])
-        raise SkeletonError(f"{path}: the id {np.unique(ids)[twin]} stands twice.", remedy="Number every node once.")
-    parent = np.array([NULL if node < 0 else row_of.get(node, -2) for node in parent_id.tolist()], np.int64)
-    if (parent == -2).any():
-        bad = int(np.flatnonzero(parent == -2)[0])
-        raise SkeletonError(
-            f"{path}, line {line[bad]}: its parent {parent_id[bad]} is not in the file.",
-            remedy="Name an id of the file, or -1.",
-        )
-    order = _parents_first(parent, path)
-    renumber = np.argsort(order)
-    parent = parent[order]
-    parent = np.where(parent == NULL, NULL, renumber[parent])
-    tip, radius = table[order, 2:5], table[order, 5]
-    radius = np.where(radius > 0, radius, radius[radius > 0].min(initial=np.inf) if (radius > 0).any() else 1e-3)
-    limb, branching = _limbs(parent, tip, radius)
-    return TreeSkeleton.from_columns(
-        parent, tip, radius, limb=limb, order=branching, tree=_tree_of(parent), kind=np.full(len(parent), int(Kind.OBSERVED))
-    )
-
-
-def _swc_table(path):
-    rows, lines = [], []
-    try:
-        with open(path, encoding="utf-8", errors="replace") as file:
-            text = file.read()
-    except OSError as error:
-        raise SkeletonError(f"Can't read {path}: {(error.strerror or 'unknown error').lower()}.", remedy="Check the path.") from error
-    for number, content in enumerate(text.splitlines(), 1):
-        words = content.split("#")[0].split()
-        if not words:
-            continue
-        try:
-            values = [float(word) for word in words[:7]]
-        except ValueError:
-            values = []
-        if len(values) < 7 or not np.isfinite(values).all():
-            raise SkeletonError(
-                f"{path}, line {number}: expected `id type x y z radius parent`, got `{content.strip()[:60]}`.",
-                remedy="Repair the line or start it with #.",
-            )
-        rows.append(values)
-        lines.append(number)
-    if not rows:
-        raise SkeletonError(
-            f"{path} holds no nodes.",
-            remedy="Give an SWC file with at least one line `id type x y z radius parent`.",
-        )
-    return np.array(rows), lines
-
-
-def _parents_first(parent, path):
-    """An order of the rows in which every parent precedes its children; kept where it already does."""
-    depth = np.where(parent == NULL, 0, -1)
-    while (depth < 0).any():
-        ready = (depth < 0) & (parent != NULL) & (depth[parent] >= 0)
-        if not ready.any():
-            raise SkeletonError(
-                f"{path}: some nodes hang in a circle.",
-                remedy="Give every branch a path to a node whose parent is -1.",
-            )
-        depth[ready] = depth[parent[ready]] + 1
-    if (parent < np.arange(len(parent))).all():
-        return np.arange(len(parent))
-    return np.argsort(depth, kind="stable")
-
-
-def _limbs(parent, tip, radius):
-    """Apical chains by thickness, then straightness; and branching orders."""
-    child = np.flatnonzero(parent != NULL)
-    above = parent[child]
-    along = np.where((parent == NULL)[:, None], [0.0, 1.0, 0.0], tip - tip[parent])
-    along = along / np.maximum(np.linalg.norm(along, axis=1, keepdims=True), 1e-300)
-    straight = np.sum(along[child] * along[above], axis=1)
-    rank = np.lexsort((-straight, -radius[child], above))
-    best = np.r_[True, np.diff(above[rank]) != 0][: len(rank)]
-    apical = np.zeros(len(parent), bool)
-    apical[child[rank[best]]] = True
-    limb, order = np.arange(len(parent)), np.zeros(len(parent), np.int64)
-    for rows in generations(parent)[1:]:
-        limb[rows] = np.where(apical[rows], limb[parent[rows]], rows)
-        order[rows] = order[parent[rows]] + ~apical[rows]
-    return limb, order
-
-
-def _tree_of(parent):
-    tree = np.where(parent == NULL, np.cumsum(parent == NULL) - 1, 0)
-    for rows in generations(parent)[1:]:
-        tree[rows] = tree[parent[rows]]
-    return tree
-
-
 def write_skeleton_json(path: str | os.PathLike, tree: TreeSkeleton, *, header: Mapping[str, object] | None = None) -> None:
     """Write every column without loss, all or nothing. NaN is written as null."""
     check_extension(path, (".json",))
-    columns = {name: _plain(getattr(tree, name)) for name in _INTEGERS + _FLOATS}
-    content = {"sketchtree_skeleton": _FORMAT, "version": __version__, "header": dict(header or {}), "columns": columns}
+    columns = {name: _plain(getattr(tree, name)) for name in INTEGERS + FLOATS}
+    content = {"sketchtree_skeleton": FORMAT, "version": __version__, "header": dict(header or {}), "columns": columns}
     write_whole(path, json.dumps(content, allow_nan=False, separators=(",", ":")).encode())
-
-
-def read_skeleton_json(path: str | os.PathLike) -> TreeSkeleton:
-    """The tree that `write_skeleton_json` wrote. Raises `SkeletonError` where the file is not one."""
-    try:
-        with open(path, encoding="utf-8") as file:
-            content = json.load(file)
-        version = content["sketchtree_skeleton"]
-    except OSError as error:
-        raise SkeletonError(f"Can't read {path}: {(error.strerror or 'unknown error').lower()}.", remedy="Check the path.") from error
-    except (ValueError, KeyError, TypeError) as error:
-        raise SkeletonError(f"{path} is not a skeleton of ours.", remedy="Give a JSON file written by `sketchtree`.") from error
-    if version != _FORMAT:
-        raise SkeletonError(
-            f"{path} has skeleton format {version}; this version reads {_FORMAT}.", remedy="Update sketchtree."
-        )
-    columns = {name: np.array(content["columns"][name], float if name in _FLOATS else np.int64) for name in _INTEGERS + _FLOATS}
-    return TreeSkeleton(**_shaped(columns))
 
 
 def skeleton_extras(tree: TreeSkeleton) -> dict:
@@ -211,23 +87,23 @@ def skeleton_extras(tree: TreeSkeleton) -> dict:
     Columns that say nothing (all unknown) are left out. `read_glb_skeleton` reads it back.
     """
     columns = {}
-    for name in _INTEGERS + _FLOATS:
+    for name in INTEGERS + FLOATS:
         column = getattr(tree, name)
         if name in ("depth_sd", "age") and np.isnan(column).all():
             continue
-        column = column.astype("<f4" if name in _FLOATS else _smallest(column))
+        column = column.astype("<f4" if name in FLOATS else _smallest(column))
         columns[name] = [column.dtype.str, base64.b64encode(zlib.compress(column.tobytes(), 6)).decode()]
-    return {"sketchtree_skeleton": _FORMAT, "version": __version__, "rows": len(tree), "columns": columns}
+    return {"sketchtree_skeleton": FORMAT, "version": __version__, "rows": len(tree), "columns": columns}
 
 
 def skeleton_from_extras(extras: dict) -> TreeSkeleton:
     """The tree that `skeleton_extras` packed. Raises `SkeletonError` where there is none."""
-    if not isinstance(extras, dict) or extras.get("sketchtree_skeleton") != _FORMAT:
+    if not isinstance(extras, dict) or extras.get("sketchtree_skeleton") != FORMAT:
         raise SkeletonError("There is no skeleton of ours here.", remedy="Give a GLB file written by this version of `sketchtree`.")
     columns = {name: np.full(extras["rows"], np.nan) for name in ("depth_sd", "age")}
     for name, (dtype, text) in extras["columns"].items():
         columns[name] = np.frombuffer(zlib.decompress(base64.b64decode(text)), dtype)
-    return TreeSkeleton(**_shaped(columns))
+    return TreeSkeleton(**shaped(columns))
 
 
 def read_glb_skeleton(path: str | os.PathLike) -> TreeSkeleton:
@@ -237,10 +113,6 @@ def read_glb_skeleton(path: str | os.PathLike) -> TreeSkeleton:
     if not found:
         raise ExportError(f"{path} holds no skeleton.", remedy="Give a GLB file written by `sketchtree build`.")
     return skeleton_from_extras(found[0])
-
-
-def _shaped(columns: dict) -> dict:
-    return columns | {name: columns[name].reshape(-1, 3) for name in ("tip", "curve_points")}
 
 
 def _plain(column):

@@ -23,6 +23,7 @@ import jax.numpy as jnp
 import numpy as np
 from jaxtyping import Array, Float
 
+from sketchtree.errors import InferenceError
 from sketchtree.mrf.prior import Prior
 
 
@@ -108,6 +109,9 @@ def limb_prior(prior: Prior, dtype=np.float32) -> LimbBelief:
     the template's own, shrunk to the generic one with weight 6.
     """
     generic = {name: np.array(value) for name, value in GENERIC_BELIEF.items()}
+    if prior.belief is not None:
+        checked_belief(prior.belief)
+        generic = {name: np.array(getattr(prior.belief, name), float) for name in generic}
     limbs = prior.limbs
     if limbs is not None:
         for name in ("divergence", "length"):
@@ -118,6 +122,24 @@ def limb_prior(prior: Prior, dtype=np.float32) -> LimbBelief:
         moved = (nu * s2 + n * np.asarray(limbs.bend_square)) / (nu + 2 * n)
         generic["bend"] = np.stack([np.where(n > 0, TEMPLATE_NU, nu), np.where(n > 0, moved, s2)])
     return LimbBelief(**{name: np.asarray(value, dtype) for name, value in generic.items()})
+
+
+def checked_belief(belief: LimbBelief) -> LimbBelief:
+    """The belief itself. Raises `InferenceError` naming the kind and order whose numbers are no prior: not finite, or a κ, ν
+    or variance that is not positive."""
+    for name, generic in GENERIC_BELIEF.items():
+        kind = np.asarray(getattr(belief, name), float)
+        if kind.shape != np.shape(generic):
+            raise InferenceError(f"`{name}` of the prior has the shape {kind.shape}.", remedy=f"Give {np.shape(generic)}: a row a hyperparameter, a column an order.")
+        positive = kind[-3:] if len(kind) == 4 else kind
+        bad = ~np.isfinite(kind).all(axis=0) | (positive <= 0).any(axis=0)
+        if bad.any():
+            order = int(np.flatnonzero(bad)[0]) + (0 if name == "bend" else 1)
+            raise InferenceError(
+                f"`{name}` of order {order} of the prior is {kind[:, np.flatnonzero(bad)[0]].tolist()}.",
+                remedy="Give finite numbers; κ, ν and variances above 0.",
+            )
+    return belief
 
 
 def _moved(belief, n, mean, variance):

@@ -41,6 +41,18 @@ class Fit:
     alternatives: tuple[Reading, ...] = ()  # distinct readings, sketch units, this one first; empty if none were asked for
     posterior: Any = None  # the samples (`answer.posterior.Posterior`); None where the method has none
     overlaps: Int[np.ndarray, "pair 2"] = field(default_factory=lambda: np.zeros((0, 2), np.int64))  # rows that still pass through each other
+    wanted: int = 0  # how many readings were asked for
+
+    @property
+    def warnings(self) -> tuple[str, ...]:
+        """What a person should know: limbs that still touch, readings that there are not."""
+        said = []
+        if len(self.overlaps):
+            said.append(f"{len(self.overlaps)} pairs of drawn segments pass through each other at any depth that was tried.")
+        if self.wanted > max(len(self.alternatives), 1):
+            found = len(self.alternatives)
+            said.append(f"{self.wanted} readings were asked for; " + (f"{found} are distinct." if found else f"the method `{self.method}` knows of one."))
+        return tuple(said)
 
 
 def infer(
@@ -125,6 +137,7 @@ class _Run:
             alternatives=tuple(reading._replace(depth=reading.depth * graph.scale) for reading in readings),
             posterior=solver.posterior(graph, state, depth, stage_key(self.key, "theta")),
             overlaps=overlapping(graph, depth),
+            wanted=alternatives,
         )
 
 

@@ -16,6 +16,7 @@ import equinox as eqx
 import numpy as np
 from jaxtyping import Array, Float, Key
 
+from sketchtree.errors import OptionError
 from sketchtree.mrf.factor_graph import FactorGraph
 from sketchtree.mrf.prior import Prior
 from sketchtree.parameters import TreeParameters
@@ -79,6 +80,10 @@ class AbstractSolver(eqx.Module):
         """Make ready whatever `init` and `step` need that does not depend on the drawing; `infer`
         leaves it out of `seconds_warm`."""
         return None
+
+    def with_samples(self, count: int, graph: FactorGraph) -> "AbstractSolver":
+        """The same solver, keeping at least `count` samples. Raises `OptionError` where the method has none."""
+        raise OptionError(f"The method `{self.name}` has no posterior to sample.", remedy="Use the method `elevation`, or leave the samples out.")
 
     def depth_sd(self, graph: FactorGraph, state: Any) -> Float[np.ndarray, " segment"]:
         """Posterior standard deviation of every depth, H = 1; NaN where the solver has none."""

@@ -16,7 +16,7 @@ import numpy as np
 from jaxtyping import Float
 
 from sketchtree.axes import NULL
-from sketchtree.templates.drawable import Drawing
+from sketchtree.templates.drawing import Drawing
 
 STATISTICS = ("s", "alpha", "beta")
 SHORT = 0.01

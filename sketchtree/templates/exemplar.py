@@ -12,7 +12,8 @@ from jaxtyping import Float, UInt8
 from sketchtree.parameters import Habit, LimbStatistics, TreeParameters
 from sketchtree.skeleton import TreeSkeleton
 from sketchtree.templates.branching import Branching, branching
-from sketchtree.templates.drawable import Drawing, drawable
+from sketchtree.drawable import drawable
+from sketchtree.templates.drawing import Drawing
 from sketchtree.templates.estimate import estimate, estimate_by_order
 from sketchtree.templates.footprint import crown_points, footprint, project, view_azimuths
 from sketchtree.templates.limb_statistics import limb_statistics

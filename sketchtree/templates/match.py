@@ -29,7 +29,7 @@ from sketchtree.errors import OptionError, SketchError, TemplateError
 from sketchtree.sketch.graph import SketchGraph
 from sketchtree.templates.branching import Branching, branching
 from sketchtree.templates.database import Database
-from sketchtree.templates.drawable import Drawing
+from sketchtree.templates.drawing import Drawing
 from sketchtree.templates.exemplar import Views
 from sketchtree.templates.footprint import footprint, root_branch
 from sketchtree.templates.posture import posture

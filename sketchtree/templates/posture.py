@@ -23,7 +23,7 @@ import numpy as np
 from jaxtyping import Float
 
 from sketchtree.axes import NULL
-from sketchtree.templates.drawable import Drawing
+from sketchtree.templates.drawing import Drawing
 from sketchtree.traverse import limb_chains
 
 FEATURES = ("aspect", "bare", "leader", "insertions", "rise", "start", "droop", "reach", "taper", "arch", "stems")

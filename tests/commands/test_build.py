@@ -10,7 +10,8 @@ import numpy as np
 import pytest
 
 from sketchtree.commands.app import run
-from sketchtree.export.skeletons import read_glb_skeleton, read_swc
+from sketchtree.export.skeletons import read_glb_skeleton
+from sketchtree.skeleton_files import read_swc
 from sketchtree.report import report_schema
 
 ROOT = Path(__file__).resolve().parents[2]

@@ -9,7 +9,7 @@ import pytest
 
 from sketchtree.commands.app import run
 from sketchtree.commands.options import METHODS
-from sketchtree.export.skeletons import read_swc
+from sketchtree.skeleton_files import read_swc
 from sketchtree.mrf.methods import METHODS as SOLVERS
 from sketchtree.report import report_schema
 from sketchtree.sketch.formats import read_sketch

@@ -9,14 +9,13 @@ from sketchtree.errors import ExportError, SkeletonError
 from sketchtree.export.gltf import write_glb
 from sketchtree.export.skeletons import (
     read_glb_skeleton,
-    read_skeleton_json,
-    read_swc,
     skeleton_extras,
     skeleton_from_extras,
     write_skeleton_json,
     write_swc,
 )
 from sketchtree.skeleton import TreeSkeleton
+from sketchtree.skeleton_files import read_skeleton_json, read_swc
 
 COLUMNS = [field.name for field in dataclasses.fields(TreeSkeleton)]
 HEADER = {"units": "m", "frame": "world", "version": "0.1.0", "seed": 0}

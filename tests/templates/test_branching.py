@@ -4,7 +4,8 @@ import numpy as np
 import pytest
 
 from sketchtree.templates.branching import SHORT, branching
-from sketchtree.templates.drawable import Drawing, drawable
+from sketchtree.drawable import drawable
+from sketchtree.templates.drawing import Drawing
 from sketchtree.templates.footprint import view_azimuths
 
 

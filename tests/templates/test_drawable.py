@@ -4,7 +4,8 @@ import numpy as np
 import pytest
 
 from sketchtree.skeleton import TreeSkeleton
-from sketchtree.templates.drawable import ALONG_LIMB, ALONG_STEM, DEEPEST, TOLERANCE, Drawing, bends, drawable
+from sketchtree.drawable import ALONG_LIMB, ALONG_STEM, DEEPEST, TOLERANCE, bends, drawable
+from sketchtree.templates.drawing import Drawing
 from sketchtree.traverse import limb_chains
 
 

@@ -7,7 +7,7 @@ from scipy.spatial import ConvexHull
 from sketchtree.errors import OptionError, SketchError
 from sketchtree.skeleton import TreeSkeleton
 from sketchtree.templates.branching import Branching
-from sketchtree.templates.drawable import drawable
+from sketchtree.drawable import drawable
 from sketchtree.templates.exemplar import Views
 from sketchtree.templates.footprint import crown_points, project
 from sketchtree.templates.match import (

@@ -3,7 +3,7 @@
 import numpy as np
 import pytest
 
-from sketchtree.templates.drawable import Drawing
+from sketchtree.templates.drawing import Drawing
 from sketchtree.templates.posture import FEATURES, posture
 
 

@@ -12,7 +12,7 @@ from typing import Any
 import jax
 import jax.numpy as jnp
 import numpy as np
-from jaxtyping import Array, Float, Key
+from jaxtyping import Array, Float, Int, Key
 
 from sketchtree.errors import ExportError, InferenceError
 from sketchtree.keys import numpy_generator
@@ -101,21 +101,24 @@ class Posterior:
         rise = self.depth[:, self.graph.limb_tip[[one, other]]] - self.depth[:, start]
         return float(np.mean(rise[:, 0] * rise[:, 1] > 0))
 
-    def write(self, path: str | Path) -> None:
-        """P.npz: z (sample, segment) in sketch units, theta (sample, parameter) with `parameter`, log_posterior
-        (sample), chain (sample), segment_id (the SWC's id)."""
-        if Path(path).suffix.lower() != ".npz":
-            raise ExportError(f"A posterior is written as .npz, not as {Path(path).name}.", remedy="Let the name end in .npz.")
-        columns = {
-            "z": self.depth,
+    def columns(self, segment_id: Int[np.ndarray, " segment"] | None = None, scale: float = 1.0) -> dict[str, np.ndarray]:
+        """What `write` writes: z (sample, segment) in sketch units times `scale`; theta (sample, parameter) and the
+        parameters' names; log_posterior and chain (sample); segment_id, by default 1, 2, …"""
+        return {
+            "z": self.depth * scale,
             "theta": self.theta,
             "parameter": np.array(self.theta_names),
             "log_posterior": self.log_posterior,
             "chain": np.tile(np.arange(self.value.shape[1]), self.value.shape[0]),
-            "segment_id": np.arange(1, len(self.graph) + 1),
+            "segment_id": np.arange(1, len(self.graph) + 1) if segment_id is None else np.asarray(segment_id)[: len(self.graph)],
         }
+
+    def write(self, path: str | Path, **options) -> None:
+        """P.npz with the arrays of `columns`, whose `options` it takes."""
+        if Path(path).suffix.lower() != ".npz":
+            raise ExportError(f"A posterior is written as .npz, not as {Path(path).name}.", remedy="Let the name end in .npz.")
         with open(path, "wb") as file:
-            np.savez_compressed(file, **columns)
+            np.savez_compressed(file, **self.columns(**options))
 
     def to_arviz(self) -> Any:
         """The samples for the package ArviZ, which has to be installed. Dimensions: chain, draw, segment | parameter."""

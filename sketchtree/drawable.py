@@ -1,26 +1,19 @@
-"""What would a person draw of an exemplar? Its main limbs, in a few long segments.
+"""What would a person draw of a tree? Its main limbs, in a few long segments.
 
-An exemplar has thousands of segments, a sketch has dozens. Before 2D statistics are taken, the
-exemplar is brought to a sketch's granularity:
+A grown tree has thousands of segments, a sketch has dozens. Before its limbs are measured it is brought to a sketch's granularity:
 
   - the stems, and along each kept limb at most `ALONG_STEM` (a stem) or `ALONG_LIMB` (another limb)
     laterals: its insertions are cut into that many runs and the longest of each run is kept;
   - only limbs of order 3 or less, longer than `SHORTEST` of the tree's height above order 1;
   - a limb keeps its junctions, its tip, and points where it bends by more than `TOLERANCE` of the height;
     a junction nearer than that to the one before it becomes one with it, as the reading of a sketch does.
-
-`Drawing` is the flat form that exemplars (under many views) and sketches (one view) share.
 """
-
-from dataclasses import dataclass
 
 import numpy as np
 from jaxtyping import Float, Int
 
 from sketchtree.axes import NULL
 from sketchtree.skeleton import TreeSkeleton
-from sketchtree.sketch.graph import SketchGraph
-from sketchtree.templates.footprint import project
 from sketchtree.traverse import limb_chains
 
 ALONG_STEM = 24
@@ -28,34 +21,6 @@ ALONG_LIMB = 4
 DEEPEST = 3  # order
 SHORTEST = 0.1  # of the tree's height
 TOLERANCE = 0.015  # of the tree's height
-
-
-@dataclass(frozen=True, eq=False)
-class Drawing:
-    """A branching drawing seen under one or more views. Rows as in a skeleton: parents first."""
-
-    parent: Int[np.ndarray, " segment"]
-    limb: Int[np.ndarray, " segment"]
-    order: Int[np.ndarray, " segment"]
-    start: Float[np.ndarray, "view segment 2"]
-    tip: Float[np.ndarray, "view segment 2"]
-
-    @classmethod
-    def of_graph(cls, graph: SketchGraph) -> "Drawing":
-        """A sketch: one view, in sketch units."""
-        return cls(graph.parent, graph.limb, graph.order, graph.start[None], graph.xy[None])
-
-    @classmethod
-    def of_skeleton(cls, tree: TreeSkeleton, azimuth_deg: Float[np.ndarray, " view"]) -> "Drawing":
-        """Orthographic views of a skeleton from these azimuths, metres."""
-        start = np.stack([project(tree.start, v) for v in azimuth_deg])
-        tip = np.stack([project(tree.tip, v) for v in azimuth_deg])
-        return cls(tree.parent, tree.limb, tree.order, start, tip)
-
-    @property
-    def size(self) -> Float[np.ndarray, " view"]:
-        """H of every view: the larger of height and width."""
-        return np.ptp(self.tip, axis=1).max(axis=1)
 
 
 def drawable(

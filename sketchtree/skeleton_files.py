@@ -1,0 +1,175 @@
+"""Skeletons from files: SWC (Cannon et al. 1998), our JSON, and numpy's `.npz` with `parent`, `pos` and `radius`.
+
+What other programs and digitised trees come in; `export.skeletons` writes.
+"""
+
+import json
+import os
+from pathlib import Path
+
+import numpy as np
+
+from sketchtree.axes import NULL
+from sketchtree.errors import SkeletonError
+from sketchtree.skeleton import Kind, TreeSkeleton
+from sketchtree.traverse import generations
+
+FLOATS = ("tip", "radius", "depth_sd", "age", "curve_points")
+INTEGERS = ("parent", "order", "limb", "stroke", "tree", "kind", "curve_start")
+FORMAT = 1
+ENDINGS = (".swc", ".json", ".npz")
+
+
+def read_skeleton(path: str | os.PathLike) -> TreeSkeleton:
+    """The tree of a file, told by its ending. Raises `SkeletonError`."""
+    ending = Path(path).suffix.lower()
+    readers = {".swc": read_swc, ".json": read_skeleton_json, ".npz": read_npz}
+    if ending not in readers:
+        raise SkeletonError(f"{path} is no skeleton that can be read.", remedy=f"Give a file that ends in one of {', '.join(ENDINGS)}.")
+    return readers[ending](path)
+
+
+def read_npz(path: str | os.PathLike) -> TreeSkeleton:
+    """A digitised tree: `parent` (row, −1 at a base), `pos` (y up), `radius` (NaN where unknown); limbs follow the thickest
+    child, the straightest of equals. Raises `SkeletonError`."""
+    try:
+        with np.load(path, allow_pickle=False) as file:
+            parent, tip, radius = file["parent"].astype(np.int64), file["pos"].astype(float), file["radius"].astype(float)
+    except OSError as error:
+        raise SkeletonError(f"Can't read {path}: {(error.strerror or 'it is no .npz file').lower()}.", remedy="Check the path.") from error
+    except (ValueError, KeyError) as error:
+        raise SkeletonError(f"{path} holds no skeleton.", remedy="Give an .npz file with the arrays `parent`, `pos` and `radius`.") from error
+    if tip.ndim != 2 or tip.shape[1] != 3 or not len(parent) == len(tip) == len(radius):
+        raise SkeletonError(f"{path}: `parent`, `pos` and `radius` have different lengths.", remedy="Give one row a node, three columns of `pos`.")
+    order = _parents_first(np.where(parent < 0, NULL, parent), path)
+    parent = np.where(parent[order] < 0, NULL, np.argsort(order)[parent[order]])
+    tip, radius = tip[order], radius[order]
+    known = radius[np.isfinite(radius) & (radius > 0)]
+    radius = np.where(np.isfinite(radius) & (radius > 0), radius, np.median(known) if len(known) else 1e-3)
+    limb, branching = _limbs(parent, tip, radius)
+    return TreeSkeleton.from_columns(parent, tip, radius, limb=limb, order=branching, tree=_tree_of(parent), kind=np.full(len(parent), int(Kind.OBSERVED)))
+
+
+def read_swc(path: str | os.PathLike) -> TreeSkeleton:
+    """The tree of an SWC file: one row a node, in the file's units and axes; kind OBSERVED.
+
+    Ids may be any numbers in any order. Limbs follow the thickest child, the straightest of equals. A radius that is
+    not positive becomes the smallest positive one of the file. Raises `SkeletonError` naming the line at fault.
+    """
+    table, line = _swc_table(path)
+    ids, parent_id = table[:, 0].astype(np.int64), table[:, 6].astype(np.int64)
+    row_of = {node: row for row, node in enumerate(ids.tolist())}
+    if len(row_of) < len(ids):
+        twin = int(np.flatnonzero(np.bincount(np.unique(ids, return_inverse=True)[1]) > 1)[0])
+        raise SkeletonError(f"{path}: the id {np.unique(ids)[twin]} stands twice.", remedy="Number every node once.")
+    parent = np.array([NULL if node < 0 else row_of.get(node, -2) for node in parent_id.tolist()], np.int64)
+    if (parent == -2).any():
+        bad = int(np.flatnonzero(parent == -2)[0])
+        raise SkeletonError(
+            f"{path}, line {line[bad]}: its parent {parent_id[bad]} is not in the file.",
+            remedy="Name an id of the file, or -1.",
+        )
+    order = _parents_first(parent, path)
+    renumber = np.argsort(order)
+    parent = parent[order]
+    parent = np.where(parent == NULL, NULL, renumber[parent])
+    tip, radius = table[order, 2:5], table[order, 5]
+    radius = np.where(radius > 0, radius, radius[radius > 0].min(initial=np.inf) if (radius > 0).any() else 1e-3)
+    limb, branching = _limbs(parent, tip, radius)
+    return TreeSkeleton.from_columns(
+        parent, tip, radius, limb=limb, order=branching, tree=_tree_of(parent), kind=np.full(len(parent), int(Kind.OBSERVED))
+    )
+
+
+def _swc_table(path):
+    rows, lines = [], []
+    try:
+        with open(path, encoding="utf-8", errors="replace") as file:
+            text = file.read()
+    except OSError as error:
+        raise SkeletonError(f"Can't read {path}: {(error.strerror or 'unknown error').lower()}.", remedy="Check the path.") from error
+    for number, content in enumerate(text.splitlines(), 1):
+        words = content.split("#")[0].split()
+        if not words:
+            continue
+        try:
+            values = [float(word) for word in words[:7]]
+        except ValueError:
+            values = []
+        if len(values) < 7 or not np.isfinite(values).all():
+            raise SkeletonError(
+                f"{path}, line {number}: expected `id type x y z radius parent`, got `{content.strip()[:60]}`.",
+                remedy="Repair the line or start it with #.",
+            )
+        rows.append(values)
+        lines.append(number)
+    if not rows:
+        raise SkeletonError(
+            f"{path} holds no nodes.",
+            remedy="Give an SWC file with at least one line `id type x y z radius parent`.",
+        )
+    return np.array(rows), lines
+
+
+def _parents_first(parent, path):
+    """An order of the rows in which every parent precedes its children; kept where it already does."""
+    depth = np.where(parent == NULL, 0, -1)
+    while (depth < 0).any():
+        ready = (depth < 0) & (parent != NULL) & (depth[parent] >= 0)
+        if not ready.any():
+            raise SkeletonError(
+                f"{path}: some nodes hang in a circle.",
+                remedy="Give every branch a path to a node whose parent is -1.",
+            )
+        depth[ready] = depth[parent[ready]] + 1
+    if (parent < np.arange(len(parent))).all():
+        return np.arange(len(parent))
+    return np.argsort(depth, kind="stable")
+
+
+def _limbs(parent, tip, radius):
+    """Apical chains by thickness, then straightness; and branching orders."""
+    child = np.flatnonzero(parent != NULL)
+    above = parent[child]
+    along = np.where((parent == NULL)[:, None], [0.0, 1.0, 0.0], tip - tip[parent])
+    along = along / np.maximum(np.linalg.norm(along, axis=1, keepdims=True), 1e-300)
+    straight = np.sum(along[child] * along[above], axis=1)
+    rank = np.lexsort((-straight, -radius[child], above))
+    best = np.r_[True, np.diff(above[rank]) != 0][: len(rank)]
+    apical = np.zeros(len(parent), bool)
+    apical[child[rank[best]]] = True
+    limb, order = np.arange(len(parent)), np.zeros(len(parent), np.int64)
+    for rows in generations(parent)[1:]:
+        limb[rows] = np.where(apical[rows], limb[parent[rows]], rows)
+        order[rows] = order[parent[rows]] + ~apical[rows]
+    return limb, order
+
+
+def _tree_of(parent):
+    tree = np.where(parent == NULL, np.cumsum(parent == NULL) - 1, 0)
+    for rows in generations(parent)[1:]:
+        tree[rows] = tree[parent[rows]]
+    return tree
+
+
+def read_skeleton_json(path: str | os.PathLike) -> TreeSkeleton:
+    """The tree that `write_skeleton_json` wrote. Raises `SkeletonError` where the file is not one."""
+    try:
+        with open(path, encoding="utf-8") as file:
+            content = json.load(file)
+        version = content["sketchtree_skeleton"]
+    except OSError as error:
+        raise SkeletonError(f"Can't read {path}: {(error.strerror or 'unknown error').lower()}.", remedy="Check the path.") from error
+    except (ValueError, KeyError, TypeError) as error:
+        raise SkeletonError(f"{path} is not a skeleton of ours.", remedy="Give a JSON file written by `sketchtree`.") from error
+    if version != FORMAT:
+        raise SkeletonError(
+            f"{path} has skeleton format {version}; this version reads {FORMAT}.", remedy="Update sketchtree."
+        )
+    columns = {name: np.array(content["columns"][name], float if name in FLOATS else np.int64) for name in INTEGERS + FLOATS}
+    return TreeSkeleton(**shaped(columns))
+
+
+def shaped(columns: dict) -> dict:
+    """Columns of points with three entries a row."""
+    return columns | {name: columns[name].reshape(-1, 3) for name in ("tip", "curve_points")}
