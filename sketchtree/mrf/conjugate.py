@@ -1,6 +1,6 @@
 """What do the limbs say about Θ, and what remains of the posterior when Θ is integrated out?
 
-Divergences and log length ratios of order o = 1, 2+ are Gaussian with unknown mean and variance under a
+Divergences, log length ratios and log segment lengths of order o = 1, 2+ are Gaussian with unknown mean and variance under a
 Normal-Inverse-Gamma prior (m0, κ0, ν0, s0²); bends of order o = 0, 1, 2+ are Gaussian in two directions with an unknown
 variance τ² under a scaled Inverse-χ² prior (ν0, s0²). Given n observations x with mean x̄ and sum of squares S
 about it:
@@ -13,7 +13,8 @@ Means are m, variances s² (Θ at its posterior mean); σ²_MAP = (νn sn²/2)/(
     log p(ψ) = log p(ψ | Θ) + log p(Θ) − log p(Θ | ψ)
 
 so the posterior without Θ is the factors' sum at one convenient Θ and two densities (Chib 1995 uses it so).
-The default hyperparameters come from 24 synthetic exemplars; a template's own statistics move m0 and s0².
+The default means come from 24 synthetic exemplars, the default spreads from grown and measured trees on which no figure is
+reported (measured trees branch far less evenly than grown ones); a template's own statistics move m0 and s0².
 """
 
 from typing import NamedTuple
@@ -93,9 +94,9 @@ class LimbBelief(eqx.Module):
 
 GENERIC_BELIEF = {
     "divergence": [[1.045, 0.893], [0.42, 1.37], [6.0, 6.0], [0.039, 0.040]],
-    "length": [[-1.35, -1.09], [0.69, 0.36], [6.0, 6.0], [0.075, 0.026]],
-    "segment": [[-2.35, -2.5], [0.5, 0.5], [6.0, 6.0], [0.35, 0.20]],
-    "bend": [[6.0, 6.0, 6.0], [0.016, 0.051, 0.165]],
+    "length": [[-1.35, -1.09], [0.69, 0.36], [6.0, 6.0], [0.7, 0.5]],
+    "segment": [[-2.35, -2.5], [0.5, 0.5], [6.0, 6.0], [0.25, 0.15]],
+    "bend": [[6.0, 6.0, 6.0], [0.03, 0.1, 0.25]],
 }
 
 MOST_TEMPLATE_LIMBS = 8.0  # κ0 + n is held to this

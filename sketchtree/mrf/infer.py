@@ -74,7 +74,7 @@ def infer(
     """
     if alternatives < 0:
         raise OptionError(f"`alternatives={alternatives}` is negative.", remedy="Give how many readings are wanted, 0 for none but the answer.")
-    run = _Run(graph, prior, solver, key, max_steps)
+    run = Run(graph, prior, solver, key, max_steps)
     for _ in run:
         pass
     return run.fit(alternatives, mirrors, throw=throw)
@@ -86,29 +86,41 @@ def refine(
     """Answers that improve: the first at once, one after every step, the last that of `infer`. Whoever iterates may stop at
     any of them; nothing runs on. A run that is not over yet has the result `out_of_steps`.
     """
-    run = _Run(graph, prior, solver, key, max_steps)
+    run = Run(graph, prior, solver, key, max_steps)
     yield run.fit(throw=False)
     for _ in run:
         yield run.fit(throw=False)
 
 
-class _Run:
+class Run:
     """One run of a solver: iterating takes a step."""
 
-    def __init__(self, graph, prior, solver, key, max_steps):
+    def __init__(self, graph, prior, solver, key, max_steps: int | None = None, *, compile_first: bool = True):
         self.graph, self.prior, self.solver, self.key = graph, prior, solver, key
         self.limit = solver.default_steps if max_steps is None else max_steps
-        solver.compile(graph, prior)
+        if compile_first:
+            solver.compile(graph, prior)
         self.clock = time.perf_counter()
         self.state = solver.init(graph, prior, stage_key(key, "init"))
         self.rows: list[dict] = []
 
+    @property
+    def over(self) -> bool:
+        """Whether no further step is to be taken."""
+        return len(self.rows) >= self.limit or self.solver.terminate(self.graph, self.prior, self.state)
+
+    def step_key(self) -> Key[Array, ""]:
+        """The key of the next step."""
+        return jax.random.fold_in(stage_key(self.key, "step"), len(self.rows))
+
+    def take(self, state: Any, info: Any) -> None:
+        """Take a step that somebody else has worked out."""
+        self.state = state
+        self.rows.append(info._asdict())
+
     def __iter__(self):
-        step_key = stage_key(self.key, "step")
-        while len(self.rows) < self.limit and not self.solver.terminate(self.graph, self.prior, self.state):
-            own = jax.random.fold_in(step_key, len(self.rows))
-            self.state, info = self.solver.step(self.graph, self.prior, self.state, own)
-            self.rows.append(info._asdict())
+        while not self.over:
+            self.take(*self.solver.step(self.graph, self.prior, self.state, self.step_key()))
             yield
 
     def fit(self, alternatives: int = 0, mirrors: bool = False, *, throw: bool) -> Fit:

@@ -7,13 +7,11 @@ from sketchtree.mrf.factor_graph import factor_graph
 from sketchtree.mrf.answer.interpenetration import moved_apart
 from sketchtree.mrf.answer.typical import (
     CROWN_LIMIT,
-    LIMB_LIMIT,
     STEM_SHARE,
     depth_of,
     most_typical,
     side_view,
     stretched_crown,
-    stretched_limbs,
     typical_elevation,
 )
 from tests.mrf.drawings import lone_stroke, sketch, small_tree
@@ -52,20 +50,10 @@ def test_the_crown_is_stretched_towards_the_samples_extent_within_limits(small):
         assert ratio <= factor
 
 
-def test_limbs_are_stretched_one_by_one_and_stems_are_not(small):
-    psi = np.where(small.is_base, 0.0, 0.3)
-    sample = np.where(small.limb == 1, np.arctan(1.4 * np.tan(psi)), psi)
-    factor = np.tan(stretched_limbs(small, psi[:, None], sample[:, None])[:, 0]) / np.maximum(np.tan(psi), 1e-12)
-    assert 1.0 < factor[5] < LIMB_LIMIT
-    assert factor[5] == pytest.approx(factor[9])
-    np.testing.assert_allclose(np.delete(factor, [0, 5, 9]), 1.0)
-
-
 def test_a_lone_stroke_is_not_stretched():
     graph = factor_graph(lone_stroke())
     psi = np.zeros((len(graph), 1))
     np.testing.assert_array_equal(stretched_crown(graph, psi, psi), psi)
-    np.testing.assert_array_equal(stretched_limbs(graph, psi, psi), psi)
 
 
 def test_signs_are_those_of_the_tree_that_looks_most_like_the_samples(small):

@@ -2,8 +2,6 @@
 
     |ψ_i|     its median over the samples: the best tree alone is too steep here, too flat there
     stems     three tenths of the median: samples disagree about the side a trunk leans to
-    limbs     tan ψ times f_j = (median |Z_js| / |Z_j|)^.6, Z_j the depth from a limb's start to its tip:
-              medians along a limb add up to less than the limb
     crown     tan ψ of laterals times f = (median ext z_s / ext z)^.55, ext the extent from front to back
     signs     the best tree and the likeliest cooled chains propose theirs; taken are those whose tree, seen from the side, is
               nearest to the samples on average. Which of two mirror images a limb is no drawing can tell, but how
@@ -13,8 +11,8 @@
 
               or as one and the other's mirror image, whichever is nearer (h: the support function of the hull)
 
-s runs over the samples; f_j lies within 1/1.5 … 1.5, f within 1/1.6 … 1.6. The three powers were chosen on the
-synthetic and the measured trees of `benchmarks`, and so was where signs come from.
+s runs over the samples; f lies within 1/1.6 … 1.6. Its power and the stems' share were chosen on grown and measured trees,
+and so was where signs come from.
 """
 
 import numpy as np
@@ -24,7 +22,6 @@ from sketchtree.mrf.factor_graph import FactorGraph
 from sketchtree.traverse import generations
 
 STEM_SHARE = 0.3
-LIMB_POWER, LIMB_LIMIT = 0.6, 1.5
 CROWN_POWER, CROWN_LIMIT = 0.55, 1.6
 ENOUGH = 160  # samples that the stretches and the choice of signs look at
 _DIRECTIONS = np.linspace(-np.pi / 2, np.pi / 2, 17)  # θ, from straight down to straight up
@@ -46,18 +43,7 @@ def typical_readings(
     size = np.where(graph.limb_spreads[graph.limb], size, STEM_SHARE * size)
     some = samples[:: -(-len(samples) // ENOUGH)].T
     readings = np.where(trees < 0, -size, size).T
-    return stretched_crown(graph, stretched_limbs(graph, readings, some), some), some
-
-
-def stretched_limbs(
-    graph: FactorGraph, psi: Float[np.ndarray, "segment tree"], samples: Float[np.ndarray, "segment sample"]
-) -> Float[np.ndarray, "segment tree"]:
-    """ψ with the depth of every lateral limb brought towards its median over the samples."""
-    typical = np.median(np.abs(_limb_rise(graph, samples)), axis=1)[:, None]
-    own = np.abs(_limb_rise(graph, psi))
-    factor = np.clip((typical / np.maximum(own, 1e-6)) ** LIMB_POWER, 1 / LIMB_LIMIT, LIMB_LIMIT)
-    factor = np.where(graph.limb_spreads[:, None], factor, 1.0)
-    return np.arctan(np.tan(psi) * factor[graph.limb])
+    return stretched_crown(graph, readings, some), some
 
 
 def stretched_crown(
@@ -101,10 +87,3 @@ def depth_of(graph: FactorGraph, elevation: Float[np.ndarray, "segment *sample"]
 
 def _rise(graph, elevation):
     return graph.length.reshape(-1, *(1,) * (elevation.ndim - 1)) * np.tan(elevation)
-
-
-def _limb_rise(graph, elevation):
-    """Depth from every limb's start to its tip, per sample."""
-    rise = np.zeros((graph.limb_count, elevation.shape[1]))
-    np.add.at(rise, graph.limb, _rise(graph, elevation))
-    return rise
