@@ -110,7 +110,7 @@ class Elevation(AbstractSolver):
         return [*burn, *[Block(1.0, True)] * -(-self.keep // every), *cool]
 
     def compile(self, graph: FactorGraph, prior: Prior) -> None:
-        if graph.limb_spreads.any():
+        if graph.limb_spreads.any() or self.locked:
             self._run(graph, self.init(graph, prior, jax.random.key(0)), jax.random.key(0), 1.0, compile_only=True)
 
     def init(self, graph: FactorGraph, prior: Prior, key: Key[Array, ""]) -> State:
@@ -134,15 +134,17 @@ class Elevation(AbstractSolver):
                 raise InferenceError(
                     f"`start` has the shape {depth.shape}, or a depth that is infinite.", remedy=f"Give {len(graph)} depths, NaN where none is known."
                 )
+            depth = np.where(graph.is_base, 0.0, depth)
         held = np.zeros(len(graph), bool)
         if self.locked:
             locks = {row: z / graph.scale for row, z in self.locked.items()}
-            depth, held = held_depths(graph, locks, np.zeros(len(graph)) if depth is None else np.nan_to_num(depth))
+            told = np.where(graph.is_base, 0.0, np.nan) if depth is None else depth
+            depth, held = held_depths(graph, locks, _level(graph, told))
+            depth = np.where(held | np.isfinite(told), depth, np.nan)
         if depth is None:
             return None, held
         rise = depth - np.where(graph.is_base, depth, depth[np.maximum(graph.parent, 0)])
-        psi = np.where(graph.is_base, 0.0, np.arctan2(rise, np.maximum(graph.length, 1e-12)))
-        return (np.where(held, psi, np.nan) if self.start is None else psi), held
+        return np.where(graph.is_base, 0.0, np.arctan2(rise, np.maximum(graph.length, 1e-12))), held
 
     def step(self, graph: FactorGraph, prior: Prior, state: State, key: Key[Array, ""]) -> tuple[State, Info]:
         schedule = self.schedule(graph)
@@ -159,7 +161,7 @@ class Elevation(AbstractSolver):
             kept_values = (*kept_values, values[THIN - 1 :: THIN])
         best, best_value = state.best, state.best_value
         if after.value[leader] >= best_value:
-            best, best_value = after.elevation[leader, : len(graph)].astype(np.float64), float(after.value[leader])
+            best, best_value = self._kept(state, after.elevation[leader, : len(graph)]), float(after.value[leader])
         moved = float(np.abs(after.elevation - state.chains.elevation).sum(axis=1).mean())
         state = state._replace(chains=after, samples=samples, values=kept_values, block=state.block + 1, best=best, best_value=best_value)
         if state.block == len(self.schedule(graph)) and self.polish is not None:
@@ -189,7 +191,7 @@ class Elevation(AbstractSolver):
         psi = np.where(state.held[:, None], state.best[:, None], psi)
         leading = -(-len(order) // LEADING) + 1
         chosen = most_typical(graph, psi[:, :leading], some)
-        if state.start is not None:
+        if self.start is not None:
             chosen = self._loyal(graph, state, order, value, chosen)
         z = depth_of(graph, psi)
         return moved_apart(graph, z[:, chosen], held=state.held), z, value, chosen
@@ -236,8 +238,21 @@ class Elevation(AbstractSolver):
     def _polished(self, graph: FactorGraph, state: State) -> State:
         from sketchtree.mrf.sampling.ascend import ascend  # takes longer to import than most drawings to solve
 
-        best, value = ascend(state.posterior, state.best, self.polish)
-        return state._replace(best=best, best_value=value) if value > state.best_value else state
+        best, value = ascend(state.posterior, state.best, self.polish, held=state.held)
+        return state._replace(best=self._kept(state, best), best_value=value) if value > state.best_value else state
+
+    @staticmethod
+    def _kept(state: State, psi) -> Float[np.ndarray, " segment"]:
+        """ψ with the held rows exact, in double precision."""
+        return np.where(state.held, 0.0 if state.start is None else state.start, psi.astype(np.float64))
+
+
+def _level(graph: FactorGraph, depth: Float[np.ndarray, " segment"]) -> Float[np.ndarray, " segment"]:
+    """Depths with those of the parents where they are not known."""
+    depth = depth.copy()
+    for row in np.flatnonzero(np.isnan(depth)):
+        depth[row] = 0.0 if graph.is_base[row] else depth[graph.parent[row]]
+    return depth
 
 
 def _together(samples) -> Float[np.ndarray, "sample segment"]:

@@ -72,6 +72,7 @@ def side_view(
 ) -> Float[np.ndarray, "tree side direction"]:
     """h(θ) of every tree, towards the viewer and away from him; H = 1."""
     lateral = graph.limb_spreads[graph.limb]
+    lateral = lateral if lateral.any() else ~graph.is_base
     z, y = depth_of(graph, psi)[lateral], graph.xy[lateral, 1:]
     reach = [[np.max(side * np.cos(t) * z + np.sin(t) * y, axis=0) for t in _DIRECTIONS] for side in (1, -1)]
     return np.moveaxis(np.array(reach), -1, 0)

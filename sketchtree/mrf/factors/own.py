@@ -13,6 +13,8 @@ depths. A class that needs the drawing is given as it is, `{"wall": Wall}`, and 
 An `equinox.Module` may hold arrays: other values in them need no new compilation. Anything else is part of the program.
 """
 
+import pickle
+from functools import lru_cache
 from typing import Any
 
 import equinox as eqx
@@ -41,10 +43,20 @@ class Own(eqx.Module):
 
 
 class _Held:
-    """An object that jax need not look into; the same only as itself."""
+    """An object that jax need not look into; the same only as itself, and as long as its attributes are what they were."""
 
     def __init__(self, value):
         self.value = value
+        try:
+            self.attributes = pickle.dumps(vars(value))
+        except Exception:  # they can't be told: a program of its own each time
+            self.attributes = object()
+
+    def __eq__(self, other):
+        return isinstance(other, _Held) and other.value is self.value and other.attributes == self.attributes
+
+    def __hash__(self):
+        return hash(id(self.value))
 
 
 def own_factor(name: str, given: Any, posterior, graph: FactorGraph) -> Own:
@@ -56,12 +68,18 @@ def own_factor(name: str, given: Any, posterior, graph: FactorGraph) -> Own:
     if isinstance(given, type) or not hasattr(given, "log_potential"):
         if not callable(given):
             raise _error(name, "has no `log_potential(assignment, theta)`", "Give an object that has, or a class that makes one from the factor graph.")
-        given = given(graph)
+        given = _made(given, graph)
         if not hasattr(given, "log_potential"):
             raise _error(name, "made an object without `log_potential(assignment, theta)`", "Return an object that has one.")
     own = _wrapped(name, given)
     _try(own, posterior, graph)
     return own
+
+
+@lru_cache(maxsize=8)
+def _made(make, graph: FactorGraph) -> Any:
+    """What `make` makes of a drawing, once: a run asks twice, to compile and to begin."""
+    return make(graph)
 
 
 def _wrapped(name, given) -> Own:

@@ -7,7 +7,7 @@ of twice the size, and moves ψ by less than what the samples spread, so the def
 import jax.numpy as jnp
 import numpy as np
 import optimistix
-from jaxtyping import Float
+from jaxtyping import Bool, Float
 
 from sketchtree.mrf.assignment import STEEPEST
 from sketchtree.mrf.compilation import compiled
@@ -15,19 +15,27 @@ from sketchtree.mrf.log_posterior import LogPosterior
 
 
 def ascend(
-    posterior: LogPosterior, elevation: Float[np.ndarray, " segment"], minimiser: optimistix.AbstractMinimiser, steps: int = 300
+    posterior: LogPosterior,
+    elevation: Float[np.ndarray, " segment"],
+    minimiser: optimistix.AbstractMinimiser,
+    steps: int = 300,
+    *,
+    held: Bool[np.ndarray, " segment"] | None = None,
 ) -> tuple[Float[np.ndarray, " segment"], float]:
-    """ψ at the peak above `elevation`, and E there. ψ = 80° tanh(y / 80°) keeps every step inside the range."""
+    """ψ at the peak above `elevation`, and E there. ψ = 80° tanh(y / 80°) keeps every step inside the range. Rows that are
+    `held` stay."""
 
-    def to_elevation(y):
-        return STEEPEST * jnp.tanh(y / STEEPEST)
+    def climb(posterior, start, free):
+        def to_elevation(y):
+            return STEEPEST * jnp.tanh(jnp.where(free, y, start) / STEEPEST)
 
-    def climb(posterior, y):
-        found = optimistix.minimise(lambda y, p: -p(to_elevation(y)), minimiser, y, posterior, max_steps=steps, throw=False).value
+        found = optimistix.minimise(lambda y, p: -p(to_elevation(y)), minimiser, start, posterior, max_steps=steps, throw=False).value
         return to_elevation(found), posterior(to_elevation(found))
 
     padded = np.zeros(posterior.page.length.shape, posterior.page.length.dtype)
     padded[: len(elevation)] = STEEPEST * np.arctanh(np.clip(elevation / STEEPEST, -0.999, 0.999))
-    arguments = (posterior, jnp.asarray(padded))
-    psi, value = compiled(climb, *arguments, name=f"ascend {minimiser!r} {steps}")(*arguments)
+    free = np.ones(len(padded), bool)
+    free[: len(elevation)] = True if held is None else ~held
+    arguments = (posterior, jnp.asarray(padded), free)
+    psi, value = compiled(climb, *arguments, name=f"ascend {minimiser!r} {steps}", keep=not posterior.own)(*arguments)
     return np.asarray(psi, np.float64)[: len(elevation)], float(value)

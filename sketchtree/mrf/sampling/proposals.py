@@ -107,8 +107,9 @@ def langevin_log_density(moves: Moves, at, start, gradient, step, temperature):
 def mirror(moves: Moves, page: Page, psi, draws: Draws):
     """One limb negated, a limb and its subtree negated, or a limb shifted."""
     j = jnp.clip((draws.limb * moves.lateral_count).astype(jnp.int32), 0, jnp.maximum(moves.lateral_count - 1, 0))
-    on_limb = (page.limb == moves.lateral[j]) & page.is_segment
+    some = page.is_segment & (moves.lateral_count > 0)
+    on_limb = (page.limb == moves.lateral[j]) & some
     rank = page.walk.rank - page.walk.rank[moves.first[j]]
-    in_subtree = (rank >= 0) & (rank < page.walk.extent[moves.first[j]])
+    in_subtree = (rank >= 0) & (rank < page.walk.extent[moves.first[j]]) & some
     flipped = jnp.where((draws.kind < LIMB_ALONE) & on_limb | (draws.kind >= LIMB_ALONE) & in_subtree, -psi, psi)
     return jnp.where(draws.kind < WITH_SUBTREE, flipped, psi + jnp.where(on_limb, draws.shift, 0.0))
