@@ -61,7 +61,7 @@ def _together(runs: list[Run], solver: Elevation) -> None:
     full = runs + [runs[-1]] * (PACK - len(runs))
     while not runs[0].over:
         block = solver.schedule(runs[0].graph)[runs[0].state.block]
-        parts = [(r.state.posterior, r.state.moves, r.state.chains, block_of(r.step_key(), r.state.chains, len(r.graph), block.temperature)) for r in full]
+        parts = [(r.state.posterior, r.state.moves, r.state.chains, block_of(r.step_key(), r.state.chains, len(r.graph), block.temperature, teams=1)) for r in full]
         stacked = jax.tree.map(lambda *x: np.stack(x), *((p, m, c, b.draws) for p, m, c, b in parts))
         arguments = (*stacked, *parts[0][3][1:])
         after, path, values = jax.tree.map(np.asarray, compiled(_mapped, *arguments, name="pack")(*arguments))
@@ -70,7 +70,7 @@ def _together(runs: list[Run], solver: Elevation) -> None:
             run.take(state, info)
 
 
-def _mapped(posterior, moves, state, draws, temperature, langevin):
-    return jax.vmap(chains.run, in_axes=(0, 0, 0, 0, None, None))(posterior, moves, state, draws, temperature, langevin)
+def _mapped(posterior, moves, state, draws, temperature, kind):
+    return jax.vmap(chains.run, in_axes=(0, 0, 0, 0, None, None))(posterior, moves, state, draws, temperature, kind)
 
 

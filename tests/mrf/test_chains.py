@@ -12,6 +12,7 @@ from sketchtree.mrf.factor_graph import factor_graph
 from sketchtree.mrf.log_posterior import log_posterior
 from sketchtree.mrf.padding import bucket
 from sketchtree.mrf.prior import Prior
+from sketchtree.mrf.sampling.teams import KINDS
 from tests.mrf.drawings import random_tree, sketch, small_tree
 
 CHAINS, BLOCK = 24, 40
@@ -23,12 +24,12 @@ def _run(graph, blocks, seed=0, temperature=1.0):
     posterior, moves = log_posterior(graph, Prior()), proposals.moves(graph, segments, limbs)
     state = chains.start(np.zeros((CHAINS, segments), np.float32))
     heat = np.full(BLOCK, temperature, np.float32)
-    langevin = (np.arange(BLOCK) % 2).astype(np.float32)
+    kind = np.resize(np.array(KINDS, np.int32), BLOCK)
     paths = []
     for block in range(blocks):
         key = jax.random.fold_in(jax.random.key(seed), block)
         draws = proposals.draw(key, BLOCK, CHAINS, len(graph), segments)
-        arguments = (posterior, moves, state, draws, heat, langevin)
+        arguments = (posterior, moves, state, draws, heat, kind)
         state, path, _ = compiled(chains.run, *arguments, name="chains")(*arguments)
         paths.append(np.asarray(path)[:, :, : len(graph)])
     return np.concatenate(paths), state
@@ -71,7 +72,7 @@ def test_cold_chains_climb():
 
 
 def _draws(**numbers):
-    return proposals.Draws(**({"noise": np.zeros(32), "limb": 0.0, "kind": 0.0, "shift": 0.3, "accept": 0.0} | numbers))
+    return proposals.Draws(**({"noise": np.zeros(32), "limb": 0.0, "kind": 0.0, "partner": 0, "shift": 0.3, "accept": 0.0} | numbers))
 
 
 @pytest.mark.parametrize(
@@ -101,6 +102,45 @@ def test_a_mirror_move_undoes_itself():
         draws = _draws(kind=0.5, limb=limb)
         twice = proposals.mirror(moves, posterior.page, proposals.mirror(moves, posterior.page, psi, draws), draws)
         np.testing.assert_array_equal(twice, psi)
+
+
+def test_a_segment_is_turned_with_all_that_grows_on_it():
+    graph = factor_graph(small_tree())
+    posterior, moves = log_posterior(graph, Prior()), proposals.moves(graph, *bucket(graph))
+    psi = np.full(32, 0.4, np.float32)
+    for u, rows in ((0.45, [5, 9, 10]), (0.85, [9]), (0.25, [3, 4, 8])):  # of rows 1 … 10
+        moved = np.asarray(proposals.mirror(moves, posterior.page, psi, _draws(kind=0.6, limb=u)))
+        assert np.flatnonzero(moved != psi).tolist() == rows
+
+
+def test_an_exchange_swaps_a_subtree_and_undoes_itself():
+    graph = factor_graph(small_tree())
+    posterior, moves = log_posterior(graph, Prior()), proposals.moves(graph, *bucket(graph))
+    one, other = np.random.default_rng(0).normal(size=(2, 32)).astype(np.float32)
+    for kind, side in ((0.2, 1), (0.8, -1)):
+        draws = _draws(kind=kind, limb=0.45)
+        a, b = (np.asarray(proposals.exchange(moves, posterior.page, *pair, draws)) for pair in ((one, other), (other, one)))
+        np.testing.assert_array_equal(a[[5, 9, 10]], side * other[[5, 9, 10]])
+        np.testing.assert_array_equal(np.delete(a, [5, 9, 10]), np.delete(one, [5, 9, 10]))
+        np.testing.assert_array_equal(np.asarray(proposals.exchange(moves, posterior.page, a, b, draws)), one)
+
+
+@pytest.mark.parametrize("count, teams", [(24, 2), (5, 1), (6, 2)])
+def test_partners_are_mutual_and_of_one_team(count, teams):
+    partner = proposals.draw(jax.random.key(0), 7, count, 3, 32, teams).partner
+    for team in np.split(partner, teams, axis=1) if count % teams == 0 else [partner]:
+        me = np.broadcast_to(np.arange(team.shape[1]), team.shape)
+        np.testing.assert_array_equal(np.take_along_axis(team, team.astype(int), axis=1), me)
+        assert (team == me).sum(axis=1).tolist() == [team.shape[1] % 2] * 7
+
+
+def test_held_rows_are_never_turned_nor_exchanged():
+    graph = factor_graph(small_tree())
+    held = np.isin(np.arange(11), [1, 5])
+    moves = proposals.moves(graph, *bucket(graph), held=held)
+    assert not {1, 5} & set(np.asarray(moves.segment)[: int(moves.segment_count)].tolist())
+    assert 1 not in np.asarray(moves.lateral)[: int(moves.lateral_count)]
+    assert (np.asarray(moves.pace)[[1, 5]] == 0).all()
 
 
 def test_trunks_are_never_mirrored():

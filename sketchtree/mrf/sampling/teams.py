@@ -8,7 +8,7 @@ from typing import NamedTuple
 
 import jax
 import numpy as np
-from jaxtyping import Array, Float, Key
+from jaxtyping import Array, Float, Int, Key
 
 from sketchtree.mrf.compilation import compiled
 from sketchtree.mrf.log_posterior import LogPosterior
@@ -18,6 +18,7 @@ from sketchtree.mrf.sampling.proposals import Draws, Moves, draw
 
 BLOCK = 40  # chain steps a block
 TEAMS = 2  # the chains run in so many threads
+KINDS = (chains.MIRROR, chains.LANGEVIN, chains.EXCHANGE, chains.LANGEVIN)  # over and over
 
 
 class BlockOfSteps(NamedTuple):
@@ -25,14 +26,15 @@ class BlockOfSteps(NamedTuple):
 
     draws: Draws
     temperature: Float[np.ndarray, " step"]
-    langevin: Float[np.ndarray, " step"]  # 1 at Langevin steps, 0 at mirror moves; they alternate
+    kind: Int[np.ndarray, " step"]  # which kind of move; see `chains`
 
 
-def block_of(key: Key[Array, ""], state: Chains, rows: int, temperature: float) -> BlockOfSteps:
+def block_of(key: Key[Array, ""], state: Chains, rows: int, temperature: float, teams: int = TEAMS) -> BlockOfSteps:
     """The random numbers and temperatures of one block for a drawing of `rows` rows."""
     chain_count, segments = state.elevation.shape
     hot = np.full(BLOCK, temperature, np.float32)
-    return BlockOfSteps(draw(key, BLOCK, chain_count, rows, segments), hot, (np.arange(BLOCK) % 2).astype(np.float32))
+    kinds = np.resize(np.array(KINDS, np.int32), BLOCK)
+    return BlockOfSteps(draw(key, BLOCK, chain_count, rows, segments, teams), hot, kinds)
 
 
 def in_teams(
