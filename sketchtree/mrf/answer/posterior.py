@@ -12,12 +12,13 @@ from typing import Any
 import jax
 import jax.numpy as jnp
 import numpy as np
-from jaxtyping import Array, Float, Int, Key
+from jaxtyping import Array, Bool, Float, Int, Key
 
 from sketchtree.errors import ExportError, InferenceError
-from sketchtree.keys import numpy_generator
+from sketchtree.keys import numpy_generator, stage_key
 from sketchtree.mrf.answer import diagnostics
 from sketchtree.mrf.answer.intervals import Intervals, intervals_of
+from sketchtree.mrf.answer.labels import apical_labels
 from sketchtree.mrf.answer.typical import depth_of
 from sketchtree.mrf.compilation import compiled
 from sketchtree.mrf.conjugate import draw_theta, theta_names
@@ -76,6 +77,13 @@ class Posterior:
         return draw_theta(together, numpy_generator(self.key))
 
     @cached_property
+    def apical(self) -> Bool[np.ndarray, "sample segment"]:
+        """Whether each segment continues its parent's limb: known from the strokes, drawn where the reader joined two."""
+        flat = self.elevation.reshape(len(self), -1).astype(np.float64)
+        theta = dict(zip(self.theta_names, self.theta.T, strict=True))
+        return apical_labels(self.graph, flat, theta, numpy_generator(stage_key(self.key, "labels")))
+
+    @cached_property
     def rhat(self) -> float:
         """The worst R̂ over |dz|/|v| of all segments and E; NaN with too few draws."""
         return _worst(diagnostics.rhat, self._told, np.nanmax)
@@ -103,11 +111,12 @@ class Posterior:
 
     def columns(self, segment_id: Int[np.ndarray, " segment"] | None = None, scale: float = 1.0) -> dict[str, np.ndarray]:
         """What `write` writes: z (sample, segment) in sketch units times `scale`; theta (sample, parameter) and the
-        parameters' names; log_posterior and chain (sample); segment_id, by default 1, 2, …"""
+        parameters' names; apical (sample, segment); log_posterior and chain (sample); segment_id, by default 1, 2, …"""
         return {
             "z": self.depth * scale,
             "theta": self.theta,
             "parameter": np.array(self.theta_names),
+            "apical": self.apical,
             "log_posterior": self.log_posterior,
             "chain": np.tile(np.arange(self.value.shape[1]), self.value.shape[0]),
             "segment_id": np.arange(1, len(self.graph) + 1) if segment_id is None else np.asarray(segment_id)[: len(self.graph)],
