@@ -27,14 +27,15 @@ from sketchtree.mrf.prior import Prior
 from sketchtree.mrf.sampling import chains
 from sketchtree.mrf.sampling.chains import Chains
 from sketchtree.mrf.sampling.locks import held_depths
-from sketchtree.mrf.sampling.proposals import Moves, moves
+from sketchtree.mrf.sampling.proposals import Draws, Moves, moves
 from sketchtree.mrf.sampling.start import starts
-from sketchtree.mrf.sampling.teams import TEAMS, block_of, in_teams
+from sketchtree.mrf.sampling.teams import TEAMS, BlockOfSteps, block_of, in_teams
 from sketchtree.mrf.solver import AbstractSolver
 
 LARGE = ((4096, 2), (16384, 4))  # above so many rows only every second, every fourth block is run
 LEADING = 4  # one in so many of the cooled chains, the likeliest, proposes its signs
 THIN = 10  # chain steps between kept samples
+COLD = 0.1  # temperature below which the chain that is loyal to a `start` climbs
 LOYAL = 4.0  # nats that another tree must be likelier before the signs of a `start` are given up
 
 
@@ -98,7 +99,7 @@ class Elevation(AbstractSolver):
         from sketchtree.mrf.padding import bucket
         from sketchtree.mrf.sampling.teams import BLOCK
 
-        a_block = self._chain_count(bucket(graph)[0]) * (BLOCK // THIN)
+        a_block = (self._chain_count(bucket(graph)[0]) - self._resting) * (BLOCK // THIN)
         every = max([1, *(thin for rows, thin in LARGE if len(graph) > rows)])
         return eqx.tree_at(lambda solver: solver.keep, self, max(self.keep, every * -(-count // a_block)))
 
@@ -157,8 +158,9 @@ class Elevation(AbstractSolver):
         leader = int(np.argmax(after.value))
         samples, kept_values = state.samples, state.values
         if block.kept:
-            samples = (*samples, path[THIN - 1 :: THIN, :, : len(graph)])
-            kept_values = (*kept_values, values[THIN - 1 :: THIN])
+            first = self._resting
+            samples = (*samples, path[THIN - 1 :: THIN, first:, : len(graph)])
+            kept_values = (*kept_values, values[THIN - 1 :: THIN, first:])
         best, best_value = state.best, state.best_value
         if after.value[leader] >= best_value:
             best, best_value = self._kept(state, after.elevation[leader, : len(graph)]), float(after.value[leader])
@@ -191,17 +193,18 @@ class Elevation(AbstractSolver):
         psi = np.where(state.held[:, None], state.best[:, None], psi)
         leading = -(-len(order) // LEADING) + 1
         chosen = most_typical(graph, psi[:, :leading], some)
-        if self.start is not None:
-            chosen = self._loyal(graph, state, order, value, chosen)
         z = depth_of(graph, psi)
+        if self.start is not None:
+            chosen = self._loyal(graph, state, z, value, chosen)
         return moved_apart(graph, z[:, chosen], held=state.held), z, value, chosen
 
-    def _loyal(self, graph, state, order, value, chosen):
-        """The tree nearest to the start, unless another is much likelier."""
+    def _loyal(self, graph, state, z, value, chosen):
+        """The tree that is shown nearest to the start, unless another is much likelier."""
         known = np.isfinite(state.start) & ~graph.is_base
+        if not known.any():
+            return chosen
         own = depth_of(graph, np.nan_to_num(state.start))
-        trees = np.column_stack([state.best, state.chains.elevation[order, : len(graph)].T])
-        away = np.abs(depth_of(graph, trees) - own[:, None])[known].mean(axis=0) if known.any() else np.zeros(len(value))
+        away = np.abs(z - own[:, None])[known].mean(axis=0)
         near = value >= value.max() - LOYAL
         return int(np.argmin(np.where(near, away, np.inf)))
 
@@ -227,12 +230,19 @@ class Elevation(AbstractSolver):
         found = distinct_readings(graph, trees, value, chosen, samples, count, mirrors=mirrors)
         return [reading._replace(depth=moved_apart(graph, reading.depth, held=state.held)) for reading in found]
 
+    @property
+    def _resting(self) -> int:
+        """How many of the first chains are no samples."""
+        return 0 if self.start is None else 1
+
     def _chain_count(self, segments: int) -> int:
         return TEAMS * max(1, min(self.chain_count, self.chain_count * 256 // segments) // TEAMS)
 
     def _run(self, graph: FactorGraph, state: State, key, temperature: float, *, compile_only: bool = False):
         """(the chains after one block, ψ and E after every step)."""
         block = block_of(key, state.chains, len(graph), temperature)
+        if self.start is not None:
+            block = _with_loyal_chain(block, first=state.block == 0)
         return in_teams(state.posterior, state.moves, state.chains, block, keep=not self.factors, compile_only=compile_only)
 
     def _polished(self, graph: FactorGraph, state: State) -> State:
@@ -245,6 +255,17 @@ class Elevation(AbstractSolver):
     def _kept(state: State, psi) -> Float[np.ndarray, " segment"]:
         """ψ with the held rows exact, in double precision."""
         return np.where(state.held, 0.0 if state.start is None else state.start, psi.astype(np.float64))
+
+
+def _with_loyal_chain(block: BlockOfSteps, *, first: bool) -> BlockOfSteps:
+    """The first chain keeps the signs of the start: it rests there while the others are hot, then climbs, and never mirrors or
+    exchanges a limb. Without it no chain may end on the start's side, and there would be nothing to be loyal to."""
+    draws = Draws(*(np.array(x) for x in block.draws))
+    climbs = (block.kind == chains.LANGEVIN) & (block.temperature <= COLD)
+    draws.accept[~climbs, 0] = 2.0  # never taken
+    if first:  # a shift by nothing: the start is evaluated
+        draws.kind[0, 0], draws.shift[0, 0], draws.accept[0, 0] = 1.0, 0.0, 0.0
+    return block._replace(draws=draws)
 
 
 def _level(graph: FactorGraph, depth: Float[np.ndarray, " segment"]) -> Float[np.ndarray, " segment"]:
