@@ -21,7 +21,7 @@ from sketchtree.mrf.answer.posterior import Posterior
 from sketchtree.mrf.answer.readings import Reading, distinct_readings
 from sketchtree.mrf.answer.typical import depth_of, most_typical, typical_readings
 from sketchtree.mrf.factor_graph import FactorGraph
-from sketchtree.mrf.log_posterior import LogPosterior, log_posterior
+from sketchtree.mrf.log_posterior import LogPosterior, log_posterior, own_energy
 from sketchtree.mrf.okabe import Okabe
 from sketchtree.mrf.prior import Prior
 from sketchtree.mrf.sampling import chains
@@ -36,6 +36,7 @@ LARGE = ((4096, 2), (16384, 4))  # above so many rows only every second, every f
 LEADING = 4  # one in so many of the cooled chains, the likeliest, proposes its signs
 THIN = 10  # chain steps between kept samples
 COLD = 0.1  # temperature below which the chain that is loyal to a `start` climbs
+BROKEN = 2.0  # nats that typical steepness may cost in the user's own factors before the tree itself is shown
 LOYAL = 4.0  # nats that another tree must be likelier before the signs of a `start` are given up
 
 
@@ -191,6 +192,9 @@ class Elevation(AbstractSolver):
         samples = _together(state.samples)
         psi, some = typical_readings(graph, samples, trees)
         psi = np.where(state.held[:, None], state.best[:, None], psi)
+        if state.posterior.own:
+            broken = own_energy(state.posterior, trees) - own_energy(state.posterior, psi.T) > BROKEN
+            psi = np.where(broken, trees.T, psi)
         leading = -(-len(order) // LEADING) + 1
         chosen = most_typical(graph, psi[:, :leading], some)
         z = depth_of(graph, psi)

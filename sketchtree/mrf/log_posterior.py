@@ -17,6 +17,7 @@ from jaxtyping import Array, Float
 
 from sketchtree.axes import NULL
 from sketchtree.mrf.assignment import STEEPEST, Assignment, Page, page
+from sketchtree.mrf.compilation import compiled
 from sketchtree.mrf.conjugate import LimbBelief, LimbData, LimbTheta, limb_prior
 from sketchtree.mrf.factor_graph import FactorGraph
 from sketchtree.mrf.factors.apical import Apical
@@ -147,3 +148,18 @@ def log_posterior(
     )
     own = tuple(own_factor(name, given, posterior, graph) for name, given in factors.items() if given is not None)
     return dataclasses.replace(posterior, own=own)
+
+
+def own_energy(posterior: LogPosterior, elevation: Float[np.ndarray, "tree segment"]) -> Float[np.ndarray, " tree"]:
+    """Σ log_potential of the user's own factors for many trees, nats."""
+    padded = np.zeros((len(elevation), len(posterior.page.length)), np.float32)
+    padded[:, : elevation.shape[1]] = np.clip(elevation, -STEEPEST, STEEPEST)
+
+    def energy(posterior, psi):
+        assignment = posterior.page.assign(psi)
+        theta = posterior.belief.updated(posterior.data(assignment)).mean()
+        return sum(jnp.sum(own.log_potential(assignment, theta)) for own in posterior.own)
+
+    arguments = (posterior, padded)
+    program = compiled(jax.vmap(energy, in_axes=(None, 0)), *arguments, name="own energy", keep=False)
+    return np.nan_to_num(np.asarray(program(*arguments), float), nan=-np.inf)

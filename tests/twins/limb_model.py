@@ -6,7 +6,7 @@ part. Loops only, no padding, no index arrays of the fast version but those of `
 
 import math
 
-KAPPA, C = 0.35, {1: 1.0, 2: 0.5, 3: 0.25}
+KAPPA, C = 0.5, {1: 1.0, 2: 0.5, 3: 0.25}
 
 
 def vectors(graph, psi):

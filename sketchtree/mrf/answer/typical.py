@@ -2,7 +2,7 @@
 
     |ψ_i|     its median over the samples: the best tree alone is too steep here, too flat there
     stems     three tenths of the median: samples disagree about the side a trunk leans to
-    crown     tan ψ of laterals times f = (median ext z_s / ext z)^.55, ext the extent from front to back
+    crown     tan ψ of laterals times f = (median ext z_s / ext z)^.7, ext the extent from front to back
     signs     the best tree and the likeliest cooled chains propose theirs; taken are those whose tree, seen from the side, is
               nearest to the samples on average. Which of two mirror images a limb is no drawing can tell, but how
               the limbs share out before and behind the trunk, the samples do. Two trees are as far apart as
@@ -22,7 +22,7 @@ from sketchtree.mrf.factor_graph import FactorGraph
 from sketchtree.traverse import generations
 
 STEM_SHARE = 0.3
-CROWN_POWER, CROWN_LIMIT = 0.55, 1.6
+CROWN_POWER, CROWN_LIMIT = 0.7, 1.6
 ENOUGH = 160  # samples that the stretches and the choice of signs look at
 _DIRECTIONS = np.linspace(-np.pi / 2, np.pi / 2, 17)  # θ, from straight down to straight up
 

@@ -1,8 +1,8 @@
 """A factor of the user's own: any object with `log_potential(assignment, theta)`, written in jax.
 
-    class Wall:                                      # no limb grows beyond x = .3 H
+    class Wall:                                      # nothing grows nearer to the viewer than z = .2 H
         def log_potential(self, assignment, theta):
-            return -0.5 * (jnp.maximum(assignment.tip.x - 0.3, 0) / 0.02) ** 2
+            return -0.5 * (jnp.maximum(assignment.tip.z - 0.2, 0) / 0.02) ** 2
 
     infer(graph, prior, Elevation(factors={"wall": Wall()}), key=key)
 
@@ -102,6 +102,7 @@ def _try(own: Own, posterior, graph: FactorGraph) -> None:
         assignment = posterior.page.assign(elevation)
         theta = posterior.belief.updated(posterior.data(assignment)).mean()
         try:
+            jax.eval_shape(own.log_potential, assignment, theta)  # as it will be compiled
             value = own.log_potential(assignment, theta)
         except InferenceError:
             raise

@@ -1,7 +1,7 @@
 """Siblings grow round their parent limb, not on top of each other: −κ c_d w_j · w_k.
 
     w_j   V of limb j's first segment minus its part along its parent segment, normalised
-    d     gap in rank along the parent limb: 1, 2, 3        c = (1, .5, .25)        κ = .35
+    d     gap in rank along the parent limb: 1, 2, 3        c = (1, .5, .25)        κ = .5
 
 The phase of the spiral is marginalised: only differences of azimuth matter.
 """
@@ -16,7 +16,7 @@ from sketchtree.mrf.factor_graph import FactorGraph
 from sketchtree.mrf.padding import Padding
 from sketchtree.mrf.factors.angles import Vectors, dot, total
 
-KAPPA = 0.35
+KAPPA = 0.5
 DECAY = (0.0, 1.0, 0.5, 0.25)
 
 
