@@ -37,6 +37,7 @@ LEADING = 4  # one in so many of the cooled chains, the likeliest, proposes its 
 THIN = 10  # chain steps between kept samples
 COLD = 0.1  # temperature below which the chain that is loyal to a `start` climbs
 BROKEN = 2.0  # nats that typical steepness may cost in the user's own factors before the tree itself is shown
+ALIKE = 0.01  # H, mean over the rows: two trees that are about as far from a `start`
 LOYAL = 4.0  # nats that another tree must be likelier before the signs of a `start` are given up
 
 
@@ -203,14 +204,14 @@ class Elevation(AbstractSolver):
         return moved_apart(graph, z[:, chosen], held=state.held), z, value, chosen
 
     def _loyal(self, graph, state, z, value, chosen):
-        """The tree that is shown nearest to the start, unless another is much likelier."""
+        """The tree that is shown nearest to the start, unless another is much likelier; of those about as near the likeliest."""
         known = np.isfinite(state.start) & ~graph.is_base
         if not known.any():
             return chosen
         own = depth_of(graph, np.nan_to_num(state.start))
         away = np.abs(z - own[:, None])[known].mean(axis=0)
-        near = value >= value.max() - LOYAL
-        return int(np.argmin(np.where(near, away, np.inf)))
+        away = np.where(value >= value.max() - LOYAL, away, np.inf)
+        return int(np.argmax(np.where(away <= away.min() + ALIKE, value, -np.inf)))
 
     def depth_sd(self, graph: FactorGraph, state: State) -> Float[np.ndarray, " segment"]:
         """Standard deviation of |z| over the samples: the mirror image left out."""

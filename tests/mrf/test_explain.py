@@ -33,7 +33,7 @@ def _graph():
 
 @cache
 def _solver(theta_mode):
-    return Elevation(theta_mode=theta_mode, typical=False, polish=optimistix.LBFGS(rtol=1e-6, atol=1e-6))
+    return Elevation(theta_mode=theta_mode, typical=False, polish=optimistix.LBFGS(rtol=1e-5, atol=1e-5))
 
 
 @cache

@@ -68,13 +68,18 @@ def _screened(nearest):
     return _fit({"screen": Screen(jnp.float32(nearest))}, typical=False)
 
 
+def _programs():
+    """How many programs of chains there are in memory."""
+    return sum(name == "chains" for name, *_ in compilation._PROGRAMS)
+
+
 TOGETHER = Together()
 
 
 @cache
 def _together():
     """(a fit with a plain object and a class, how many programs that took, what was kept on disk)."""
-    before, count = jax.config.jax_compilation_cache_dir, len(compilation._PROGRAMS)
+    before, count = jax.config.jax_compilation_cache_dir, _programs()
     with tempfile.TemporaryDirectory() as folder:
         jax.config.update("jax_compilation_cache_dir", folder)
         try:
@@ -82,7 +87,7 @@ def _together():
         finally:
             jax.config.update("jax_compilation_cache_dir", before)
         kept = list(Path(folder).rglob("programs/*"))
-    return fit, len(compilation._PROGRAMS) - count, kept
+    return fit, _programs() - count, kept
 
 
 def _psi(graph, seed=0):
@@ -140,6 +145,11 @@ def test_a_factor_pulls_the_limbs_where_it_says():
     assert np.quantile(near.posterior.depth.max(axis=1), 0.9) < 0.1 * small_tree().height
 
 
+def test_what_is_shown_keeps_to_the_factor_too():
+    """The median and the stretch know nothing of factors; where they break one, the tree itself is shown."""
+    assert _fit({"screen": Screen(jnp.float32(0.05))}).depth.max() < 0.08 * small_tree().height
+
+
 def test_other_numbers_in_a_module_need_no_new_program():
     _screened(0.05)
     before = len(compilation._PROGRAMS)
@@ -149,7 +159,7 @@ def test_other_numbers_in_a_module_need_no_new_program():
 
 def test_an_object_and_a_class_are_compiled_once_though_a_run_asks_twice():
     fit, programs, _ = _together()
-    assert programs == 2  # the chains, and what the own factors say of what is shown
+    assert programs == 1
     before = len(compilation._PROGRAMS)
     assert _fit({"together": TOGETHER, "forward": Forward}).depth.tobytes() == fit.depth.tobytes()
     assert len(compilation._PROGRAMS) == before
