@@ -122,6 +122,7 @@ def limb_prior(prior: Prior, dtype=np.float32) -> LimbBelief:
         nu, s2 = generic["bend"]
         moved = (nu * s2 + n * np.asarray(limbs.bend_square)) / (nu + 2 * n)
         generic["bend"] = np.stack([np.where(n > 0, TEMPLATE_NU, nu), np.where(n > 0, moved, s2)])
+    checked_belief(LimbBelief(**generic))
     return LimbBelief(**{name: np.asarray(value, dtype) for name, value in generic.items()})
 
 

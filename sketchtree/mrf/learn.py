@@ -25,6 +25,7 @@ from scipy.special import gammaln
 from sketchtree.axes import NULL
 from sketchtree.drawable import drawable
 from sketchtree.errors import SkeletonError
+from sketchtree.mrf.chen.em import FLOORS
 from sketchtree.mrf.compilation import compiled
 from sketchtree.mrf.conjugate import GENERIC_BELIEF, LimbBelief, LimbData
 from sketchtree.mrf.factor_graph import FactorGraph, factor_graph
@@ -130,7 +131,7 @@ def _bend(data: Float[np.ndarray, "tree two"], generic) -> Float[np.ndarray, " t
 
 
 def _theta(views) -> TreeParameters:
-    """Chen's Θ: the median over trees and sides of every parameter."""
+    """Chen's Θ: the median over trees and sides of every parameter; no σ below the floors of `chen.em`."""
     found = []
     for graph, psi in views:
         depth = np.zeros(len(graph))
@@ -138,4 +139,5 @@ def _theta(views) -> TreeParameters:
             if not graph.is_base[row]:
                 depth[row] = depth[graph.parent[row]] + graph.length[row] * np.tan(psi[row])
         found.append(list(measured_theta(graph, depth, GENERIC).as_dict().values()))
-    return TreeParameters(*np.median(found, axis=0).tolist())
+    values = dict(zip(GENERIC.as_dict(), np.median(found, axis=0).tolist(), strict=True))
+    return TreeParameters(**values | {f"sigma_{name}": max(values[f"sigma_{name}"], floor) for name, floor in FLOORS.items()})

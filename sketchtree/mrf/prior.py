@@ -13,7 +13,7 @@ from typing import Any
 
 import numpy as np
 
-from sketchtree.errors import SketchTreeError, TemplateError
+from sketchtree.errors import InferenceError, SketchTreeError, TemplateError
 from sketchtree.parameters import GENERIC, LimbStatistics, TreeParameters
 from sketchtree.skeleton import TreeSkeleton
 
@@ -60,7 +60,7 @@ class Prior:
         if version != _FORMAT:
             raise TemplateError(f"{path} has prior format {version}; this version reads {_FORMAT}.", remedy="Update sketchtree.")
         try:
-            theta = TreeParameters(**content["theta"])
+            theta = checked_theta(TreeParameters(**content["theta"]))
             limbs = content["limbs"] and LimbStatistics(**{k: np.array(v) for k, v in content["limbs"].items()})
             belief = content["belief"] and checked_belief(LimbBelief(**{k: np.array(v, float) for k, v in content["belief"].items()}))
         except SketchTreeError as error:
@@ -68,3 +68,11 @@ class Prior:
         except (ValueError, KeyError, TypeError, AttributeError) as error:
             raise TemplateError(f"{path} is a prior with missing or misspelt parts.", remedy="Give a file written by `Prior.save`.") from error
         return cls(theta, limbs or None, belief or None)
+
+
+def checked_theta(theta: TreeParameters) -> TreeParameters:
+    """Θ itself. Raises `InferenceError` naming the parameter that is not finite, or the σ that is not positive."""
+    for name, value in theta.as_dict().items():
+        if not np.isfinite(value) or name.startswith("sigma") and value <= 0:
+            raise InferenceError(f"`{name}` of Θ is {value}.", remedy="Give finite numbers; every σ above 0.")
+    return theta

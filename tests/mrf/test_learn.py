@@ -7,6 +7,7 @@ import pytest
 
 from sketchtree.errors import SkeletonError
 from sketchtree.export.skeletons import write_skeleton_json, write_swc
+from sketchtree.mrf.chen.em import FLOORS
 from sketchtree.mrf.conjugate import GENERIC_BELIEF, checked_belief, limb_prior
 from sketchtree.mrf.prior import Prior
 from sketchtree.skeleton import TreeSkeleton
@@ -74,6 +75,7 @@ def test_chen_s_theta_is_measured_too():
     theta = _species(0.5, 0.4).theta
     assert theta.mu_beta == pytest.approx(0.5, abs=0.06)
     assert theta.mu_alpha < 0.05
+    assert theta.sigma_alpha == FLOORS["alpha"]  # their trunks are straight, and σ = 0 would be no prior
 
 
 def test_a_folder_is_read_whatever_its_files_are_and_in_any_order(tmp_path):

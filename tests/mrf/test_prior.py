@@ -1,15 +1,19 @@
 """Priors as files, and beliefs that are none."""
 
+import dataclasses
 import json
 
 import equinox as eqx
+import jax
 import numpy as np
 import pytest
 
 from sketchtree.errors import InferenceError, TemplateError
 from sketchtree.mrf.conjugate import GENERIC_BELIEF, LimbBelief, checked_belief, limb_prior
 from sketchtree.mrf.factor_graph import factor_graph
+from sketchtree.mrf.infer import infer
 from sketchtree.mrf.log_posterior import log_posterior
+from sketchtree.mrf.methods import solver_named
 from sketchtree.mrf.prior import Prior
 from sketchtree.parameters import GENERIC, LimbStatistics, TreeParameters
 from tests.mrf.drawings import small_tree
@@ -82,6 +86,8 @@ def _sound() -> dict:
         ({"sketchtree_prior": 2}, "{path} has prior format 2; this version reads 1. Update sketchtree."),
         ({"theta": "gone"}, f"{{path}} is a prior with missing or misspelt parts. {OURS}"),
         ({"theta": {"mu_s": 1.0}}, f"{{path}} is a prior with missing or misspelt parts. {OURS}"),
+        ({"theta": GENERIC.as_dict() | {"mu_s": "x"}}, f"{{path}} is a prior with missing or misspelt parts. {OURS}"),
+        ({"theta": GENERIC.as_dict() | {"sigma_s": 0.0}}, "{path}: `sigma_s` of Θ is 0.0. Give finite numbers; every σ above 0."),
         ({"theta": [1, 2]}, f"{{path}} is a prior with missing or misspelt parts. {OURS}"),
         ({"limbs": {"divergence": [1]}}, f"{{path}} is a prior with missing or misspelt parts. {OURS}"),
         ({"limbs": 7}, f"{{path}} is a prior with missing or misspelt parts. {OURS}"),
@@ -96,7 +102,7 @@ def _sound() -> dict:
             "{path}: `bend` of order 2 of the prior is [6.0, 0.0]. Give finite numbers; κ, ν and variances above 0.",
         ),
     ],
-    ids=["no mark", "newer", "no theta", "part of theta", "theta a list", "limbs misspelt", "limbs a number", "belief misspelt", "belief a word", "belief short", "no variance"],
+    ids=["no mark", "newer", "no theta", "part of theta", "theta a word", "no sigma", "theta a list", "limbs misspelt", "limbs a number", "belief misspelt", "belief a word", "belief short", "no variance"],
 )
 def test_a_file_that_is_no_prior_is_named(tmp_path, changed, message):
     path = _written(tmp_path, **changed)
@@ -173,3 +179,26 @@ def test_a_belief_of_one_s_own_is_the_prior_and_a_template_moves_it():
     assert moved.divergence[0, 0] == pytest.approx((2 * 0.3 + 3 * 0.5) / 5)
     np.testing.assert_array_equal(moved.divergence[:, 1], own.divergence[:, 1])
     assert eqx.tree_equal(limb_prior(Prior(belief=_belief())), limb_prior(Prior()))
+
+
+@pytest.mark.parametrize("name, bad", [("sigma_s", 0.0), ("sigma_beta", -1.0), ("sigma_gamma", np.nan), ("mu_alpha", np.inf)])
+@pytest.mark.parametrize("method", ["chen", "chen-fixed"])
+def test_a_theta_that_is_none_is_refused_naming_the_parameter(method, name, bad):
+    theta = dataclasses.replace(GENERIC, **{name: bad})
+    with pytest.raises(InferenceError) as raised:
+        infer(factor_graph(small_tree()), Prior(theta), solver_named(method), key=jax.random.key(0))
+    assert str(raised.value) == f"`{name}` of Θ is {bad}. Give finite numbers; every σ above 0."
+
+
+@pytest.mark.parametrize(
+    "part, bad, kind, order",
+    [
+        ("divergence_variance", [-5.0, 0.0], "divergence", 1),
+        ("length_mean", [-0.7, np.nan], "length", 2),
+        ("bend_square", [0.02, -9.0, 0.0], "bend", 1),
+    ],
+)
+def test_statistics_that_are_none_are_refused_naming_kind_and_order(part, bad, kind, order):
+    limbs = dataclasses.replace(_statistics(), **{part: np.array(bad)})
+    with pytest.raises(InferenceError, match=f"`{kind}` of order {order} of the prior is .* Give finite numbers; κ, ν and variances above 0."):
+        limb_prior(Prior(limbs=limbs))

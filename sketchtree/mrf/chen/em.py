@@ -24,7 +24,7 @@ from sketchtree.mrf.factor_graph import FactorGraph
 from sketchtree.mrf.frames import wrap
 from sketchtree.mrf.chen.labels import LabelParameters, families, log_joint
 from sketchtree.mrf.measure import rotations
-from sketchtree.mrf.prior import Prior
+from sketchtree.mrf.prior import Prior, checked_theta
 from sketchtree.mrf.solver import AbstractSolver
 from sketchtree.parameters import TreeParameters
 
@@ -80,7 +80,7 @@ class EM(AbstractSolver):
 
     def init(self, graph: FactorGraph, prior: Prior, key: Key[Array, ""]) -> State:
         n = len(graph)
-        return State(Reading(np.zeros(n), np.zeros(n, np.int64)), prior.theta, np.inf, 0)
+        return State(Reading(np.zeros(n), np.zeros(n, np.int64)), checked_theta(prior.theta), np.inf, 0)
 
     def compile(self, graph: FactorGraph, prior: Prior) -> None:
         for part in self.e_step:
