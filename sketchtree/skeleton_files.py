@@ -5,6 +5,7 @@ What other programs and digitised trees come in; `export.skeletons` writes.
 
 import json
 import os
+import zipfile
 from pathlib import Path
 
 import numpy as np
@@ -33,14 +34,17 @@ def read_npz(path: str | os.PathLike) -> TreeSkeleton:
     """A digitised tree: `parent` (row, −1 at a base), `pos` (y up), `radius` (NaN where unknown); limbs follow the thickest
     child, the straightest of equals. Raises `SkeletonError`."""
     try:
-        with np.load(path, allow_pickle=False) as file:
+        with open(path, "rb") as whole, np.load(whole, allow_pickle=False) as file:
             parent, tip, radius = file["parent"].astype(np.int64), file["pos"].astype(float), file["radius"].astype(float)
     except OSError as error:
         raise SkeletonError(f"Can't read {path}: {(error.strerror or 'it is no .npz file').lower()}.", remedy="Check the path.") from error
-    except (ValueError, KeyError) as error:
+    except (ValueError, KeyError, TypeError, AttributeError, EOFError, zipfile.BadZipFile) as error:
         raise SkeletonError(f"{path} holds no skeleton.", remedy="Give an .npz file with the arrays `parent`, `pos` and `radius`.") from error
     if tip.ndim != 2 or tip.shape[1] != 3 or not len(parent) == len(tip) == len(radius):
         raise SkeletonError(f"{path}: `parent`, `pos` and `radius` have different lengths.", remedy="Give one row a node, three columns of `pos`.")
+    if len(parent) == 0 or parent.max() >= len(parent):
+        what = "has no rows" if len(parent) == 0 else "names a parent that is not in the file"
+        raise SkeletonError(f"{path} {what}.", remedy="Give one row a node, `parent` the row it grows from or -1.")
     order = _parents_first(np.where(parent < 0, NULL, parent), path)
     parent = np.where(parent[order] < 0, NULL, np.argsort(order)[parent[order]])
     tip, radius = tip[order], radius[order]

@@ -102,6 +102,9 @@ def write_posterior(path: Path | None, drawn, *, frame: str) -> None:
     import numpy as np
 
     if drawn.fit.posterior is None:
+        method = drawn.fit.method
+        if method != "elevation":
+            raise ExportError(f"`--posterior {path}`: the method `{method}` has no posterior.", remedy="Use the method `elevation`, or leave the option out.")
         raise ExportError(f"`--posterior {path}`: there is nothing to sample in this drawing.", remedy="Draw a limb beside the stem, or leave the option out.")
     scale = drawn.similarity.scale if frame == "world" else 1.0
     whole = io.BytesIO()

@@ -147,7 +147,7 @@ def test_a_method_without_a_posterior_can_t_be_sampled(tmp_path, capfd, method):
 def test_a_method_without_a_posterior_has_none_to_write(tmp_path, capfd):
     path = tmp_path / "p.npz"
     said = _refused(tmp_path, capfd, "--method", "okabe", "--posterior", str(path))
-    assert said == f"`--posterior {path}`: there is nothing to sample in this drawing. Draw a limb beside the stem, or leave the option out."
+    assert said == f"`--posterior {path}`: the method `okabe` has no posterior. Use the method `elevation`, or leave the option out."
 
 
 def test_another_ending_is_refused(tmp_path, capfd):

@@ -18,7 +18,7 @@ from sketchtree.mrf.sampling.proposals import Draws, Moves, draw
 
 BLOCK = 40  # chain steps a block
 TEAMS = 2  # the chains run in so many threads
-KINDS = (chains.MIRROR, chains.LANGEVIN, chains.EXCHANGE, chains.LANGEVIN)  # over and over
+KINDS = (chains.EXCHANGE, chains.LANGEVIN, chains.EXCHANGE, chains.LANGEVIN, chains.MIRROR, chains.LANGEVIN)  # over and over
 
 
 class BlockOfSteps(NamedTuple):
