@@ -116,11 +116,12 @@ def test_a_limb_that_curves_along_one_direction_is_not_scattered_in_depth(seed, 
 
 @pytest.mark.parametrize("seed", SEEDS)
 def test_steep_forks_open_in_depth(seed):
-    """Five degrees on the page are the projection of a fork that is wider in space."""
+    """Five degrees on the page are the projection of a fork that is wider in space; how much wider, a tree of such forks alone does
+    not tell: it may be a poplar."""
     drawn, found = (_forks(_graph("steep forks"), z) for z in (0.0, _fit("steep forks", seed).depth / _graph("steep forks").scale))
     assert np.median(drawn) < 6
     assert (found > drawn + 1).all()
-    assert np.median(found) > 12
+    assert np.median(found) > 1.3 * np.median(drawn)
 
 
 def _forks(graph, z):

@@ -63,7 +63,7 @@ def test_a_start_keeps_its_signs_and_its_mirror_side(mirror, seed):
 
 def test_a_start_takes_fewer_steps():
     again = _fit(small_tree(), start=_first(0).depth)
-    assert again.steps == Elevation().default_steps - sum(t > 1 for t in Elevation().burn)
+    assert again.steps == Elevation().default_steps - (len(Elevation().burn) - 1)
     assert again.steps < _first(0).steps
     assert again.log_posterior > _first(0).log_posterior - 1.0
 
