@@ -23,7 +23,7 @@ import tempfile
 import time
 from pathlib import Path
 
-SIZES = (12, 25, 50, 100, 200, 500, 1000, 2000)
+SIZES = (12, 25, 50, 100, 200, 500)
 BARS = {50: "≤ .3 (aim .06)", 500: "≤ 3 (aim .6)"}
 
 
