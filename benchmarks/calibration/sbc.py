@@ -29,7 +29,7 @@ from benchmarks.calibration.core_model import LENGTHS, World, core_factors, draw
 from sketchtree.keys import root_key, stage_key
 from sketchtree.mrf.answer.posterior import Posterior
 from sketchtree.mrf.compilation import compiled
-from sketchtree.mrf.conjugate import limb_prior, theta_names
+from sketchtree.mrf.conjugate import theta_names
 from sketchtree.mrf.factor_graph import FactorGraph, factor_graph
 from sketchtree.mrf.factors.own import Own
 from sketchtree.mrf.log_posterior import LogPosterior, log_posterior
@@ -160,7 +160,7 @@ def _last(*arguments):
 
 
 def _start(graph, key, chain_count, segments):
-    return chains.start(starts(graph, limb_prior(Prior()), key, chain_count, segments, known=None, held=np.zeros(len(graph), bool)))
+    return chains.start(starts(graph, key, chain_count, segments, known=None, held=np.zeros(len(graph), bool)))
 
 
 def _noise(key, replicates, chain_count, segments):

@@ -1,6 +1,6 @@
 """The default method: elevations, sampled with mirror moves, Θ learnt on the way.
 
-Many chains start from trees drawn from the root up, fall to T = .5 and rise to 1 (burn-in), are kept for a while at T = 1 (samples), and are cooled to the best
+Many chains start from random limbs, cool to T = 1 (burn-in), are kept for a while at T = 1 (samples), and are cooled to the best
 tree. The model is `log_posterior`, a step `chains`, what is shown `typical`; Θ is integrated out in `conjugate`.
 
 One step of this solver is a block of 40 chain steps at one temperature, so that a bucket needs one small program. From a
@@ -83,7 +83,7 @@ class Elevation(AbstractSolver):
     locked: Mapping[int, float] = eqx.field(default_factory=dict)  # row → z of its tip, sketch units
     typical: bool = True  # show median steepness and stretch; False: the best tree itself
     chain_count: int = 24  # fewer on drawings above 256 rows
-    burn: tuple[float, ...] = (1.0, 0.5, 1.0)  # temperature of each block
+    burn: tuple[float, ...] = (3.0, 1.7, 1.0)  # temperature of each block
     keep: int = 5  # blocks at temperature 1 whose states are samples
     cool: tuple[float, ...] = (0.4, 0.1, 0.02, 1e-4)
     polish: Any = None  # an `optimistix.AbstractMinimiser` to run after cooling; costs a second program
@@ -124,7 +124,7 @@ class Elevation(AbstractSolver):
         posterior = log_posterior(graph, prior, learns=learns, planar=self.planar, factors=self.factors)
         known, held = self._known(graph)
         segments, limbs = len(posterior.page.length), posterior.page.limb_count
-        start = starts(graph, posterior.belief, key, self._chain_count(segments), segments, known=known, held=held)
+        start = starts(graph, key, self._chain_count(segments), segments, known=known, held=held)
         best = nothing if known is None else np.nan_to_num(known)
         return State(posterior, moves(graph, segments, limbs, held=held), chains.start(start), (), (), 0, best, -np.inf, held, known)
 

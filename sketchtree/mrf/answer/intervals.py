@@ -16,7 +16,7 @@ from jaxtyping import Float
 
 from sketchtree.mrf.factor_graph import FactorGraph
 
-SHARE = 0.2  # ε
+SHARE = 0.05  # ε
 LEVELS = (0.05, 0.5, 0.95)
 
 
