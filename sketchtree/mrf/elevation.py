@@ -37,8 +37,8 @@ LEADING = 4  # one in so many of the cooled chains, the likeliest, proposes its 
 THIN = 10  # chain steps between kept samples
 COLD = 0.1  # temperature below which the chain that is loyal to a `start` climbs
 BROKEN = 2.0  # nats that typical steepness may cost in the user's own factors before the tree itself is shown
-ALIKE = 0.01  # H, mean over the rows: two trees that are about as far from a `start`
-LOYAL = 4.0  # nats that another tree must be likelier before the signs of a `start` are given up
+ALIKE = 0.005  # share of the depth of all limbs: two trees that are about as loyal to a `start`
+LOYAL = 8.0  # nats that another tree must be likelier before the signs of a `start` are given up
 
 
 class State(NamedTuple):
@@ -204,14 +204,17 @@ class Elevation(AbstractSolver):
         return moved_apart(graph, z[:, chosen], held=state.held), z, value, chosen
 
     def _loyal(self, graph, state, z, value, chosen):
-        """The tree that is shown nearest to the start, unless another is much likelier; of those about as near the likeliest."""
-        known = np.isfinite(state.start) & ~graph.is_base
-        if not known.any():
+        """The tree whose limbs lie on the sides of the start, a limb that is deep there counting more, unless another is much
+        likelier; of those that are about as loyal the likeliest."""
+        tip, at = graph.limb_tip, graph.parent[graph.limb_first]
+        psi = np.nan_to_num(state.start)
+        own = depth_of(graph, psi)
+        side = np.where(np.isfinite(state.start[tip]) & graph.limb_spreads, own[tip] - own[at], 0.0)
+        if not side.any():
             return chosen
-        own = depth_of(graph, np.nan_to_num(state.start))
-        away = np.abs(z - own[:, None])[known].mean(axis=0)
-        away = np.where(value >= value.max() - LOYAL, away, np.inf)
-        return int(np.argmax(np.where(away <= away.min() + ALIKE, value, -np.inf)))
+        turned = np.abs(side) @ (side[:, None] * (z[tip] - z[at]) < 0) / np.abs(side).sum()
+        turned = np.where(value >= value.max() - LOYAL, turned, np.inf)
+        return int(np.argmax(np.where(turned <= turned.min() + ALIKE, value, -np.inf)))
 
     def depth_sd(self, graph: FactorGraph, state: State) -> Float[np.ndarray, " segment"]:
         """Standard deviation of |z| over the samples: the mirror image left out."""
