@@ -157,6 +157,7 @@ class Elevation(AbstractSolver):
 
     def taken(self, graph: FactorGraph, state: State, block: Block, after: Chains, path, values) -> tuple[State, Info]:
         """The state after a block that led to `after`."""
+        after = after if block.kept else _revived(after)
         leader = int(np.argmax(after.value))
         samples, kept_values = state.samples, state.values
         if block.kept:
@@ -274,6 +275,17 @@ def _with_loyal_chain(block: BlockOfSteps, *, first: bool) -> BlockOfSteps:
     if first:  # a shift by nothing: the start is evaluated
         draws.kind[0, 0], draws.shift[0, 0], draws.accept[0, 0] = 1.0, 0.0, 0.0
     return block._replace(draws=draws)
+
+
+def _revived(state: Chains) -> Chains:
+    """Chains that have found no possible tree yet (a user's factor may rule some out) begin again where others are."""
+    lost = ~np.isfinite(state.value)
+    if lost.all() or not lost.any():
+        return state
+    found = np.flatnonzero(~lost)
+    source = np.arange(len(lost))
+    source[lost] = found[np.arange(lost.sum()) % len(found)]
+    return Chains(*(np.asarray(x)[source] for x in state))
 
 
 def _level(graph: FactorGraph, depth: Float[np.ndarray, " segment"]) -> Float[np.ndarray, " segment"]:
