@@ -7,9 +7,10 @@
 import numpy as np
 from jaxtyping import Float
 
+from sketchtree.axes import NULL
 from sketchtree.errors import InferenceError
 from sketchtree.mrf.factor_graph import FactorGraph
-from sketchtree.traverse import limb_chains
+from sketchtree.traverse import limb_chains, sum_from_root
 
 
 def flipped(graph: FactorGraph, depth: Float[np.ndarray, " segment"], limb: int) -> Float[np.ndarray, " segment"]:
@@ -19,16 +20,10 @@ def flipped(graph: FactorGraph, depth: Float[np.ndarray, " segment"], limb: int)
         raise InferenceError(f"There is no limb {limb} to flip.", remedy=f"Name a limb between 0 and {graph.limb_count - 1}.")
     turned = np.zeros(graph.limb_count, bool)
     turned[limb] = True
-    out = np.zeros(len(graph))
-    for row in range(len(graph)):
-        if graph.is_base[row]:
-            continue
-        above = graph.parent[row]
-        own = graph.limb[row]
-        turned[own] |= graph.limb_parent[own] >= 0 and turned[graph.limb_parent[own]]
-        rise = depth[row] - depth[above]
-        out[row] = out[above] + (-rise if turned[own] else rise)
-    return out
+    for own in np.argsort(graph.limb_first, kind="stable"):  # parents first
+        turned[own] |= graph.limb_parent[own] != NULL and turned[graph.limb_parent[own]]
+    rise = np.where(graph.is_base, 0.0, depth - depth[np.maximum(graph.parent, 0)])
+    return sum_from_root(graph.parent, np.where(turned[graph.limb], -rise, rise))
 
 
 def carried(before: FactorGraph, depth: Float[np.ndarray, " segment"], graph: FactorGraph) -> Float[np.ndarray, " segment"]:
@@ -43,11 +38,7 @@ def carried(before: FactorGraph, depth: Float[np.ndarray, " segment"], graph: Fa
             rise = depth[source] - depth[before.parent[source]]
             middle, end = _share(before, source), _share(graph, rows)
             slope[rows] = np.interp(end, middle, rise / np.maximum(before.length[source] * before.scale, 1e-12))
-    out = np.where(graph.is_base, 0.0, np.nan)
-    for row in range(len(graph)):
-        if not graph.is_base[row]:
-            out[row] = out[graph.parent[row]] + slope[row] * graph.length[row] * graph.scale
-    return out
+    return sum_from_root(graph.parent, np.where(graph.is_base, 0.0, slope * graph.length * graph.scale))
 
 
 def _chains(graph: FactorGraph) -> dict[int, np.ndarray]:

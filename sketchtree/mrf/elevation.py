@@ -19,17 +19,19 @@ from sketchtree.errors import InferenceError
 from sketchtree.mrf.answer.interpenetration import moved_apart
 from sketchtree.mrf.answer.posterior import Posterior
 from sketchtree.mrf.answer.readings import Reading, distinct_readings
-from sketchtree.mrf.answer.typical import depth_of, most_typical, typical_readings
+from sketchtree.mrf.answer.typical import most_typical, typical_readings
+from sketchtree.mrf.depths import depth_of, elevation_of
 from sketchtree.mrf.factor_graph import FactorGraph
 from sketchtree.mrf.log_posterior import LogPosterior, log_posterior, own_energy
 from sketchtree.mrf.okabe import Okabe
+from sketchtree.mrf.padding import bucket
 from sketchtree.mrf.prior import Prior
 from sketchtree.mrf.sampling import chains
 from sketchtree.mrf.sampling.chains import Chains
 from sketchtree.mrf.sampling.locks import held_depths
 from sketchtree.mrf.sampling.proposals import Draws, Moves, moves
 from sketchtree.mrf.sampling.start import starts
-from sketchtree.mrf.sampling.teams import TEAMS, BlockOfSteps, block_of, in_teams
+from sketchtree.mrf.sampling.teams import BLOCK, TEAMS, BlockOfSteps, block_of, in_teams
 from sketchtree.mrf.solver import AbstractSolver
 
 LARGE = ((4096, 2), (16384, 4))  # above so many rows only every second, every fourth block is run
@@ -98,9 +100,6 @@ class Elevation(AbstractSolver):
 
     def with_samples(self, count: int, graph: FactorGraph) -> "Elevation":
         """The same solver, keeping at least `count` samples of this drawing (and no fewer than it would anyway)."""
-        from sketchtree.mrf.padding import bucket
-        from sketchtree.mrf.sampling.teams import BLOCK
-
         a_block = (self._chain_count(bucket(graph)[0]) - self._resting) * (BLOCK // THIN)
         every = max([1, *(thin for rows, thin in LARGE if len(graph) > rows)])
         return eqx.tree_at(lambda solver: solver.keep, self, max(self.keep, every * -(-count // a_block)))
@@ -146,8 +145,7 @@ class Elevation(AbstractSolver):
             depth = np.where(held | np.isfinite(told), depth, np.nan)
         if depth is None:
             return None, held
-        rise = depth - np.where(graph.is_base, depth, depth[np.maximum(graph.parent, 0)])
-        return np.where(graph.is_base, 0.0, np.arctan2(rise, np.maximum(graph.length, 1e-12))), held
+        return elevation_of(graph, depth), held
 
     def step(self, graph: FactorGraph, prior: Prior, state: State, key: Key[Array, ""]) -> tuple[State, Info]:
         schedule = self.schedule(graph)

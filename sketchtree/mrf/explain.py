@@ -14,6 +14,7 @@ import jax.numpy as jnp
 import numpy as np
 from jaxtyping import Float
 
+from sketchtree.mrf.depths import elevation_of
 from sketchtree.mrf.factor_graph import FactorGraph
 from sketchtree.mrf.log_posterior import log_posterior
 from sketchtree.mrf.prior import Prior
@@ -46,10 +47,8 @@ def explain(graph: FactorGraph, prior: Prior, solver: Any, depth: Float[np.ndarr
     posterior = log_posterior(
         graph, prior, learns=solver.theta_mode == "fit", planar=solver.planar, factors=solver.factors, dtype=np.float32
     )
-    z = np.asarray(depth, float) / graph.scale
-    rise = np.where(graph.is_base, 0.0, z - z[np.maximum(graph.parent, 0)])
     psi = np.zeros(len(posterior.page.length), np.float32)
-    psi[: len(graph)] = np.arctan2(rise, np.maximum(graph.length, 1e-12))
+    psi[: len(graph)] = elevation_of(graph, np.asarray(depth, float) / graph.scale)
     theta = posterior.theta(jnp.asarray(psi))
     energy, pull = {}, {}
     for kind, factor in posterior.factors.items():

@@ -28,6 +28,7 @@ from sketchtree.errors import SkeletonError
 from sketchtree.mrf.chen.em import FLOORS
 from sketchtree.mrf.compilation import compiled
 from sketchtree.mrf.conjugate import GENERIC_BELIEF, LimbBelief, LimbData
+from sketchtree.mrf.depths import depth_of, elevation_of
 from sketchtree.mrf.factor_graph import FactorGraph, factor_graph
 from sketchtree.mrf.log_posterior import log_posterior
 from sketchtree.mrf.measure import measured_theta
@@ -78,8 +79,7 @@ def _seen(tree: TreeSkeleton, azimuth: float) -> tuple[FactorGraph, Float[np.nda
             curve_points=np.zeros((0, 2)), curve_start=np.zeros(n + 1, int), limb_id=limbs, stroke_ids=(),
         )
     )  # fmt: skip
-    rise = np.where(graph.is_base, 0.0, z - z[np.maximum(tree.parent, 0)]) / graph.scale
-    return graph, np.clip(np.arctan2(rise, np.maximum(graph.length, 1e-9)), -STEEPEST, STEEPEST)
+    return graph, np.clip(elevation_of(graph, z / graph.scale), -STEEPEST, STEEPEST)
 
 
 def _measured(graph: FactorGraph, psi) -> LimbData:
@@ -134,10 +134,6 @@ def _theta(views) -> TreeParameters:
     """Chen's Θ: the median over trees and sides of every parameter; no σ below the floors of `chen.em`."""
     found = []
     for graph, psi in views:
-        depth = np.zeros(len(graph))
-        for row in range(len(graph)):
-            if not graph.is_base[row]:
-                depth[row] = depth[graph.parent[row]] + graph.length[row] * np.tan(psi[row])
-        found.append(list(measured_theta(graph, depth, GENERIC).as_dict().values()))
+        found.append(list(measured_theta(graph, depth_of(graph, psi), GENERIC).as_dict().values()))
     values = dict(zip(GENERIC.as_dict(), np.median(found, axis=0).tolist(), strict=True))
     return TreeParameters(**values | {f"sigma_{name}": max(values[f"sigma_{name}"], floor) for name, floor in FLOORS.items()})

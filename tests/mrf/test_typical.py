@@ -12,10 +12,16 @@ from sketchtree.mrf.answer.typical import (
     most_typical,
     side_view,
     stretched_crown,
-    typical_elevation,
+    typical_readings,
 )
 from tests.mrf.drawings import lone_stroke, sketch, small_tree
 from tests.twins import limb_model as twin
+
+
+def typical_elevation(graph, samples, trees):
+    """ψ of the most typical reading."""
+    readings, some = typical_readings(graph, samples, trees)
+    return readings[:, most_typical(graph, readings, some)]
 
 
 def test_depth_is_the_sum_along_the_way(small):

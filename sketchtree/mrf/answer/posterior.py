@@ -19,9 +19,9 @@ from sketchtree.keys import numpy_generator, stage_key
 from sketchtree.mrf.answer import diagnostics
 from sketchtree.mrf.answer.intervals import Intervals, intervals_of
 from sketchtree.mrf.answer.labels import apical_labels
-from sketchtree.mrf.answer.typical import depth_of
 from sketchtree.mrf.compilation import compiled
 from sketchtree.mrf.conjugate import draw_theta, theta_names
+from sketchtree.mrf.depths import depth_of
 from sketchtree.mrf.factor_graph import FactorGraph
 
 _AT_ONCE = 32  # samples whose Θ is looked up by one call of the program

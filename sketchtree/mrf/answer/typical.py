@@ -18,21 +18,13 @@ and so was where signs come from.
 import numpy as np
 from jaxtyping import Float
 
+from sketchtree.mrf.depths import depth_of
 from sketchtree.mrf.factor_graph import FactorGraph
-from sketchtree.traverse import generations
 
 STEM_SHARE = 0.3
 CROWN_POWER, CROWN_LIMIT = 0.7, 1.6
 ENOUGH = 160  # samples that the stretches and the choice of signs look at
 _DIRECTIONS = np.linspace(-np.pi / 2, np.pi / 2, 17)  # θ, from straight down to straight up
-
-
-def typical_elevation(
-    graph: FactorGraph, samples: Float[np.ndarray, "sample segment"], trees: Float[np.ndarray, "tree segment"]
-) -> Float[np.ndarray, " segment"]:
-    """ψ of every row, radians, from samples of ψ and the trees whose signs may be taken."""
-    readings, some = typical_readings(graph, samples, trees)
-    return readings[:, most_typical(graph, readings, some)]
 
 
 def typical_readings(
@@ -76,15 +68,3 @@ def side_view(
     z, y = depth_of(graph, psi)[lateral], graph.xy[lateral, 1:]
     reach = [[np.max(side * np.cos(t) * z + np.sin(t) * y, axis=0) for t in _DIRECTIONS] for side in (1, -1)]
     return np.moveaxis(np.array(reach), -1, 0)
-
-
-def depth_of(graph: FactorGraph, elevation: Float[np.ndarray, "segment *sample"]) -> Float[np.ndarray, "segment *sample"]:
-    """z of every tip, H = 1; 0 at a base. Samples may stand in further columns."""
-    depth = _rise(graph, elevation)
-    for rows in generations(graph.parent)[1:]:
-        depth[rows] += depth[graph.parent[rows]]
-    return depth
-
-
-def _rise(graph, elevation):
-    return graph.length.reshape(-1, *(1,) * (elevation.ndim - 1)) * np.tan(elevation)

@@ -14,6 +14,7 @@ from jaxtyping import Bool, Float
 from sketchtree.axes import NULL
 from sketchtree.errors import InferenceError
 from sketchtree.mrf.factor_graph import FactorGraph
+from sketchtree.traverse import sum_from_root
 
 STEEPEST = np.radians(78.0)
 STEM = 0.1  # how readily a stem gives way, a limb 1
@@ -41,11 +42,7 @@ def held_depths(
         rise[rows] = _spread(graph, rows, rise[rows], locked[row] - start, row)
         z_of[rows] = start + np.cumsum(rise[rows])
         held[rows] = True
-    z = np.zeros(len(graph))
-    for row in range(len(graph)):
-        if not graph.is_base[row]:
-            z[row] = z[graph.parent[row]] + rise[row]
-    return z, held & ~graph.is_base
+    return sum_from_root(graph.parent, rise), held & ~graph.is_base
 
 
 def _check(graph, row, z):
