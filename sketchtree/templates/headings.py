@@ -1,7 +1,9 @@
 """Where does a shoot point next? Small rotations of unit vectors.
 
     turn        Rodrigues' rotation of v about a unit axis
-    tropism     v turned towards +y (or −y), never past it
+    towards     v turned towards another vector, never past it
+    tropism     v turned towards +y (or −y)
+    level_off   v turned towards an elevation, in its own vertical plane
     side        a horizontal unit vector perpendicular to v: azimuth 0 of its laterals
     lateral     the direction at divergence φ and azimuth ϕ about a limb
 
@@ -13,6 +15,7 @@ from math import atan2, cos, hypot, pi, sin, sqrt
 Vector = tuple[float, float, float]  # x right, y up, z towards the viewer
 
 UP: Vector = (0.0, 1.0, 0.0)
+DOWN: Vector = (0.0, -1.0, 0.0)
 
 
 def along(a: Vector, step: float, v: Vector) -> Vector:
@@ -59,12 +62,24 @@ def bend(v: Vector, angle: float, azimuth: float) -> Vector:
     return unit(turn(v, lateral(v, pi / 2, azimuth), angle))
 
 
-def tropism(v: Vector, angle: float) -> Vector:
-    """`v` turned by |angle| radians towards +y (angle > 0) or −y (angle < 0), never past it."""
-    goal = UP if angle > 0 else (0.0, -1.0, 0.0)
+def towards(v: Vector, goal: Vector, angle: float) -> Vector:
+    """`v` turned by `angle` (radians, ≥ 0) towards the unit vector `goal`, never past it."""
     axis = cross(v, goal)
     size = sqrt(dot(axis, axis))
     if size < 1e-9:
         return v
     apart = atan2(size, dot(v, goal))
-    return turn(v, unit(axis), min(abs(angle), apart))
+    return turn(v, unit(axis), min(angle, apart))
+
+
+def tropism(v: Vector, angle: float) -> Vector:
+    """`v` turned by |angle| radians towards +y (angle > 0) or −y (angle < 0), never past it."""
+    return towards(v, UP if angle > 0 else DOWN, abs(angle))
+
+
+def level_off(v: Vector, elevation: float, angle: float) -> Vector:
+    """`v` turned by |angle| in its own vertical plane towards the elevation (radians), never past it."""
+    across = side(v)
+    out = (-across[2], 0.0, across[0])  # level, the way `v` points
+    goal = along((cos(elevation) * out[0], 0.0, cos(elevation) * out[2]), sin(elevation), UP)
+    return towards(v, goal, abs(angle))

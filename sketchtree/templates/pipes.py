@@ -8,6 +8,8 @@ The sum gives the trunk some radius r_0 that depends on how many twigs the recip
 spread linearly between twig and trunk so that the thickest base has `trunk_ratio` × height:
 
     r ← r_twig + (r − r_twig) (ratio · height − r_twig) / (r_0 − r_twig)
+
+A broken end is as thick as if it still bore what it lost: (1 + lost / `lateral_spacing`)² twigs.
 """
 
 import numpy as np
@@ -18,10 +20,15 @@ from sketchtree.skeleton import TreeSkeleton
 from sketchtree.traverse import is_tip, sum_to_root
 
 
-def pipe_radii(tree: TreeSkeleton, habit: Habit) -> Float[np.ndarray, " segment"]:
-    """Radius at the tip of every row, metres."""
+def pipe_radii(
+    tree: TreeSkeleton, habit: Habit, lost: Float[np.ndarray, " segment"] | None = None
+) -> Float[np.ndarray, " segment"]:
+    """Radius at the tip of every row, metres. `lost`: metres of limb that broke off at a row; none if not given."""
     n, twig = habit.pipe_exponent, habit.twig_radius
-    area = sum_to_root(tree.parent, np.where(is_tip(tree.parent), twig**n, 0.0))
+    twigs = np.where(is_tip(tree.parent), 1.0, 0.0)
+    if lost is not None:
+        twigs *= (1.0 + lost / habit.lateral_spacing) ** 2
+    area = sum_to_root(tree.parent, twigs * twig**n)
     radius = area ** (1.0 / n)
     thickest = float(radius.max())
     target = habit.trunk_ratio * tree.height

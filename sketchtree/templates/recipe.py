@@ -1,6 +1,6 @@
 """What does a species look like? Reading one exemplar's recipe, a TOML file people can edit.
 
-A recipe has a head (`name`, `title`, `source`, `seed`), a `[crown]`, one `[[limbs]]` table a level
+A recipe has a head (`name`, `title`, `species`, `growth_habit`, `source`, `seed`), a `[crown]`, one `[[limbs]]` table a level
 (level 0 the trunk; the last table serves all deeper levels up to `levels`), and a `[habit]` that fills `parameters.Habit`. Lengths
 are metres, angles degrees, and every key is checked: an unknown key, a wrong type or a value out of
 range is a `TemplateError` that names file and key. The keys, their units and ranges are the fields
@@ -10,72 +10,18 @@ below; `template_db/README.md` lists them.
 import dataclasses
 import json
 import tomllib
-from dataclasses import dataclass, field
+from dataclasses import dataclass
 from pathlib import Path
 
 from sketchtree.errors import TemplateError
 from sketchtree.parameters import Habit
 from sketchtree.templates.profile import Profile
+from sketchtree.templates.tables import Crown, Limbs
 
 NAME_LENGTH = 48  # characters, at most
 
 
-def _key(unit: str, low: float, high: float, meaning: str, default=dataclasses.MISSING):
-    if isinstance(default, (int, float)) and not isinstance(default, bool):
-        default = float(default)
-    return field(default=default, metadata={"unit": unit, "low": low, "high": high, "meaning": meaning})
-
-
-def _number(unit, low, high, meaning, default=dataclasses.MISSING) -> float:
-    return _key(unit, low, high, meaning, default)
-
-
-def _profile(unit, low, high, meaning, default=dataclasses.MISSING) -> Profile:
-    if isinstance(default, (int, float)):
-        default = Profile.constant(default)
-    return _key(unit, low, high, meaning, default)
-
-
-@dataclass(frozen=True)
-class Crown:
-    """`[crown]`: the whole tree."""
-
-    height: float = _number("m", 0.3, 120, "height of the tree: the trunk's length follows from it")
-    envelope: Profile = _profile("m", 0, 60, "crown radius over height / `height`; limbs stop where they leave it")
-    outline_sd: float = _number("1", 0, 0.5, "sd of the log of the envelope's size, from limb to limb", 0.07)
-    stems: float = _number("count", 1, 40, "stems from the ground", 1)
-    stem_ring: float = _number("m", 0, 10, "radius of the ring on which several stems stand", 0)
-    stem_lean: Profile = _profile("deg", -90, 90, "lean of a stem from the vertical, outwards, over its rank 0-1", 0)
-    levels: float = _number("count", 1, 8, "levels of limbs, the trunk counted", 3)
-
-
-@dataclass(frozen=True)
-class Limbs:
-    """`[[limbs]]`: the limbs of one level, how they leave their parent and what they bear."""
-
-    ratio: Profile = _profile("1", 0, 4, "length / parent's length, over place on the parent; level 0: / height")
-    longest: float = _number("m", 0.01, 120, "no limb of this level is longer", 120)
-    ratio_sd: float = _number("1", 0, 1, "sd of the log of the length", 0.12)
-    angle: Profile = _profile("deg", 0, 180, "divergence from the parent, over place on the parent", 0)
-    angle_sd: float = _number("deg", 0, 60, "sd of the divergence", 5)
-    segment: float = _number("m", 0.01, 10, "length of one segment", 0.4)
-    bend: float = _number("deg", 0, 60, "sd of the turn from one segment to the next", 4)
-    tropism: Profile = _profile("deg/m", -720, 720, "turn towards the sky (> 0) or ground (< 0), over place on the limb", 0)
-    deflect: float = _number("deg", 0, 60, "turn away from a lateral where one is borne", 0)
-    clip: bool = field(default=True, metadata={"unit": "bool", "meaning": "stop at the crown's envelope"})
-    spacing: float = _number("m", 0.01, 20, "between nodes that bear laterals", 0.4)
-    bare: float = _number("1", 0, 1, "share of the limb without laterals, from its base", 0)
-    end: float = _number("1", 0, 1, "no laterals beyond this share of the limb", 1)
-    whorl: float = _number("count", 1, 60, "laterals a node", 1)
-    phyllotaxis: float = _number("deg", 0, 360, "azimuth from one node to the next", 137.5)
-    azimuth_sd: float = _number("deg", 0, 180, "sd of a lateral's azimuth", 12)
-    planar: bool = field(
-        default=False, metadata={"unit": "bool", "meaning": "count azimuths from the horizontal, not from a random start"}
-    )
-    shed: Profile = _profile("1", 0, 1, "chance that a lateral has been shed, over place on the limb", 0)
-    shed_below: float = _number("1", 0, 1, "chance that a lateral on the underside has been shed", 0)
-    forks: Profile | None = _profile("count", 2, 8, "where the limb splits and into how many: [[place, limbs], ...]", None)
-    fork_angle: float = _number("deg", 0, 120, "angle between the limb and a fork's branch", 40)
+GROWTH_HABITS = ("decurrent", "fastigiate", "weeping", "excurrent", "umbrella", "palm", "shrub", "irregular")
 
 
 @dataclass(frozen=True)
@@ -84,6 +30,8 @@ class Recipe:
 
     name: str
     title: str
+    species: str  # botanical name; several exemplars (young, old) may share it; "" unknown
+    growth_habit: str  # one of GROWTH_HABITS; "" not said
     source: str  # where the figures come from; "estimated" where nobody measured
     seed: int
     crown: Crown
@@ -112,7 +60,7 @@ def parse_recipe(text: str, *, file: str) -> Recipe:
         table = tomllib.loads(text)
     except tomllib.TOMLDecodeError as error:
         raise TemplateError(f"Recipe {file}: it is not valid TOML ({error}).", remedy="Correct that line.") from error
-    known = {"name", "title", "source", "seed", "crown", "limbs", "habit"}
+    known = {"name", "title", "species", "growth_habit", "source", "seed", "crown", "limbs", "habit"}
     _refuse_unknown(table, known, file, "")
     limbs = _require(table, "limbs", list, file, "")
     if not limbs or not all(isinstance(level, dict) for level in limbs):
@@ -123,12 +71,17 @@ def parse_recipe(text: str, *, file: str) -> Recipe:
     seed = _require(table, "seed", int, file, "")
     if not 0 <= seed < 2**32:
         _fail(file, "seed", f"{seed} is out of range.", "Give an integer from 0 to 2³² − 1.")
+    growth_habit = _require(table, "growth_habit", str, file, "") if "growth_habit" in table else ""
+    if "growth_habit" in table and growth_habit not in GROWTH_HABITS:
+        _fail(file, "growth_habit", f"{growth_habit!r} is not known.", f"Give one of: {', '.join(GROWTH_HABITS)}.")
     levels = tuple(_record(Limbs, level, file, f"limbs[{i}]") for i, level in enumerate(limbs))
     if min(levels[0].ratio.values) <= 0:
         _fail(file, "limbs[0].ratio", "the trunk has no length.", "Give it a ratio above 0.")
     return Recipe(
         name=name,
         title=_require(table, "title", str, file, ""),
+        species=_require(table, "species", str, file, "") if "species" in table else "",
+        growth_habit=growth_habit,
         source=_require(table, "source", str, file, ""),
         seed=seed,
         crown=_record(Crown, _require(table, "crown", dict, file, ""), file, "crown"),

@@ -7,8 +7,9 @@ import pytest
 from sketchtree.errors import TemplateError
 from sketchtree.parameters import Habit
 from sketchtree.templates.profile import Profile
-from sketchtree.templates.recipe import Crown, Limbs, parse_recipe, read_recipe
+from sketchtree.templates.recipe import GROWTH_HABITS, parse_recipe, read_recipe
 from sketchtree.templates.regenerate import recipe_folder
+from sketchtree.templates.tables import Crown, Limbs
 
 
 def test_a_number_is_a_constant_profile_and_pairs_are_knots(minimal):
@@ -23,7 +24,7 @@ def test_a_number_is_a_constant_profile_and_pairs_are_knots(minimal):
 @pytest.mark.parametrize(
     ("old", "new", "message"),
     [
-        ("seed = 1", "sead = 1", "Recipe x.toml, `sead`: it is not a key of recipes. Use one of: crown, habit, limbs, name, seed"),
+        ("seed = 1", "sead = 1", "Recipe x.toml, `sead`: it is not a key of recipes. Use one of: crown, growth_habit, habit, limbs"),
         ("seed = 1", "seed = -1", "`seed`: -1 is out of range. Give an integer from 0"),
         ("seed = 1", "seed = 1.5", "`seed`: 1.5 is not a int. Correct its type."),
         ("seed = 1", "seed = true", "`seed`: True is not a int."),
@@ -46,6 +47,11 @@ def test_a_number_is_a_constant_profile_and_pairs_are_knots(minimal):
         ("trunk_ratio = 0.05", 'leaf_arrangement = "any"', "`habit.leaf_arrangement`: 'any' is not known. Give one of: opposite"),
         ("trunk_ratio = 0.05", "thickness = 1", "`habit.thickness`: it is not a key of recipes."),
         ("trunk_ratio = 0.05", "extra = {day = 2020-01-01}", "`habit.extra`: it holds a value that the database can't keep."),
+        ("seed = 1", 'seed = 1\ngrowth_habit = "bushy"', "`growth_habit`: 'bushy' is not known. Give one of: decurrent, fastigiate"),
+        ("seed = 1", "seed = 1\nspecies = 3", "`species`: 3 is not a str. Correct its type."),
+        ("height = 4.0", "height = 4.0\nwind = -1", "`crown.wind`: -1 is out of range. Give 0 to 180 (deg/m): turn of every limb downwind"),
+        ("bare = 0.25", "rest = 100", "`limbs[0].rest`: 100 is out of range. Give -90 to 90 (deg)"),
+        ("bare = 0.25", "broken = [[0, 2]]", "`limbs[0].broken`: 2 is out of range. Give 0 to 1 (1)"),
         ("[crown]", "[crown", "Recipe x.toml: it is not valid TOML"),
     ],
 )
@@ -78,3 +84,23 @@ def test_the_readme_lists_every_key():
             assert f"| `{key.name}`" in text, key.name
             if kind is not Habit:
                 assert key.metadata["meaning"] in text, key.name
+                assert f"| `{key.name}`{_row(key)} |" in text, f"unit, range or default of {key.name}"
+    assert all(f"`{habit}`" in text for habit in GROWTH_HABITS)
+
+
+def _row(key) -> str:
+    """` * | unit | range | default` as the table shows them."""
+    unit, default = key.metadata["unit"], key.default
+    span = "" if unit == "bool" else f"{key.metadata['low']:g} – {key.metadata['high']:g}"
+    if isinstance(default, Profile):
+        default = default.values[0]
+    known = {dataclasses.MISSING: "needed", None: "none", True: "true", False: "false"}
+    shown = known[default] if isinstance(default, bool) or default in (None, dataclasses.MISSING) else f"{default:g}"
+    profile = " *" if "Profile" in str(key.type) else ""
+    return f"{profile} | {unit} | {span} | {shown}"
+
+
+def test_species_and_growth_habit_may_be_left_out(minimal):
+    assert parse_recipe(minimal, file="x.toml").growth_habit == ""
+    named = parse_recipe('species = "Lignum vulgare"\ngrowth_habit = "irregular"\n' + minimal, file="x.toml")
+    assert (named.species, named.growth_habit) == ("Lignum vulgare", "irregular")

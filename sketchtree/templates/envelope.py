@@ -1,0 +1,19 @@
+"""Does a limb still grow inside the crown? A radius over height about an axis that may lie downwind.
+
+Every limb has its own `reach`, the envelope's size relative to the recipe's: outlines are not turned on a lathe.
+"""
+
+from math import hypot
+
+from sketchtree.templates.headings import Vector
+from sketchtree.templates.tables import Crown
+
+
+def inside(crown: Crown, way: Vector, reach: float, at: Vector) -> bool:
+    """Is `at` within the envelope scaled by `reach`? `way`: unit vector downwind."""
+    envelope = crown.envelope
+    level = at[1] / (crown.height * reach)
+    if len(envelope.knots) > 1 and not envelope.knots[0][0] <= level <= envelope.knots[-1][0]:
+        return False
+    drift = crown.drift(level)
+    return hypot(at[0] - drift * way[0], at[2] - drift * way[2]) <= reach * envelope(level)
