@@ -16,7 +16,7 @@ from jaxtyping import Float, Int
 
 from benchmarks.drawing import Case
 from sketchtree.keys import root_key
-from sketchtree.mrf.answer.intervals import LEVELS, mixed_quantile
+from sketchtree.mrf.answer.intervals import LEVELS, quantiles
 from sketchtree.mrf.elevation import Elevation
 from sketchtree.mrf.factor_graph import factor_graph
 from sketchtree.mrf.infer import infer
@@ -52,9 +52,9 @@ def measured(case: Case, *, seed: int, shares: tuple[float, ...] = SHARES) -> Me
     graph = factor_graph(case.graph)
     posterior = infer(graph, Prior(), Elevation(), key=root_key(seed), throw=False).posterior
     rows = ~graph.is_base
-    steepness = posterior.steepness.reshape(len(posterior), -1)[:, rows]
-    ends = [[mixed_quantile(steepness, level, share) for share in shares] for level in (LEVELS[0], LEVELS[-1])]
-    return Measured(true_steepness(case)[rows], np.minimum(graph.order[rows], 2), *map(np.array, ends))
+    steepness = posterior.steepness.reshape(len(posterior), -1)
+    ends = zip(*([q[rows] for q in quantiles(graph, steepness, (LEVELS[0], LEVELS[-1]), share=share)] for share in shares), strict=True)
+    return Measured(true_steepness(case)[rows], np.minimum(graph.order[rows], 2), *(np.array(end) for end in ends))
 
 
 def true_steepness(case: Case) -> Float[np.ndarray, " segment"]:

@@ -83,7 +83,7 @@ class Elevation(AbstractSolver):
     factors: Mapping[str, Any] = eqx.field(default_factory=dict)  # the user's, by name; see `log_posterior`
     start: Any = None  # z of every row to begin with, sketch units, NaN where it is not known
     locked: Mapping[int, float] = eqx.field(default_factory=dict)  # row → z of its tip, sketch units
-    typical: bool = True  # show median steepness and stretch; False: the best tree itself
+    typical: bool = True  # show `answer.typical`; False: the best tree itself
     chain_count: int = 24  # fewer on drawings above 256 rows
     burn: tuple[float, ...] = (3.0, 1.7, 1.0)  # temperature of each block
     keep: int = 5  # blocks at temperature 1 whose states are samples
@@ -190,7 +190,7 @@ class Elevation(AbstractSolver):
         trees = np.vstack([state.best, cooled])
         value = np.r_[state.best_value, np.asarray(state.chains.value, float)[order]]
         samples = _together(state.samples)
-        psi, some = typical_readings(graph, samples, trees)
+        psi, some = typical_readings(graph, samples, trees, planar=self.planar, start=state.start)
         psi = np.where(state.held[:, None], state.best[:, None], psi)
         if state.posterior.own:
             broken = own_energy(state.posterior, trees) - own_energy(state.posterior, psi.T) > BROKEN
@@ -203,15 +203,16 @@ class Elevation(AbstractSolver):
         return moved_apart(graph, z[:, chosen], held=state.held), z, value, chosen
 
     def _loyal(self, graph, state, z, value, chosen):
-        """The tree whose limbs lie on the sides of the start, a limb that is deep there counting more, unless another is much
+        """The tree whose limbs lie on the sides of the start, a limb that goes far there, to and fro, counting more, unless another is much
         likelier; of those that are about as loyal the likeliest."""
         tip, at = graph.limb_tip, graph.parent[graph.limb_first]
-        psi = np.nan_to_num(state.start)
-        own = depth_of(graph, psi)
-        side = np.where(np.isfinite(state.start[tip]) & graph.limb_spreads, own[tip] - own[at], 0.0)
+        own = depth_of(graph, np.nan_to_num(state.start))
+        side = np.where(np.isfinite(state.start[tip]) & graph.limb_spreads, np.sign(own[tip] - own[at]), 0.0)
         if not side.any():
             return chosen
-        turned = np.abs(side) @ (side[:, None] * (z[tip] - z[at]) < 0) / np.abs(side).sum()
+        rise = np.abs(own - own[np.maximum(graph.parent, 0)])
+        weight = np.abs(side) * np.bincount(graph.limb, rise, minlength=len(side))
+        turned = weight @ (side[:, None] * (z[tip] - z[at]) < 0) / weight.sum()
         turned = np.where(value >= value.max() - LOYAL, turned, np.inf)
         return int(np.argmax(np.where(turned <= turned.min() + ALIKE, value, -np.inf)))
 

@@ -4,7 +4,10 @@ import numpy as np
 import pytest
 
 from sketchtree.mrf.answer.intervals import LEVELS, intervals_of, mixed_quantile, same_side_odds
-from sketchtree.mrf.answer.typical import depth_of
+from sketchtree.mrf.answer.stems import is_stem
+from sketchtree.mrf.depths import depth_of
+from sketchtree.mrf.factor_graph import factor_graph
+from tests.mrf.drawings import sketch
 
 
 def _samples(graph, count=400, seed=0):
@@ -66,3 +69,36 @@ def test_a_segment_that_stays_on_the_page_has_even_odds(small):
     _, z = _samples(small)
     shown = np.where(np.isin(np.arange(11), [0, 1]), 0.0, z[0])
     assert same_side_odds(small, z, shown)[1] == 0.5
+
+
+def _leaning():
+    return factor_graph(sketch([-1, 0, 1, 1, 2], [[0, 0], [25, 40], [30, 100], [-30, 90], [70, 120]], [0, 0, 0, 1, 2]))
+
+
+def test_a_stem_may_lie_in_the_page_and_may_lean_as_much_as_it_was_drawn_to():
+    graph = _leaning()
+    psi = np.where(graph.is_base, 0.0, np.random.default_rng(0).normal(0, 0.05, (400, len(graph))))
+    z = depth_of(graph, psi.T).T
+    found = intervals_of(graph, np.abs(np.sin(psi)), z, np.where(graph.is_base, 0.0, 0.35 * graph.xy[:, 0]))
+    stem = is_stem(graph)
+    assert (found.q05[stem] == 0).all()
+    lean = np.abs(graph.direction[stem, 0])
+    expected = np.sin(np.arctan(1.96 * lean))  # |N(0, 1)| is below 1.96 in 95 % of the cases
+    np.testing.assert_allclose(found.q95[stem], expected, atol=0.12)
+    assert (found.q50[stem] > 0.4 * lean).all()
+    lateral = graph.order > 0
+    assert (found.q95[lateral] < 0.25).all()
+
+
+def test_a_stem_that_is_locked_or_planar_is_not_turned():
+    graph = _leaning()
+    stem = is_stem(graph)
+    psi = np.where(graph.is_base, 0.0, np.random.default_rng(0).normal(0, 0.05, (400, len(graph))))
+    psi[:, stem] = 0.3
+    z = depth_of(graph, psi.T).T
+    locked = intervals_of(graph, np.abs(np.sin(psi)), z, z[0])
+    np.testing.assert_allclose(locked.q50[stem], np.sin(0.3), atol=1e-6)
+    psi[:, stem] = np.random.default_rng(1).normal(0, 0.01, (400, stem.sum()))
+    z = depth_of(graph, psi.T).T
+    planar = intervals_of(graph, np.abs(np.sin(psi)), z, np.where(stem | graph.is_base, 0.0, z[0]))
+    assert (planar.q50[stem] < 0.02).all()

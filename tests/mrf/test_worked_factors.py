@@ -14,7 +14,7 @@ from sketchtree.mrf.infer import infer
 from sketchtree.mrf.prior import Prior
 from tests.mrf.drawings import sketch, small_tree
 
-WALL = -0.08  # z, H
+WALL = -0.07  # z, H
 
 
 class Wall:

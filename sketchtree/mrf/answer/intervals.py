@@ -6,14 +6,15 @@
 
 Calibration. The samples are those of a model, and real trees are not drawn from it: on trees with known depths its intervals
 are somewhat too narrow. Quantiles are therefore those of a mixture, a share ε of s spread evenly over 0 … 1, `SHARE` fitted
-on the trees of `benchmarks.calibration coverage`.
+on the trees of `benchmarks.calibration coverage`. Stems are first turned out of the page (`stems`).
 """
 
 from typing import NamedTuple
 
 import numpy as np
-from jaxtyping import Float
+from jaxtyping import Bool, Float
 
+from sketchtree.mrf.answer.stems import is_stem, turned_steepness
 from sketchtree.mrf.factor_graph import FactorGraph
 
 SHARE = 0.05  # ε
@@ -37,10 +38,24 @@ def intervals_of(
     levels: tuple[float, float, float] = LEVELS,
 ) -> Intervals:
     """Intervals from samples of |dz|/|v| and of z, and the z that is shown; H = 1."""
-    low, middle, high = (mixed_quantile(steepness, level) for level in levels)
     base = graph.is_base
-    odds = same_side_odds(graph, depth, answer)
-    return Intervals(*(np.where(base, np.nan, x) for x in (low, middle, high, odds)))
+    off_page = answer != answer[np.maximum(graph.parent, 0)]  # not so in a planar drawing
+    ends = quantiles(graph, steepness, levels, stem=is_stem(graph) & off_page)
+    return Intervals(*(np.where(base, np.nan, x) for x in (*ends, same_side_odds(graph, depth, answer))))
+
+
+def quantiles(
+    graph: FactorGraph,
+    steepness: Float[np.ndarray, "sample segment"],
+    levels: tuple[float, ...],
+    *,
+    share: float | None = None,
+    stem: Bool[np.ndarray, " segment"] | None = None,
+) -> list[Float[np.ndarray, " segment"]]:
+    """Calibrated quantiles of |dz|/|v|, one level after the other. Those of a `stem` (default: all) below the median are 0."""
+    stem = (is_stem(graph) if stem is None else stem) & (np.ptp(steepness, axis=0) > 0)  # not where it is locked
+    steepness = turned_steepness(graph, steepness, stem)
+    return [np.where(stem & (level < 0.5), 0.0, mixed_quantile(steepness, level, share)) for level in levels]
 
 
 def mixed_quantile(steepness: Float[np.ndarray, "sample segment"], level: float, share: float | None = None) -> Float[np.ndarray, " segment"]:

@@ -1,50 +1,46 @@
 """From samples and cooled trees to the depths that are shown: typical steepness, the signs of the most typical tree.
 
     |ψ_i|     its median over the samples: the best tree alone is too steep here, too flat there
-    stems     three tenths of the median: samples disagree about the side a trunk leans to
-    crown     tan ψ of laterals times f = (median ext z_s / ext z)^.7, ext the extent from front to back
-    signs     the best tree and the likeliest cooled chains propose theirs; taken are those whose tree, seen from the side, is
+    stems     in a plane turned out of the page (`stems`); in a planar drawing they stay in it
+    crown     the deeper a limb reaches the more it is stretched (`crown`), until the whole is as deep as the samples and as
+              the drawing is wide
+    signs     one a limb, that of its tip over its start: what is steep in most trees would zigzag with a tree whose limb just
+              passes the page. The best tree and the likeliest cooled chains propose theirs; taken are those whose tree, seen from the side, is
               nearest to the samples on average. Which of two mirror images a limb is no drawing can tell, but how
               the limbs share out before and behind the trunk, the samples do. Two trees are as far apart as
 
                   d = mean_θ |h(θ) − h'(θ)|,     h(θ) = max over laterals of z cos θ + y sin θ,
 
               or as one and the other's mirror image, whichever is nearer (h: the support function of the hull)
-
-s runs over the samples; f lies within 1/1.6 … 1.6. Its power and the stems' share were chosen on grown and measured trees,
-and so was where signs come from.
 """
 
 import numpy as np
 from jaxtyping import Float
 
+from sketchtree.mrf.answer.crown import stretched_crown
+from sketchtree.mrf.answer.stems import TURN, turned_stems
 from sketchtree.mrf.depths import depth_of
 from sketchtree.mrf.factor_graph import FactorGraph
 
-STEM_SHARE = 0.3
-CROWN_POWER, CROWN_LIMIT = 0.7, 1.6
 ENOUGH = 160  # samples that the stretches and the choice of signs look at
 _DIRECTIONS = np.linspace(-np.pi / 2, np.pi / 2, 17)  # θ, from straight down to straight up
 
 
 def typical_readings(
-    graph: FactorGraph, samples: Float[np.ndarray, "sample segment"], trees: Float[np.ndarray, "tree segment"]
+    graph: FactorGraph,
+    samples: Float[np.ndarray, "sample segment"],
+    trees: Float[np.ndarray, "tree segment"],
+    *,
+    planar: bool = False,
+    start: Float[np.ndarray, " segment"] | None = None,
 ) -> tuple[Float[np.ndarray, "segment tree"], Float[np.ndarray, "segment some"]]:
-    """(ψ with typical steepness and the signs of each tree, the samples that were looked at)."""
+    """(ψ with typical steepness and the signs of each tree, the samples that were looked at). Stems that leaned to one side at the
+    `start` (ψ, NaN where it is not known) stay there."""
     size = np.median(np.abs(samples), axis=0)
-    size = np.where(graph.limb_spreads[graph.limb], size, STEM_SHARE * size)
     some = samples[:: -(-len(samples) // ENOUGH)].T
-    readings = np.where(trees < 0, -size, size).T
-    return stretched_crown(graph, readings, some), some
-
-
-def stretched_crown(
-    graph: FactorGraph, psi: Float[np.ndarray, "segment tree"], samples: Float[np.ndarray, "segment sample"]
-) -> Float[np.ndarray, "segment tree"]:
-    """ψ with the extent of the whole brought towards its median over the samples."""
-    extent, own = np.median(np.ptp(depth_of(graph, samples), axis=0)), np.ptp(depth_of(graph, psi), axis=0)
-    factor = np.clip((extent / np.maximum(own, 1e-6)) ** CROWN_POWER, 1 / CROWN_LIMIT, CROWN_LIMIT)
-    return np.where(graph.limb_spreads[graph.limb][:, None], np.arctan(np.tan(psi) * factor), psi)
+    readings = size[:, None] * _sides(graph, trees.T)
+    readings = turned_stems(graph, readings, trees.T, start=start, turn=0.0 if planar else TURN)
+    return stretched_crown(graph, readings, some, planar=planar), some
 
 
 def most_typical(
@@ -57,6 +53,13 @@ def most_typical(
         away = [np.abs(others - view).mean(axis=(1, 2)) for view in (tree, tree[::-1])]
         mean.append(np.minimum(*away).mean())
     return int(np.argmin(mean))
+
+
+def _sides(graph: FactorGraph, trees: Float[np.ndarray, "segment tree"]) -> Float[np.ndarray, "segment tree"]:
+    """±1: the side to which the limb of each segment leads."""
+    rise = np.zeros((graph.limb_count, trees.shape[1]))
+    np.add.at(rise, graph.limb, graph.length[:, None] * np.tan(trees))
+    return np.where(rise < 0, -1.0, 1.0)[graph.limb]
 
 
 def side_view(
