@@ -15,11 +15,11 @@ _FORKS, _WIND = 10_000, 20_002  # ranks of the streams of forks, and of what the
 
 
 def offspring(shoot: Shoot, nodes: list[Node]) -> list[Bud]:
-    """The buds on a limb that grew these nodes, laterals from the base up and then forks."""
+    """The buds on a limb that grew these nodes: forks, which go first where room is short, then laterals from the base up."""
     if not nodes:
         return []
     laterals = (_lateral(shoot, node, nodes[-1].gone, rank) for rank, node in enumerate(n for n in nodes if n.azimuth is not None))
-    return [bud for bud in laterals if bud is not None] + [bud for k in range(len(shoot.splits)) for bud in _fork(shoot, k)]
+    return [bud for k in range(len(shoot.splits)) for bud in _fork(shoot, k)] + [bud for bud in laterals if bud is not None]
 
 
 def _lateral(shoot: Shoot, node: Node, grown: float, rank: int) -> Bud | None:

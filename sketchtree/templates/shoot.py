@@ -7,14 +7,14 @@ when it has its length, where it broke, at the crown's envelope, at the ground, 
 """
 
 from dataclasses import dataclass
-from math import inf, pi, radians, sin
+from math import pi, radians, sin
 
 from sketchtree.templates.draws import Draws, limb_stream_id
-from sketchtree.templates.envelope import inside
+from sketchtree.templates.envelope import below, inside
 from sketchtree.templates.headings import UP, Vector, along, bend, cross, lateral, level_off, side, towards, tropism, turn, unit
 from sketchtree.templates.site import Bud, Site
 
-GROUND = 0.15  # metres; hanging twigs stop here
+GROUND, GROUND_SHARE = 0.15, 0.02  # metres, and share of the height of a small tree; hanging twigs stop here
 FREE = 1.5  # clearances from its insertion in which a limb is not yet in anyone's way
 _SWAY, _BREAK = 20_000, 20_001  # ranks of the streams for what a recipe may leave out
 
@@ -40,6 +40,7 @@ class Shoot:
         self.azimuth = 0.0 if self.table.planar else self.draws.between(0, 360)
         self.left = self._left()
         self.snapped = False  # did it grow to where it broke?
+        self.ground = min(GROUND, GROUND_SHARE * site.recipe.crown.height)
         self.splits: list[tuple[int, Vector, float, int]] = []  # forks: row, heading, share of the limb, limbs
         self._sway = self._swaying()
 
@@ -63,7 +64,7 @@ class Shoot:
 
     def _trace(self) -> list[Node]:
         table, bud, rows, site = self.table, self.bud, self.site.rows, self.site
-        at, heading, row, gone, node_at = rows.tip[bud.row], bud.heading, bud.row, 0.0, -inf
+        at, heading, row, gone, due = rows.tip[bud.row], bud.heading, bud.row, 0.0, 0.0
         ahead = bud.length * (1 - bud.place)
         steps = max(1, round(ahead / table.segment))
         step = ahead / steps
@@ -78,17 +79,16 @@ class Shoot:
             if heading is None:
                 break
             reached = along(at, step, heading)
-            now_inside = self._inside(reached)
-            if reached[1] < min(GROUND, at[1]) or (index and table.clip and was_inside and not now_inside):
+            if reached[1] < min(self.ground, at[1]) or (index and table.clip and self._leaves(reached, was_inside)):
                 break
-            was_inside = was_inside or now_inside
+            was_inside = was_inside or self._inside(reached)
             at, gone = reached, gone + step
             row = rows.add(row, at, bud.order, self.limb)
             share = bud.place + gone / bud.length
             while index < steps - 1 and forks and share >= forks[0][0]:
                 heading = self._split(row, heading, share, int(forks.pop(0)[1]))
-            if table.bare <= share <= table.end and gone - node_at >= table.spacing * 0.99:
-                node_at = gone
+            if table.bare <= share <= table.end and gone >= due - 0.5 * step:
+                due = max(gone, (due or gone) + table.spacing)
                 heading = self._node(nodes, row, heading, gone, index == steps - 1)
             else:
                 nodes.append(Node(row, heading, gone, None))
@@ -170,3 +170,7 @@ class Shoot:
 
     def _inside(self, at: Vector) -> bool:
         return inside(self.site.recipe.crown, self.site.wind.way, self.reach, at)
+
+    def _leaves(self, at: Vector, was_inside: bool) -> bool:
+        """Is `at` outside the crown, and not on the way into it from below?"""
+        return not self._inside(at) and (was_inside or not below(self.site.recipe.crown, self.reach, at))
