@@ -1,9 +1,9 @@
 """What do the exemplars look like, bare and in leaf? One picture of all, or of those named.
 
-    python -m benchmarks.template_sheet -o SHEET.png [NAME ...] [--recipes FOLDER] [--azimuth 0] [--seed-shift 0] [--no-leaves]
+    python -m benchmarks.template_sheet -o SHEET.png [NAME ...] [--recipes FOLDER] [--azimuth 0] [--seed-shift 0] [--no-leaves] [--scale 1]
 
 Each is grown from its recipe as it stands (no database needed) and drawn flat: bare on the left, with its leaf model's summer
-leaves on the right. A caption counts rows and seconds.
+leaves on the right. A caption names the growth habit, rows and height; the terminal gets the seconds each took to grow.
 """
 
 import argparse
@@ -18,7 +18,7 @@ from sketchtree.foliage.models import leaf_model
 from sketchtree.foliage.populate import populate
 from sketchtree.templates.footprint import project
 from sketchtree.templates.procedural import grow
-from sketchtree.templates.recipe import Recipe, read_recipe
+from sketchtree.templates.recipe import GROWTH_HABITS, Recipe, read_recipe
 from sketchtree.templates.regenerate import recipe_folder
 
 CELL, CAPTION, FINER = 300, 34, 2  # pixels; drawn finer, then averaged
@@ -95,11 +95,12 @@ def cell(recipe: Recipe, azimuth: float, shift: int, leafy: bool) -> Image.Image
         leaves = populate(tree, recipe.habit, key=keys.stage_key(keys.root_key(1), "foliage"), max_leaves=LEAVES)
         full = Paper(tree, azimuth)
         pictures.append(full.draw(full.wood(tree) + full.blades(leaves)))
+    print(f"{recipe.name:22} {recipe.growth_habit:12} {len(tree):6} rows  {tree.height:6.1f} m  {took:5.2f} s", flush=True)
     picture = Image.new("RGB", (CELL * len(pictures), CELL + CAPTION), PAPER)
     for k, half in enumerate(pictures):
         picture.paste(half, (CELL * k, 0))
     pen, font = ImageDraw.Draw(picture), ImageFont.load_default(15)
-    pen.text((8, CELL + 6), f"{recipe.name} · {recipe.growth_habit} · {len(tree)} rows · {took:.2f} s · {tree.height:.1f} m", (40, 40, 40), font)
+    pen.text((8, CELL + 6), f"{recipe.name} · {recipe.growth_habit} · {len(tree)} rows · {tree.height:.1f} m", (40, 40, 40), font)
     return picture
 
 
@@ -113,14 +114,21 @@ def main() -> None:
     parser.add_argument("--seed-shift", type=int, default=0, help="added to every recipe's seed")
     parser.add_argument("--columns", type=int, default=3)
     parser.add_argument("--no-leaves", action="store_true")
+    parser.add_argument("--scale", type=float, default=1.0, help="of the picture; below 1 it is saved in few colours")
     wanted = parser.parse_args()
-    names = wanted.names or sorted(path.stem for path in wanted.recipes.glob("*.toml"))
-    cells = [cell(read_recipe(wanted.recipes / f"{name}.toml"), wanted.azimuth, wanted.seed_shift, not wanted.no_leaves) for name in names]
+    files = [wanted.recipes / f"{name}.toml" for name in wanted.names] or sorted(wanted.recipes.glob("*.toml"))
+    recipes = [read_recipe(path) for path in files]
+    if not wanted.names:
+        recipes.sort(key=lambda recipe: (*GROWTH_HABITS, "").index(recipe.growth_habit))
+    cells = [cell(recipe, wanted.azimuth, wanted.seed_shift, not wanted.no_leaves) for recipe in recipes]
     wide, high = cells[0].size
     sheet = Image.new("RGB", (wanted.columns * wide, -(-len(cells) // wanted.columns) * high), PAPER)
     for k, picture in enumerate(cells):
         sheet.paste(picture, (k % wanted.columns * wide, k // wanted.columns * high))
-    sheet.save(wanted.output)
+    if wanted.scale < 1:
+        small = sheet.resize((round(sheet.width * wanted.scale), round(sheet.height * wanted.scale)), Image.Resampling.LANCZOS)
+        sheet = small.quantize(48)
+    sheet.save(wanted.output, optimize=True)
 
 
 if __name__ == "__main__":
