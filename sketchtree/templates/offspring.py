@@ -19,7 +19,7 @@ def offspring(shoot: Shoot, nodes: list[Node]) -> list[Bud]:
     if not nodes:
         return []
     laterals = (_lateral(shoot, node, nodes[-1].gone, rank) for rank, node in enumerate(n for n in nodes if n.azimuth is not None))
-    return [bud for k in range(len(shoot.splits)) for bud in _fork(shoot, k)] + [bud for bud in laterals if bud is not None]
+    return [bud for k in range(len(shoot.forks)) for bud in _fork(shoot, k)] + [bud for bud in laterals if bud is not None]
 
 
 def _lateral(shoot: Shoot, node: Node, grown: float, rank: int) -> Bud | None:
@@ -51,13 +51,13 @@ def _lateral(shoot: Shoot, node: Node, grown: float, rank: int) -> Bud | None:
 
 def _fork(shoot: Shoot, rank: int) -> list[Bud]:
     """The limbs of this limb's own kind that part from it at one fork."""
-    bud, (row, heading, share, count, start) = shoot.bud, shoot.splits[rank]
+    bud, fork = shoot.bud, shoot.forks[rank]
     more, angle = [], radians(shoot.table.fork_angle / 2)
-    for k in range(1, count):
+    for k in range(1, fork.count):
         stream = limb_stream_id(bud.id, _FORKS + 100 * rank + k)
         draws = Draws(shoot.site.seed, stream)
-        azimuth = start + 2 * pi * k / count + draws.normal(0.15)
-        way = lateral(heading, angle * draws.between(0.8, 1.25), azimuth)
+        azimuth = fork.azimuth + 2 * pi * k / fork.count + draws.normal(0.15)
+        way = lateral(fork.heading, angle * draws.between(0.8, 1.25), azimuth)
         length = bud.length * draws.between(0.85, 1.05)
-        more.append(Bud(row, way, bud.level, bud.order + 1, length, stream, draws, place=share, borne=bud.borne))
+        more.append(Bud(fork.row, way, bud.level, bud.order + 1, length, stream, draws, place=fork.share, borne=bud.borne))
     return more

@@ -11,7 +11,7 @@ from math import pi, radians, sin
 
 from sketchtree.templates.draws import Draws, limb_stream_id
 from sketchtree.templates.envelope import below, inside
-from sketchtree.templates.headings import UP, Vector, along, bend, cross, lateral, level_off, side, towards, tropism, turn, unit
+from sketchtree.templates.headings import Vector, along, bend, cross, lateral, level_off, towards, tropism, turn, unit
 from sketchtree.templates.site import Bud, Site
 
 GROUND, GROUND_SHARE = 0.15, 0.02  # metres, and share of the height of a small tree; hanging twigs stop here
@@ -29,6 +29,17 @@ class Node:
     azimuth: float | None  # radians about the limb
 
 
+@dataclass(frozen=True)
+class Fork:
+    """A place where the limb splits."""
+
+    row: int
+    heading: Vector  # of the limb before it
+    share: float  # of the limb's length behind it
+    count: int  # limbs that go on, this one among them
+    azimuth: float  # radians, of this limb's own branch
+
+
 class Shoot:
     """One limb while it grows."""
 
@@ -41,7 +52,7 @@ class Shoot:
         self.left = self._left()
         self.snapped = False  # did it grow to where it broke?
         self.ground = min(GROUND, GROUND_SHARE * site.recipe.crown.height)
-        self.splits: list[tuple[int, Vector, float, int]] = []  # forks: row, heading, share of the limb, limbs
+        self.forks: list[Fork] = []
         self._sway = self._swaying()
 
     def grow(self) -> list[Node]:
@@ -53,7 +64,7 @@ class Shoot:
             rows.lost[nodes[-1].row] = (1.0 - reached) * self.bud.length
         elif reached < self.table.shed_short - 1e-9:
             rows.cut(first)
-            self.splits.clear()
+            self.forks.clear()
             return []
         if space is not None:
             for row in range(first, len(rows)):
@@ -63,7 +74,7 @@ class Shoot:
         return nodes
 
     def _trace(self) -> list[Node]:
-        table, bud, rows, site = self.table, self.bud, self.site.rows, self.site
+        table, bud, rows = self.table, self.bud, self.site.rows
         at, heading, row, gone, due = rows.tip[bud.row], bud.heading, bud.row, 0.0, 0.0
         ahead = bud.length * (1 - bud.place)
         steps = max(1, round(ahead / table.segment))
@@ -138,7 +149,7 @@ class Shoot:
     def _split(self, row: int, heading: Vector, share: float, count: int) -> Vector:
         """Notes a fork; the heading of the limb's own branch."""
         start = self.draws.between(0, 2 * pi)
-        self.splits.append((row, heading, share, count, start))
+        self.forks.append(Fork(row, heading, share, count, start))
         return lateral(heading, radians(self.table.fork_angle / 2), start)
 
     def _left(self) -> float:

@@ -112,7 +112,9 @@ def test_the_envelope_may_lie_downwind(minimal):
 
 
 def dense(minimal):
-    return trunk(minimal, whorl=9).replace("spacing = 1.0", "spacing = 0.5").replace("segment = 0.4", "segment = 0.1").replace("bend = 0.0\n\n[habit]", "bend = 9.0\n\n[habit]")
+    """Many crooked arms."""
+    text = trunk(minimal, whorl=9).replace("spacing = 1.0", "spacing = 0.5").replace("segment = 0.4", "segment = 0.1")
+    return text.replace("bend = 0.0\n\n[habit]", "bend = 9.0\n\n[habit]")
 
 
 def test_a_limb_keeps_clear_of_wood_that_stands_already(minimal):
@@ -137,7 +139,8 @@ def test_crowded_limbs_are_shed_whole(minimal):
     tree = grown(arms(dense(minimal), clearance=0.2, shed_short=0.9))
     lengths = [tree.length[rows].sum() for rows in limb_chains(tree.parent, tree.limb)[1:]]
     assert min(lengths) >= 0.9 * 1.2 - 1e-9
-    assert len(lengths) < len(limb_chains(*(lambda t: (t.parent, t.limb))(grown(arms(dense(minimal), clearance=0.2)))))
+    kept = grown(arms(dense(minimal), clearance=0.2))
+    assert len(lengths) < len(limb_chains(kept.parent, kept.limb)) - 1
     assert sorted(set(tree.limb)) == list(range(max(tree.limb) + 1)), "limbs are counted without gaps"
 
 
@@ -148,6 +151,28 @@ def test_space_names_the_nearest_wood_of_others():
     assert space.nearest((0.1, 1.0, -0.2), 0.5, but=()) == (0.0, 1.0, -0.2)
     assert space.nearest((0.1, 1.0, -0.2), 0.5, but=(1,)) == (0.3, 1.0, -0.2)
     assert space.nearest((0.1, 1.0, -0.2), 0.15, but=(1,)) is None
+
+
+def test_forks_grow_before_laterals_that_would_take_their_room(minimal):
+    tree = grown(trunk(minimal, forks="[[0.4, 2]]", fork_angle=30.0, clearance=0.3).replace("spacing = 1.0", "spacing = 0.5"))
+    tops = [rows for rows in limb_chains(tree.parent, tree.limb) if tree.tip[rows[-1], 1] > 3.0 and len(rows) > 3]
+    assert len(tops) == 2
+
+
+def test_nodes_keep_their_spacing_on_average(minimal):
+    text = minimal.replace("segment = 0.5", "segment = 0.2").replace("bare = 0.25", "bare = 0.0").replace("spacing = 1.0", "spacing = 0.5")
+    tree = grown(text)
+    at = np.sort(tree.tip[[tree.parent[rows[0]] for rows in limb_chains(tree.parent, tree.limb)[1:]]][:, 1])
+    assert np.diff(at).mean() == pytest.approx(0.5, rel=0.05)
+
+
+def test_a_limb_that_starts_outside_the_crown_does_not_leave_it_farther(minimal):
+    text = crown(minimal).replace("envelope = 9.0", "envelope = [[0.0, 0.3], [0.5, 0.3], [1.0, 0.3]]\noutline_sd = 0.0")
+    text = text.replace("segment = 0.4", "segment = 0.1").replace("ratio = 1.0", "ratio = 1.3").replace("bare = 0.25", "bare = 0.25\nclip = false")
+    tree = grown(text)
+    born_outside = tree.tip[tree.parent[[rows[0] for rows in limb_chains(tree.parent, tree.limb)[1:]]]][:, 1] > 4.0
+    assert born_outside.any()
+    assert (tree.length[(tree.order == 1) & (tree.tip[:, 1] > 4.2)].sum()) <= 0.1 * born_outside.sum() + 1e-9
 
 
 def test_an_option_of_one_level_leaves_the_random_numbers_of_others_alone(minimal):
