@@ -154,8 +154,11 @@ def test_space_names_the_nearest_wood_of_others():
 
 
 def test_forks_grow_before_laterals_that_would_take_their_room(minimal):
-    tree = grown(trunk(minimal, forks="[[0.4, 2]]", fork_angle=30.0, clearance=0.3).replace("spacing = 1.0", "spacing = 0.5"))
-    tops = [rows for rows in limb_chains(tree.parent, tree.limb) if tree.tip[rows[-1], 1] > 3.0 and len(rows) > 3]
+    text = trunk(minimal, forks="[[0.4, 2]]", fork_angle=30.0, clearance=0.25, whorl=8).replace("spacing = 1.0", "spacing = 0.2")
+    text = text.replace("segment = 0.5", "segment = 0.2").replace("segment = 0.4", "segment = 0.1")
+    tree = grown(text)
+    assert (tree.tip[is_tip(tree.parent), 1] > 3.7).sum() >= 2
+    tops = [rows for rows in limb_chains(tree.parent, tree.limb) if tree.tip[rows[-1], 1] > 3.7 and tree.length[rows].sum() > 2.0]
     assert len(tops) == 2
 
 
