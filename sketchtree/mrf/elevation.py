@@ -37,7 +37,6 @@ from sketchtree.mrf.solver import AbstractSolver
 LARGE = ((4096, 2), (16384, 4))  # above so many rows only every second, every fourth block is run
 LEADING = 4  # one in so many of the cooled chains, the likeliest, proposes its signs
 THIN = 10  # chain steps between kept samples
-COLD = 0.1  # temperature below which the chain that is loyal to a `start` climbs
 BROKEN = 2.0  # nats that typical steepness may cost in the user's own factors before the tree itself is shown
 ALIKE = 0.005  # share of the depth of all limbs: two trees that are about as loyal to a `start`
 LOYAL = 8.0  # nats that another tree must be likelier before the signs of a `start` are given up
@@ -85,9 +84,9 @@ class Elevation(AbstractSolver):
     locked: Mapping[int, float] = eqx.field(default_factory=dict)  # row → z of its tip, sketch units
     typical: bool = True  # show `answer.typical`; False: the best tree itself
     chain_count: int = 24  # fewer on drawings above 256 rows
-    burn: tuple[float, ...] = (3.0, 1.7, 1.0)  # temperature of each block
-    keep: int = 5  # blocks at temperature 1 whose states are samples
-    cool: tuple[float, ...] = (0.4, 0.1, 0.02, 1e-4)
+    burn: tuple[float, ...] = (1.7, 1.0, 1.0, 1.0)  # temperature of each block
+    keep: int = 7  # blocks at temperature 1 whose states are samples
+    cool: tuple[float, ...] = (0.3, 0.05, 1e-4)
     polish: Any = None  # an `optimistix.AbstractMinimiser` to run after cooling; costs a second program
 
     @property
@@ -108,7 +107,7 @@ class Elevation(AbstractSolver):
         """What the blocks do; drawings of thousands of segments have fewer, and so has a run from a `start`."""
         every = max([1, *(thin for rows, thin in LARGE if len(graph) > rows)])
         hot = self.burn if self.start is None else self.burn[-1:]
-        burn, cool = ([Block(t, False) for t in heat[every - 1 :: every]] for heat in (hot, self.cool))
+        burn, cool = ([Block(t, False) for t in heat[::-1][::every][::-1]] for heat in (hot, self.cool))
         return [*burn, *[Block(1.0, True)] * -(-self.keep // every), *cool]
 
     def compile(self, graph: FactorGraph, prior: Prior) -> None:
@@ -156,15 +155,15 @@ class Elevation(AbstractSolver):
     def taken(self, graph: FactorGraph, state: State, block: Block, after: Chains, path, values) -> tuple[State, Info]:
         """The state after a block that led to `after`."""
         after = after if block.kept else _revived(after)
-        leader = int(np.argmax(after.value))
         samples, kept_values = state.samples, state.values
         if block.kept:
             first = self._resting
             samples = (*samples, path[THIN - 1 :: THIN, first:, : len(graph)])
             kept_values = (*kept_values, values[THIN - 1 :: THIN, first:])
         best, best_value = state.best, state.best_value
-        if after.value[leader] >= best_value:
-            best, best_value = self._kept(state, after.elevation[leader, : len(graph)]), float(after.value[leader])
+        at = np.unravel_index(np.argmax(values), values.shape)  # climbs may pass a peak
+        if values[at] >= best_value:
+            best, best_value = self._kept(state, path[*at, : len(graph)]), float(values[at])
         moved = float(np.abs(after.elevation - state.chains.elevation).sum(axis=1).mean())
         state = state._replace(chains=after, samples=samples, values=kept_values, block=state.block + 1, best=best, best_value=best_value)
         if state.block == len(self.schedule(graph)) and self.polish is not None:
@@ -269,7 +268,7 @@ def _with_loyal_chain(block: BlockOfSteps, *, first: bool) -> BlockOfSteps:
     """The first chain keeps the signs of the start: it rests there while the others are hot, then climbs, and never mirrors or
     exchanges a limb. Without it no chain may end on the start's side, and there would be nothing to be loyal to."""
     draws = Draws(*(np.array(x) for x in block.draws))
-    climbs = (block.kind == chains.LANGEVIN) & (block.temperature <= COLD)
+    climbs = (block.kind == chains.LANGEVIN) & (block.temperature < chains.COLD)
     draws.accept[~climbs, 0] = 2.0  # never taken
     if first:  # a shift by nothing: the start is evaluated
         draws.kind[0, 0], draws.shift[0, 0], draws.accept[0, 0] = 1.0, 0.0, 0.0

@@ -18,7 +18,7 @@ from sketchtree.mrf.sampling.proposals import Draws, Moves, draw
 
 BLOCK = 40  # chain steps a block
 TEAMS = 2  # the chains run in so many threads
-KINDS = (chains.EXCHANGE, chains.LANGEVIN, chains.EXCHANGE, chains.LANGEVIN, chains.MIRROR, chains.LANGEVIN)  # over and over
+KINDS = (chains.EXCHANGE, chains.LANGEVIN, chains.EXCHANGE, chains.LANGEVIN, chains.MIRROR, chains.LANGEVIN)  # over and over; cold chains only climb
 
 
 class BlockOfSteps(NamedTuple):
@@ -33,7 +33,7 @@ def block_of(key: Key[Array, ""], state: Chains, rows: int, temperature: float, 
     """The random numbers and temperatures of one block for a drawing of `rows` rows."""
     chain_count, segments = state.elevation.shape
     hot = np.full(BLOCK, temperature, np.float32)
-    kinds = np.resize(np.array(KINDS, np.int32), BLOCK)
+    kinds = np.resize(np.array(KINDS if temperature >= chains.COLD else (chains.LANGEVIN,), np.int32), BLOCK)
     return BlockOfSteps(draw(key, BLOCK, chain_count, rows, segments, teams), hot, kinds)
 
 
