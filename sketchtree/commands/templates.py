@@ -1,6 +1,7 @@
 """`sketchtree templates`: make, list, show and try the exemplars a sketch is matched with."""
 
 import json
+import os
 from pathlib import Path
 
 import click
@@ -27,12 +28,14 @@ def list_command(as_json: bool, db: Path | None, report: Path | None, **_) -> No
     from sketchtree.templates.database import Database
 
     database = Database.open(db)
-    rows = [{"name": name, "title": title} for name, title in zip(database.names, database.titles, strict=True)]
+    columns = (database.names, database.titles, database.species, database.growth_habits)
+    rows = [dict(zip(("name", "title", "species", "growth_habit"), row, strict=True)) for row in zip(*columns, strict=True)]
     if as_json:
         click.echo(json.dumps(rows, ensure_ascii=False, indent=2))
     else:
         for row in rows:
-            click.echo(f"{row['name']:<20} {row['title']}")
+            title = row["title"].removesuffix(f" ({row['species']})")
+            click.echo(f"{row['name']:<22} {row['growth_habit'] or '-':<11} {row['species'] or '-':<30} {title}".rstrip())
     _write_report(report, {"exemplars": rows})
 
 
@@ -103,18 +106,21 @@ def match_command(sketch: Path, as_json: bool, score: str, db: Path | None, repo
 @click.option("--recipes", type=click.Path(path_type=Path), help="Folder of recipes (default: template_db of the checkout).")
 @click.option("--only", multiple=True, metavar="SPECIES", help="Only this recipe; may be repeated.")
 @click.option("--count", type=click.IntRange(1, 100_000), help="So many exemplars: recipes in turn, each round from new seeds.")
-@click.option("--jobs", type=click.IntRange(1, 256), default=1, show_default=True, help="Processes; the result is the same.")
-@click.option("--scheduler", metavar="ADDRESS", help="A cluster (a later version).")
+@click.option("--jobs", type=click.IntRange(1, 256), help="Processes (default: all cores); the result is the same.")
+@click.option("--scheduler", metavar="ADDRESS", help="Let the workers of a Dask scheduler do it, such as tcp://10.0.0.1:8786.")
 @common
 def build_command(
-    out: Path | None, recipes: Path | None, only: tuple[str, ...], count: int | None, jobs: int, scheduler: str | None,
+    out: Path | None, recipes: Path | None, only: tuple[str, ...], count: int | None, jobs: int | None, scheduler: str | None,
     seed: int, quiet: bool, json_log: bool, db: Path | None, report: Path | None,
 ) -> None:  # fmt: skip
-    """Make the database from its recipes. `--seed` is added to every recipe's own."""
-    if scheduler is not None:
-        raise not_yet("templates build --scheduler", _SECTION, "Use --jobs for the processors of this machine.")
+    """Make the database from its recipes. `--seed` is added to every recipe's own.
+
+    A build that was stopped goes on where it was when the same command is run again.
+    """
     from sketchtree.templates.regenerate import orders, recipe_folder, regenerate
 
+    if scheduler is not None and jobs is not None:
+        raise OptionError("`--jobs` and `--scheduler` exclude each other.", remedy="Leave one out.")
     folder = recipes or recipe_folder()
     wanted = orders(folder, only=only, count=count, seed=seed)
     target = out or db or folder / "exemplars.h5"
@@ -123,11 +129,35 @@ def build_command(
             f"`--only` and `--count` would replace the whole database {target} by other exemplars.",
             remedy="Name the file to write with --out.",
         )
-    progress = Progress(tuple(order.name for order in wanted), quiet=quiet, json_log=json_log)
+    progress = Exemplars(tuple(order.name for order in wanted), quiet=quiet, json_log=json_log)
     with progress.running():
-        database = regenerate(target, wanted, jobs=jobs, progress=progress)
+        database = regenerate(target, wanted, jobs=jobs or cores(), scheduler=scheduler, progress=progress, say=progress.say)
         progress.say(f"wrote {target}: {len(database)} exemplars, {target.stat().st_size / 1e6:.2f} MB", event="written")
     _write_report(report, {"exemplars": list(database.names), "out": str(target)})
+
+
+class Exemplars(Progress):
+    """Tells how many exemplars are done: each by name, or of very many every tenth."""
+
+    NAMED = 200  # exemplars, above which they are counted only
+
+    def __init__(self, names: tuple[str, ...], **how):
+        self._many, self._done = len(names) if len(names) > self.NAMED else 0, 0
+        super().__init__((f"{len(names)} exemplars",) if self._many else names, **how)
+        if self._many:
+            super().__call__(f"{len(names)} exemplars")
+
+    def __call__(self, name: str) -> None:
+        self._done += 1
+        if self._many:
+            self.part(self._done / self._many)
+        else:
+            super().__call__(name)
+
+
+def cores() -> int:
+    """How many processors this process may use."""
+    return len(os.sched_getaffinity(0)) if hasattr(os, "sched_getaffinity") else os.cpu_count() or 1
 
 
 @templates.command("import", context_settings={"allow_extra_args": True, "ignore_unknown_options": True}, add_help_option=False)

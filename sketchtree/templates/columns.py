@@ -2,11 +2,12 @@
 
 One dataset a column, all exemplars after one another; ragged columns (skeletons) are cut by
 `skeleton/start`. `COLUMNS` is the whole schema: name, stored type, unit, meaning; `template_db/README.md` shows it.
+Schema 2 added `exemplar/species` and `exemplar/growth_habit`.
 """
 
 import dataclasses
 import json
-from collections.abc import Sequence
+from collections.abc import Iterator, Sequence
 
 import numpy as np
 
@@ -15,7 +16,7 @@ from sketchtree.skeleton import TreeSkeleton
 from sketchtree.templates.exemplar import Exemplar, Views
 from sketchtree.templates.footprint import view_azimuths
 
-SCHEMA = 1
+SCHEMA = 2
 
 THETA = tuple(f.name for f in dataclasses.fields(TreeParameters))
 LIMBS = {
@@ -26,11 +27,13 @@ LIMBS = {
 COLUMNS: dict[str, tuple[str, str, str]] = {
     "exemplar/name": ("S", "", "name, unique"),
     "exemplar/title": ("S", "", "name for people, UTF-8"),
-    "exemplar/recipe": ("S", "", "text of the recipe, UTF-8"),
-    "exemplar/source": ("S", "", "where the recipe's figures come from"),
+    "exemplar/species": ("S", "", "botanical name, UTF-8; empty: not said"),
+    "exemplar/growth_habit": ("S", "", "one of recipe.GROWTH_HABITS; empty: not said"),
+    "exemplar/recipe": ("S", "", "text of the recipe, UTF-8; empty: a digitised tree"),
+    "exemplar/source": ("S", "", "where the recipe's figures come from, or the tree itself"),
     "exemplar/habit": ("S", "", "parameters.Habit as JSON; angles in degrees, lengths in metres"),
-    "exemplar/version": ("S", "", "version of the program that grew it"),
-    "exemplar/seed": ("i8", "1", "seed it was grown with"),
+    "exemplar/version": ("S", "", "version of the program that grew or imported it"),
+    "exemplar/seed": ("i8", "1", "seed it was grown with; 0: a digitised tree"),
     "exemplar/thumbnail": ("u1", "1", "grey picture, 255 paper, 0 wood: (exemplar, row, column)"),
     "theta/tree": ("f8", "rad", "Θ in the order of TreeParameters' fields, scale without unit: (exemplar, 8)"),
     "theta/order": ("f8", "rad", "the same of pairs whose parent has order 0, 1, 2+: (exemplar, 3, 8)"),
@@ -49,17 +52,24 @@ COLUMNS: dict[str, tuple[str, str, str]] = {
     "views/posture": ("f4", "1", "features of templates.posture: (exemplar, view, feature)"),
 }
 
+TEXTS = tuple(name for name, (dtype, _, _) in COLUMNS.items() if dtype == "S")
+START = "skeleton/start"
+ROWS = tuple(name for name in COLUMNS if name.startswith("skeleton/") and name != START)
+ONCE = ("views/azimuth",)  # the same for every exemplar
+
+
+def texts(*, name, title, species, growth_habit, recipe, source, habit: Habit, version) -> dict[str, bytes]:
+    """The text columns of one exemplar."""
+    values = (name, title, species, growth_habit, recipe, source, json.dumps(dataclasses.asdict(habit), sort_keys=True), version)
+    return {column: text.encode("utf-8") for column, text in zip(TEXTS, values, strict=True)}
+
 
 def to_columns(exemplars: Sequence[Exemplar], views: Sequence[Views]) -> dict[str, np.ndarray]:
     """All columns of a database of these exemplars."""
     trees = [e.skeleton for e in exemplars]
+    words = [texts(**{k.partition("/")[2]: getattr(e, k.partition("/")[2]) for k in TEXTS}) for e in exemplars]
     raw = {
-        "exemplar/name": [e.name for e in exemplars],
-        "exemplar/title": [e.title for e in exemplars],
-        "exemplar/recipe": [e.recipe for e in exemplars],
-        "exemplar/source": [e.source for e in exemplars],
-        "exemplar/habit": [json.dumps(dataclasses.asdict(e.habit), sort_keys=True) for e in exemplars],
-        "exemplar/version": [e.version for e in exemplars],
+        **{column: [row[column] for row in words] for column in TEXTS},
         "exemplar/seed": [e.seed for e in exemplars],
         "exemplar/thumbnail": np.stack([e.thumbnail for e in exemplars]),
         "theta/tree": [dataclasses.astuple(e.theta) for e in exemplars],
@@ -79,12 +89,27 @@ def to_columns(exemplars: Sequence[Exemplar], views: Sequence[Views]) -> dict[st
 
 def _stored(values, dtype: str) -> np.ndarray:
     if dtype == "S":
-        return np.array([text.encode("utf-8") for text in values])
+        return np.array(values)
     return np.ascontiguousarray(np.asarray(values), dtype=np.dtype("<" + dtype))
 
 
+def split(columns: dict[str, np.ndarray]) -> Iterator[dict[str, np.ndarray]]:
+    """The columns of one exemplar after another."""
+    for i in range(len(columns["exemplar/name"])):
+        yield block_at(lambda name, first, last: columns[name][first:last], i)
+
+
+def block_at(column, index: int) -> dict[str, np.ndarray]:
+    """The columns of exemplar `index` alone; `column(name, first, last)` gives a part of a column."""
+    start = column(START, index, index + 2)
+    block = {name: column(name, index, index + 1) for name in COLUMNS if name not in (START, *ROWS, *ONCE)}
+    block |= {name: column(name, int(start[0]), int(start[1])) for name in ROWS}
+    block |= {name: column(name, 0, None) for name in ONCE}
+    return block | {START: start - start[0]}
+
+
 def exemplar_at(column, index: int) -> Exemplar:
-    """Exemplar `index`; `column(name)` gives a column, `column(name, first, last)` a part of it."""
+    """Exemplar `index`; `column(name, first, last)` gives a part of a column."""
 
     def one(name):
         return column(name, index, index + 1)[0]
@@ -97,6 +122,8 @@ def exemplar_at(column, index: int) -> Exemplar:
     return Exemplar(
         name=text("exemplar/name"),
         title=text("exemplar/title"),
+        species=text("exemplar/species"),
+        growth_habit=text("exemplar/growth_habit"),
         theta=TreeParameters(*one("theta/tree").tolist()),
         theta_order=tuple(TreeParameters(*row) for row in one("theta/order").tolist()),
         limbs=LimbStatistics(**{k: one(f"limbs/{k}") for k in LIMBS}),

@@ -1,16 +1,16 @@
 """Where are the exemplars kept? One HDF5 file of columns.
 
-The file is written in one go (a temporary file beside it, flushed to disk, then renamed), holds no date, host
+The file (`writer` writes it, whole or not at all) holds no date, host
 or path, and is the same byte for byte whenever the columns are. Every dataset carries a Fletcher-32
 checksum a chunk, which HDF5 checks whenever it reads, and a SHA-256 of all its values; the root carries
 a SHA-256 over those. A file that is damaged, cut off, foreign or of a newer schema is refused with a `TemplateError`
-and left as it is. Columns are read when they are asked for.
+and left as it is; one of an older schema is read (`migrate`). Columns are read when they are asked for. Any number of readers may
+have the file open while another program replaces it: each sees the old file or the new one, and one that saw the old is told so.
 """
 
 import difflib
-import hashlib
 import os
-import tempfile
+from collections.abc import Iterator
 from functools import cached_property
 from pathlib import Path
 
@@ -19,11 +19,14 @@ import numpy as np
 
 from sketchtree.errors import TemplateError
 from sketchtree.templates.branching import Branching
-from sketchtree.templates.columns import COLUMNS, SCHEMA, exemplar_at
+from sketchtree.templates.columns import COLUMNS, SCHEMA, block_at, exemplar_at
+from sketchtree.templates.digest import digest_of, root_digest
 from sketchtree.templates.exemplar import Exemplar, Views
+from sketchtree.templates.migrate import SOURCE, filled, stored
+from sketchtree.templates.writer import FORMAT
 
-FORMAT = "SketchTree exemplars"
 ENVIRONMENT = "SKETCHTREE_DB"
+SLAB = 2**24  # bytes read at a time while a checksum is compared
 _REBUILD = "Rebuild it with `sketchtree templates build`, or name another file with --db."
 
 
@@ -32,8 +35,8 @@ class Database:
 
     def __init__(self, path: Path | str):
         self.path = Path(path)
-        self._digest = {}
-        with self._file() as file:
+        self._digest, self._root, self.schema = {}, None, 0
+        with _Guarded(self.path) as file:
             self._check_head(file)
             self.names = tuple(name.decode("utf-8") for name in self._whole(file, "exemplar/name"))
 
@@ -61,6 +64,19 @@ class Database:
         with self._file() as file:
             return exemplar_at(lambda column, first, last: self._part(file, column, first, last), index)
 
+    def blocks(self) -> Iterator[dict[str, np.ndarray]]:
+        """The columns of one exemplar after another, for writing them again."""
+        with self._file() as file:
+            for index in range(len(self)):
+                yield block_at(lambda column, first, last: self._part(file, column, first, last), index)
+
+    def width(self, name: str) -> int:
+        """How many bytes the longest text of a column has, at most."""
+        if name not in self._digest:
+            return max(1, self.column(name).dtype.itemsize)
+        with self._file() as file:
+            return file[name].dtype.itemsize
+
     def column(self, name: str) -> np.ndarray:
         """One whole column, its checksum compared."""
         with self._file() as file:
@@ -69,7 +85,17 @@ class Database:
     @cached_property
     def titles(self) -> tuple[str, ...]:
         """Names for people, in the order of `names`."""
-        return tuple(title.decode("utf-8") for title in self.column("exemplar/title"))
+        return self._texts("exemplar/title")
+
+    @cached_property
+    def species(self) -> tuple[str, ...]:
+        """Botanical names, in the order of `names`; "" where unknown."""
+        return self._texts("exemplar/species")
+
+    @cached_property
+    def growth_habits(self) -> tuple[str, ...]:
+        """Growth habits, in the order of `names`; "" where unknown."""
+        return self._texts("exemplar/growth_habit")
 
     @cached_property
     def azimuths(self) -> np.ndarray:
@@ -79,39 +105,56 @@ class Database:
     @cached_property
     def views(self) -> Views:
         """What matching compares: arrays over exemplar and view."""
-        part = {k: self.column(f"views/{k}").astype(float) for k in _VIEWS}
+        part = {k: self.column(f"views/{k}") for k in _VIEWS}
         moments = Branching(part["branching_mean"], part["branching_sd"], part["branching_count"])
         return Views(part["footprint"], moments, part["posture"])
 
     def verify(self) -> None:
-        """Reads every column and compares every checksum."""
-        for name in COLUMNS:
-            self.column(name)
+        """Compares every checksum, a slab at a time."""
+        with self._file() as file:
+            for name in self._digest:
+                self._check(name, file[name], _slabs(file[name]))
+
+    def _texts(self, name: str) -> tuple[str, ...]:
+        return tuple(text.decode("utf-8") for text in self.column(name))
 
     def _file(self):
-        return _Guarded(self.path)
+        return _Guarded(self.path, self._root)
 
     def _check_head(self, file) -> None:
         if file.attrs.get("format") != FORMAT:
             raise TemplateError(f"{self.path}: it is an HDF5 file, but no SketchTree database.", remedy=_REBUILD)
-        schema = int(file.attrs["schema"])
-        if schema > SCHEMA:
+        self.schema = int(file.attrs["schema"])
+        if self.schema > SCHEMA:
             raise TemplateError(
-                f"{self.path}: it has schema {schema}, and this version of SketchTree reads up to {SCHEMA}.",
+                f"{self.path}: it has schema {self.schema}, and this version of SketchTree reads up to {SCHEMA}.",
                 remedy="Update SketchTree, or name another file with --db.",
             )
-        self._digest = {name: str(file[name].attrs["sha256"]) for name in COLUMNS}
-        if file.attrs["sha256"] != _root_digest(self._digest):
+        self._digest = {name: str(file[name].attrs["sha256"]) for name in stored(self.schema)}
+        self._root = str(file.attrs["sha256"])
+        if self._root != root_digest(self._digest):
             raise _damaged(self.path, "its checksums don't agree")
 
     def _whole(self, file, name: str) -> np.ndarray:
+        if name not in self._digest:
+            return filled(name, self._whole(file, SOURCE))
         values = file[name][()]
-        if _sha256(name, values) != self._digest[name]:
-            raise _damaged(self.path, f"the checksum of `{name}` is wrong")
+        self._check(name, file[name], (values,))
         return values
 
-    def _part(self, file, name: str, first: int, last: int) -> np.ndarray:
-        return file[name][first:last]
+    def _part(self, file, name: str, first: int, last: int | None) -> np.ndarray:
+        return filled(name, file[SOURCE][first:last]) if name not in self._digest else file[name][first:last]
+
+    def _check(self, name: str, dataset, pieces) -> None:
+        if digest_of(name, pieces, dataset.dtype, dataset.shape, schema=self.schema) != self._digest[name]:
+            raise _damaged(self.path, f"the checksum of `{name}` is wrong")
+
+
+def _slabs(dataset):
+    """A column, whole chunks at a time."""
+    row = max(1, dataset.dtype.itemsize * int(np.prod(dataset.shape[1:])))
+    step = max(1, SLAB // row)
+    return (dataset[first : first + step] for first in range(0, len(dataset), step))
 
 
 _VIEWS = ("footprint", "branching_mean", "branching_sd", "branching_count", "posture")
@@ -126,61 +169,6 @@ def default_path() -> Path:
     return packaged if packaged.exists() else here.parents[2] / "template_db" / "exemplars.h5"
 
 
-def write_database(path: Path | str, columns: dict[str, np.ndarray]) -> None:
-    """Writes the file in one go; whatever stood at `path` is replaced only when all is on disk."""
-    path = Path(path)
-    temporary = None
-    try:
-        handle, temporary = tempfile.mkstemp(dir=path.parent, prefix=f".{path.name}.", suffix=".part")
-        os.close(handle)
-        _write(temporary, columns)
-        with open(temporary, "rb+") as file:
-            os.fsync(file.fileno())
-        os.chmod(temporary, 0o644)
-        os.replace(temporary, path)
-    except BaseException as error:
-        if temporary is not None:
-            Path(temporary).unlink(missing_ok=True)
-        if isinstance(error, OSError):
-            raise TemplateError(
-                f"{path}: it can't be written ({error.strerror or error}).",
-                remedy="Choose a folder that exists, is writable and has room.",
-            ) from error
-        raise
-
-
-def _write(path: str, columns: dict[str, np.ndarray]) -> None:
-    digest = {name: _sha256(name, columns[name]) for name in COLUMNS}
-    with h5py.File(path, "w", libver=("v110", "v110")) as file:
-        file.attrs["format"] = FORMAT
-        file.attrs["schema"] = SCHEMA
-        file.attrs["sha256"] = _root_digest(digest)
-        for name, (_, unit, meaning) in COLUMNS.items():
-            column = columns[name]
-            dataset = file.create_dataset(
-                name, data=column, chunks=_chunks(column), compression="gzip", compression_opts=6,
-                shuffle=column.dtype.kind != "S", fletcher32=True, track_times=False,
-            )  # fmt: skip
-            dataset.attrs["unit"] = unit
-            dataset.attrs["meaning"] = meaning
-            dataset.attrs["sha256"] = digest[name]
-
-
-def _chunks(column: np.ndarray) -> tuple[int, ...]:
-    """Whole rows, at most about 256 kB a chunk, so that one exemplar is read without the rest."""
-    row = max(1, column[:1].nbytes)
-    return (int(np.clip(2**18 // row, 1, max(1, len(column)))), *column.shape[1:])
-
-
-def _sha256(name: str, values: np.ndarray) -> str:
-    head = f"{name} {values.dtype.str} {values.shape}".encode()
-    return hashlib.sha256(head + np.ascontiguousarray(values).tobytes()).hexdigest()
-
-
-def _root_digest(digest: dict[str, str]) -> str:
-    return hashlib.sha256("\n".join(f"{name} {digest[name]}" for name in sorted(digest)).encode()).hexdigest()
-
-
 def _damaged(path: Path, how: str) -> TemplateError:
     return TemplateError(f"{path}: the database is damaged ({how}).", remedy=_REBUILD)
 
@@ -188,8 +176,8 @@ def _damaged(path: Path, how: str) -> TemplateError:
 class _Guarded:
     """An HDF5 file open for reading, whose own errors come out as `TemplateError`."""
 
-    def __init__(self, path: Path):
-        self.path = path
+    def __init__(self, path: Path, root: str | None = None):
+        self.path, self._root = path, root
 
     def __enter__(self):
         if not self.path.is_file():
@@ -200,7 +188,16 @@ class _Guarded:
             self._file = h5py.File(self.path, "r")
         except OSError as error:
             raise self._unreadable() from error
+        if self._root is not None and self._seal() != self._root:
+            self._file.close()
+            raise TemplateError(f"{self.path}: it has been replaced since it was opened.", remedy="Open it again.")
         return self._file
+
+    def _seal(self) -> str | None:
+        try:
+            return self._file.attrs.get("sha256")
+        except (OSError, RuntimeError):
+            return None
 
     def __exit__(self, kind, error, trace):
         self._file.close()

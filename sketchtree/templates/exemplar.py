@@ -42,10 +42,12 @@ class Exemplar:
     habit: Habit
     skeleton: TreeSkeleton  # world metres, root at the origin
     thumbnail: UInt8[np.ndarray, "row column"]  # 255 paper, 0 wood
-    recipe: str  # text of its recipe
-    source: str  # where the recipe's figures come from
+    recipe: str  # text of its recipe; "" a digitised tree
+    source: str  # where the recipe's figures come from, or the tree itself
     seed: int
-    version: str  # of the program that grew it
+    version: str  # of the program that grew or imported it
+    species: str = ""  # botanical name; "" not said
+    growth_habit: str = ""  # one of recipe.GROWTH_HABITS; "" not said
 
 
 def views_of(tree: TreeSkeleton) -> Views:
@@ -58,11 +60,15 @@ def views_of(tree: TreeSkeleton) -> Views:
     )
 
 
-def measure(tree: TreeSkeleton, *, name: str, title: str, habit: Habit, recipe: str, source: str, seed: int, version: str):
+def measure(
+    tree: TreeSkeleton, *, name: str, title: str, habit: Habit, recipe: str, source: str, seed: int, version: str,
+    species: str = "", growth_habit: str = "",
+) -> tuple[Exemplar, Views]:  # fmt: skip
     """The exemplar of a skeleton. Positions and radii are first rounded to what the database stores."""
     tree = tree.replace(tip=tree.tip.astype(np.float32), radius=tree.radius.astype(np.float32))
     exemplar = Exemplar(
         name=name, title=title, theta=estimate(tree), theta_order=estimate_by_order(tree), limbs=limb_statistics(tree),
         habit=habit, skeleton=tree, thumbnail=thumbnail(tree), recipe=recipe, source=source, seed=seed, version=version,
+        species=species, growth_habit=growth_habit,
     )  # fmt: skip
     return exemplar, views_of(tree)

@@ -1,36 +1,29 @@
 """How is the database made from its recipes? Grow, measure, write.
 
 Every exemplar depends on its recipe's text and its seed alone, so the result does not depend on how many
-processes share the work. With `count`, recipes are used in turn; each further round grows a variant
-(`name_2`, `name_3`, …) from a seed of its own.
+processes or machines share the work. With `count`, recipes are used in turn; each further round grows a variant
+(`name_2`, `name_3`, …) from a seed of its own. Exemplars are written as they come, in order (`writer`), and kept beside
+the target until all are there (`journal`): memory doesn't grow with their number, and a build that was stopped goes on.
 """
 
-import signal
-from collections.abc import Callable, Iterator
-from concurrent.futures import ProcessPoolExecutor
-from dataclasses import dataclass
-from multiprocessing import get_context
+from collections.abc import Callable
+from contextlib import closing
 from pathlib import Path
 
 from sketchtree.errors import TemplateError
-from sketchtree.templates.columns import to_columns
-from sketchtree.templates.database import Database, write_database
-from sketchtree.templates.exemplar import Exemplar, Views, measure
-from sketchtree.templates.procedural import grow
+from sketchtree.templates.cluster import cluster
+from sketchtree.templates.columns import TEXTS, texts
+from sketchtree.templates.crew import in_turn, processes
+from sketchtree.templates.database import Database
+from sketchtree.templates.journal import Journal
+from sketchtree.templates.order import Order, make
 from sketchtree.templates.recipe import Recipe, parse_recipe, read_recipe
+from sketchtree.templates.writer import Writer
 from sketchtree.version import __version__
 
+__all__ = ["Order", "make", "orders", "recipe_folder", "regenerate"]
+
 ROUND = 7919  # between the seeds of two rounds of variants
-
-
-@dataclass(frozen=True)
-class Order:
-    """One exemplar to be made."""
-
-    text: str  # of the recipe
-    file: str  # its name, for errors
-    name: str  # of the exemplar
-    seed: int
 
 
 def recipe_folder() -> Path:
@@ -62,32 +55,44 @@ def _order(recipe: Recipe, file: str, turn: int, seed: int) -> Order:
     return Order(recipe.text, file, name, (recipe.seed + seed + ROUND * turn) % 2**32)
 
 
-def make(order: Order) -> tuple[Exemplar, Views]:
-    """One exemplar, grown and measured."""
-    recipe = parse_recipe(order.text, file=order.file)
-    return measure(
-        grow(recipe, order.seed), name=order.name, title=recipe.title, habit=recipe.habit,
-        recipe=recipe.text, source=recipe.source, seed=order.seed, version=__version__,
-    )  # fmt: skip
-
-
 def regenerate(
-    out: Path, wanted: list[Order], *, jobs: int = 1, progress: Callable[[str], None] = lambda name: None
+    out: Path,
+    wanted: list[Order],
+    *,
+    jobs: int = 1,
+    scheduler: str | None = None,
+    progress: Callable[[str], None] = lambda name: None,
+    say: Callable[[str], None] = lambda text: None,
 ) -> Database:
-    """Makes the exemplars and writes the file; `progress` hears each name when it is done."""
-    made = []
-    for exemplar, views in _in_turn(wanted, jobs):
-        made.append((exemplar, views))
-        progress(exemplar.name)
-    write_database(out, to_columns(*zip(*made, strict=True)))
+    """Makes the exemplars and writes the file, on `jobs` processes or on a Dask cluster; `progress` hears each name when it
+    is done, `say` what was found of an earlier run and what is kept of this one."""
+    out, journal = Path(out), Journal(out)
+    crew = cluster(scheduler) if scheduler is not None else processes(min(jobs, len(wanted)))
+    if journal.count():
+        say(f"taking up {sum(map(journal.has, wanted))} of {len(wanted)} exemplars from an earlier run ({journal.folder})")
+    try:
+        with Writer(out, len(wanted), _widths(wanted)) as writer, crew as makers, closing(in_turn(wanted, makers, journal)) as made:
+            for order, block in made:
+                writer.add(block)
+                progress(order.name)
+    except BaseException:
+        if journal.count():
+            say(f"{journal.count()} finished exemplars are kept in {journal.folder}; the same command goes on from there")
+        raise
+    journal.drop()
     return Database(out)
 
 
-def _in_turn(wanted: list[Order], jobs: int) -> Iterator[tuple[Exemplar, Views]]:
-    if jobs <= 1 or len(wanted) <= 1:
-        yield from map(make, wanted)
-        return
-    # Ctrl-C is the parent's to handle; a worker that heard it too would print a traceback.
-    quiet = {"initializer": signal.signal, "initargs": (signal.SIGINT, signal.SIG_IGN)}
-    with ProcessPoolExecutor(min(jobs, len(wanted)), mp_context=get_context("spawn"), **quiet) as pool:
-        yield from pool.map(make, wanted)
+def _widths(wanted: list[Order]) -> dict[str, int]:
+    """The longest text of every text column, bytes."""
+    heads, longest = {}, dict.fromkeys(TEXTS, 1)
+    for order in wanted:
+        if order.text not in heads:
+            recipe = parse_recipe(order.text, file=order.file)
+            heads[order.text] = texts(
+                name="", title=recipe.title, species=recipe.species, growth_habit=recipe.growth_habit, recipe=recipe.text,
+                source=recipe.source, habit=recipe.habit, version=__version__,
+            )  # fmt: skip
+        row = heads[order.text] | {"exemplar/name": order.name.encode()}
+        longest = {column: max(longest[column], len(row[column])) for column in TEXTS}
+    return longest

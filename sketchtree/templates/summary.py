@@ -9,6 +9,8 @@ def summary(exemplar: Exemplar) -> dict[str, str]:
     facts = {
         "name": exemplar.name,
         "title": exemplar.title,
+        "species": exemplar.species or "not said",
+        "growth habit": exemplar.growth_habit or "not said",
         "height": f"{tree.height:.1f} m",
         "stems": str(int(tree.is_base.sum())),
         "segments": f"{tree.segment_count} in {len(set(tree.limb.tolist()))} limbs, orders 0 to {int(tree.order.max())}",
@@ -26,7 +28,8 @@ def summary(exemplar: Exemplar) -> dict[str, str]:
     )
     facts["leaf"] = f"{habit.leaf}, {habit.leaf_arrangement}, {100 * habit.leaf_size:.1f} cm every {100 * habit.leaf_spacing:.1f} cm"
     facts["bark"] = habit.bark
-    facts["source"] = f"{exemplar.source}; seed {exemplar.seed}, grown by SketchTree {exemplar.version}"
+    made = f"seed {exemplar.seed}, grown" if exemplar.recipe else "imported"
+    facts["source"] = f"{exemplar.source}; {made} by SketchTree {exemplar.version}"
     return facts
 
 

@@ -4,6 +4,10 @@ import dataclasses
 import hashlib
 import os
 import shutil
+import subprocess
+import sys
+import threading
+from concurrent.futures import ThreadPoolExecutor
 from pathlib import Path
 
 import h5py
@@ -12,11 +16,12 @@ import pytest
 
 from sketchtree.errors import TemplateError
 from sketchtree.templates.columns import COLUMNS, SCHEMA, to_columns
-from sketchtree.templates.database import Database, default_path, write_database
+from sketchtree.templates.database import Database, default_path
 from sketchtree.templates.exemplar import measure
 from sketchtree.templates.procedural import grow
 from sketchtree.templates.recipe import parse_recipe
 from sketchtree.templates.regenerate import recipe_folder
+from sketchtree.templates.writer import Writer, write_database
 
 SHIPPED = recipe_folder() / "exemplars.h5"
 
@@ -66,7 +71,7 @@ def test_an_exemplar_comes_back_as_it_was(made, tmp_path):
 def test_every_column_has_its_unit_meaning_and_checksum_and_the_readme_lists_it():
     text = (recipe_folder() / "README.md").read_text(encoding="utf-8")
     with h5py.File(SHIPPED) as file:
-        assert file.attrs["schema"] == SCHEMA == 1
+        assert file.attrs["schema"] == SCHEMA == 2
         for name, (dtype, unit, meaning) in COLUMNS.items():
             assert file[name].attrs["unit"] == unit and file[name].attrs["meaning"] == meaning
             assert len(file[name].attrs["sha256"]) == 64 and file[name].fletcher32
@@ -121,7 +126,7 @@ def test_an_empty_or_foreign_file_is_refused(tmp_path):
 def test_a_newer_schema_is_refused(copy):
     with h5py.File(copy, "a") as file:
         file.attrs["schema"] = 7
-    assert "Update SketchTree" in refused(copy, r"it has schema 7, and this version of SketchTree reads up to 1")
+    assert "Update SketchTree" in refused(copy, r"it has schema 7, and this version of SketchTree reads up to 2")
 
 
 def test_a_file_that_is_cut_off_is_refused(copy):
@@ -167,9 +172,9 @@ def test_any_flipped_byte_is_harmless_or_refused(copy):
 
 
 def test_an_unknown_name_gets_a_suggestion(shipped):
-    with pytest.raises(TemplateError, match=r"There is no exemplar called 'oak' in exemplars\.h5\. Did you mean english_oak\?"):
+    with pytest.raises(TemplateError, match=r"There is no exemplar called 'oak' in exemplars\.h5\. Did you mean dead_oak or english_oak or cypress_oak\?"):
         shipped.exemplar("oak")
-    with pytest.raises(TemplateError, match=r"Use one of: apple, date_palm"):
+    with pytest.raises(TemplateError, match=r"Use one of: american_elm, apple"):
         shipped.exemplar("zzzzzz")
 
 
@@ -178,3 +183,83 @@ def test_the_environment_names_the_default(monkeypatch, copy):
     assert default_path().name == "exemplars.h5" and default_path().exists()
     monkeypatch.setenv("SKETCHTREE_DB", str(copy))
     assert Database.open().path == default_path() and str(default_path()) == str(copy)
+
+
+def test_blocks_one_by_one_give_the_bytes_of_the_whole(shipped, tmp_path):
+    widths = {name: shipped.width(name) for name, (dtype, _, _) in COLUMNS.items() if dtype == "S"}
+    with Writer(tmp_path / "again.h5", len(shipped), widths) as writer:
+        for block in shipped.blocks():
+            writer.add(block)
+    assert (tmp_path / "again.h5").read_bytes() == SHIPPED.read_bytes()
+
+
+def test_a_writer_that_fails_on_the_way_leaves_the_old_file(made, tmp_path):
+    path = tmp_path / "db.h5"
+    block = to_columns([made[0]], [made[1]])
+    write_database(path, block)
+    before = path.read_bytes()
+    widths = {name: 64_000 for name, (dtype, _, _) in COLUMNS.items() if dtype == "S"}
+    with pytest.raises(TemplateError, match=r"db\.h5: two exemplars are called 'stick'"), Writer(path, 2, widths) as writer:
+        writer.add(block)
+        writer.add(block)
+    with pytest.raises(ValueError, match="1 exemplars were added of 2"), Writer(path, 2, widths) as writer:
+        writer.add(block)
+    with pytest.raises(TemplateError, match=r"db\.h5: it can't be written \(No space left"), Writer(path, 1, widths) as writer:
+        raise OSError(28, "No space left on device")
+    with pytest.raises(ValueError, match="longer than was said"), Writer(path, 1, dict.fromkeys(widths, 1)) as writer:
+        writer.add(block)
+    assert path.read_bytes() == before and [p.name for p in tmp_path.iterdir()] == ["db.h5"]
+
+
+def test_readers_see_the_old_file_or_the_new_while_a_writer_replaces_it(made, tmp_path):
+    """Four threads read without a break while the file is replaced eight times; none ever sees a mixture."""
+    path = tmp_path / "db.h5"
+    versions = []
+    for seed in range(2):
+        exemplar = dataclasses.replace(made[0], seed=seed, title=f"version {seed}")
+        versions.append(to_columns([exemplar], [made[1]]))
+    write_database(path, versions[0])
+    seen, done = set(), threading.Event()
+
+    def read():
+        while not done.is_set():
+            try:
+                db = Database(path)
+                exemplar = db.exemplar("stick")
+                pair = (db.titles[0], exemplar.title, exemplar.seed)
+            except TemplateError as error:
+                assert "it has been replaced since it was opened. Open it again." in str(error)
+                continue
+            assert pair in {(f"version {k}", f"version {k}", k) for k in range(2)}
+            seen.add(pair[2])
+        return True
+
+    with ThreadPoolExecutor(4) as pool:
+        readers = [pool.submit(read) for _ in range(4)]
+        try:
+            for turn in range(8):
+                write_database(path, versions[turn % 2])
+        finally:
+            done.set()
+        assert all(reader.result() for reader in readers) and seen == {0, 1}
+
+
+def test_a_reader_in_another_process_is_told_that_the_file_was_replaced(made, tmp_path):
+    path = tmp_path / "db.h5"
+    columns = to_columns([made[0]], [made[1]])
+    write_database(path, columns)
+    code = (
+        "import sys; from sketchtree.templates.database import Database; db = Database(sys.argv[1]); print(db.exemplar('stick').seed, flush=True);"
+        "sys.stdin.readline()\ntry: db.exemplar('stick')\nexcept Exception as error: print(error)\nprint(Database(sys.argv[1]).exemplar('stick').seed)"
+    )
+    with subprocess.Popen([sys.executable, "-c", code, path], stdin=subprocess.PIPE, stdout=subprocess.PIPE, text=True) as reader:
+        assert reader.stdout.readline().strip() == "1"
+        write_database(path, columns | {"exemplar/seed": columns["exemplar/seed"] + 7})
+        said = reader.communicate("\n", timeout=60)[0].splitlines()
+    assert said == [f"{path}: it has been replaced since it was opened. Open it again.", "8"]
+
+
+def test_parts_are_read_without_the_rest(shipped, monkeypatch):
+    """One exemplar of the database is read without any whole column."""
+    monkeypatch.setattr(Database, "_whole", lambda self, file, name: pytest.fail(f"{name} was read whole"))
+    assert shipped.exemplar("hazel").growth_habit == "shrub"

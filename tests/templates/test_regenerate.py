@@ -52,7 +52,7 @@ def test_a_count_goes_round_the_recipes_with_new_seeds():
 
 
 def test_unknown_or_doubled_recipes_are_refused(tmp_path, minimal):
-    with pytest.raises(TemplateError, match=r"There is no recipe called 'elm'\. Use one of: apple, "):
+    with pytest.raises(TemplateError, match=r"There is no recipe called 'elm'\. Use one of: american_elm, apple, "):
         orders(recipe_folder(), only=("elm",))
     with pytest.raises(TemplateError, match=r"There are no recipes \(\*\.toml\) in"):
         orders(tmp_path)
@@ -82,7 +82,7 @@ def test_every_exemplar_is_a_sound_tree_of_its_size(shipped):
         thinner = tree.radius[1:] <= tree.radius[tree.parent[1:]] * (1 + 1e-6)
         assert thinner[~tree.is_base[1:]].all(), name
         assert habit.leaf in LEAVES and habit.bark in BARKS, name
-        assert e.source == "estimated" and e.title
+        assert e.source.endswith("estimated") and e.title
         assert e.thumbnail.shape == (128, 128) and 0.02 < (e.thumbnail < 128).mean() < 0.5, name
         assert all(isinstance(theta, TreeParameters) for theta in (e.theta, *e.theta_order))
 
