@@ -1,6 +1,8 @@
-"""Skeletons from files: SWC (Cannon et al. 1998), our JSON, and numpy's `.npz` with `parent`, `pos` and `radius`.
+"""Skeletons from files: SWC (Cannon et al. 1998), our JSON and HDF5, numpy's `.npz` with `parent`, `pos` and `radius`, MTG, and tables of
+cylinders.
 
-What other programs and digitised trees come in; `export.skeletons` writes.
+What other programs and digitised trees come in; `export.skeletons` writes. MTG is in `skeleton_mtg`, cylinders in
+`skeleton_cylinders`, HDF5 in `skeleton_hdf5`.
 """
 
 import json
@@ -12,21 +14,29 @@ import numpy as np
 
 from sketchtree.axes import NULL
 from sketchtree.errors import SkeletonError
-from sketchtree.skeleton import Kind, TreeSkeleton
-from sketchtree.traverse import generations
+from sketchtree.skeleton import TreeSkeleton
+from sketchtree.skeleton_rows import filled_radius, observed
 
 FLOATS = ("tip", "radius", "depth_sd", "age", "curve_points")
 INTEGERS = ("parent", "order", "limb", "stroke", "tree", "kind", "curve_start")
 FORMAT = 1
-ENDINGS = (".swc", ".json", ".npz")
+ENDINGS = (".swc", ".json", ".npz")  # always trees: what a folder is searched for
+ALL_ENDINGS = (*ENDINGS, ".mtg", ".csv", ".txt", ".h5")
 
 
 def read_skeleton(path: str | os.PathLike) -> TreeSkeleton:
     """The tree of a file, told by its ending. Raises `SkeletonError`."""
     ending = Path(path).suffix.lower()
-    readers = {".swc": read_swc, ".json": read_skeleton_json, ".npz": read_npz}
+    from sketchtree.skeleton_cylinders import read_cylinders
+    from sketchtree.skeleton_hdf5 import read_skeleton_hdf5
+    from sketchtree.skeleton_mtg import read_mtg
+
+    readers = {
+        ".swc": read_swc, ".json": read_skeleton_json, ".npz": read_npz, ".mtg": read_mtg,
+        ".csv": read_cylinders, ".txt": read_cylinders, ".h5": read_skeleton_hdf5,
+    }  # fmt: skip
     if ending not in readers:
-        raise SkeletonError(f"{path} is no skeleton that can be read.", remedy=f"Give a file that ends in one of {', '.join(ENDINGS)}.")
+        raise SkeletonError(f"{path} is no skeleton that can be read.", remedy=f"Give a file that ends in one of {', '.join(ALL_ENDINGS)}.")
     return readers[ending](path)
 
 
@@ -45,13 +55,7 @@ def read_npz(path: str | os.PathLike) -> TreeSkeleton:
     if len(parent) == 0 or parent.max() >= len(parent):
         what = "has no rows" if len(parent) == 0 else "names a parent that is not in the file"
         raise SkeletonError(f"{path} {what}.", remedy="Give one row a node, `parent` the row it grows from or -1.")
-    order = _parents_first(np.where(parent < 0, NULL, parent), path)
-    parent = np.where(parent[order] < 0, NULL, np.argsort(order)[parent[order]])
-    tip, radius = tip[order], radius[order]
-    known = radius[np.isfinite(radius) & (radius > 0)]
-    radius = np.where(np.isfinite(radius) & (radius > 0), radius, np.median(known) if len(known) else 1e-3)
-    limb, branching = _limbs(parent, tip, radius)
-    return TreeSkeleton.from_columns(parent, tip, radius, limb=limb, order=branching, tree=_tree_of(parent), kind=np.full(len(parent), int(Kind.OBSERVED)))
+    return observed(path, np.where(parent < 0, NULL, parent), tip, filled_radius(radius))
 
 
 def read_swc(path: str | os.PathLike) -> TreeSkeleton:
@@ -73,16 +77,9 @@ def read_swc(path: str | os.PathLike) -> TreeSkeleton:
             f"{path}, line {line[bad]}: its parent {parent_id[bad]} is not in the file.",
             remedy="Name an id of the file, or -1.",
         )
-    order = _parents_first(parent, path)
-    renumber = np.argsort(order)
-    parent = parent[order]
-    parent = np.where(parent == NULL, NULL, renumber[parent])
-    tip, radius = table[order, 2:5], table[order, 5]
-    radius = np.where(radius > 0, radius, radius[radius > 0].min(initial=np.inf) if (radius > 0).any() else 1e-3)
-    limb, branching = _limbs(parent, tip, radius)
-    return TreeSkeleton.from_columns(
-        parent, tip, radius, limb=limb, order=branching, tree=_tree_of(parent), kind=np.full(len(parent), int(Kind.OBSERVED))
-    )
+    radius = table[:, 5]
+    smallest = float(radius[radius > 0].min()) if (radius > 0).any() else None
+    return observed(path, parent, table[:, 2:5], filled_radius(radius, smallest))
 
 
 def _swc_table(path):
@@ -115,47 +112,6 @@ def _swc_table(path):
     return np.array(rows), lines
 
 
-def _parents_first(parent, path):
-    """An order of the rows in which every parent precedes its children; kept where it already does."""
-    depth = np.where(parent == NULL, 0, -1)
-    while (depth < 0).any():
-        ready = (depth < 0) & (parent != NULL) & (depth[parent] >= 0)
-        if not ready.any():
-            raise SkeletonError(
-                f"{path}: some nodes hang in a circle.",
-                remedy="Give every branch a path to a node whose parent is -1.",
-            )
-        depth[ready] = depth[parent[ready]] + 1
-    if (parent < np.arange(len(parent))).all():
-        return np.arange(len(parent))
-    return np.argsort(depth, kind="stable")
-
-
-def _limbs(parent, tip, radius):
-    """Apical chains by thickness, then straightness; and branching orders."""
-    child = np.flatnonzero(parent != NULL)
-    above = parent[child]
-    along = np.where((parent == NULL)[:, None], [0.0, 1.0, 0.0], tip - tip[parent])
-    along = along / np.maximum(np.linalg.norm(along, axis=1, keepdims=True), 1e-300)
-    straight = np.sum(along[child] * along[above], axis=1)
-    rank = np.lexsort((-straight, -radius[child], above))
-    best = np.r_[True, np.diff(above[rank]) != 0][: len(rank)]
-    apical = np.zeros(len(parent), bool)
-    apical[child[rank[best]]] = True
-    limb, order = np.arange(len(parent)), np.zeros(len(parent), np.int64)
-    for rows in generations(parent)[1:]:
-        limb[rows] = np.where(apical[rows], limb[parent[rows]], rows)
-        order[rows] = order[parent[rows]] + ~apical[rows]
-    return limb, order
-
-
-def _tree_of(parent):
-    tree = np.where(parent == NULL, np.cumsum(parent == NULL) - 1, 0)
-    for rows in generations(parent)[1:]:
-        tree[rows] = tree[parent[rows]]
-    return tree
-
-
 def read_skeleton_json(path: str | os.PathLike) -> TreeSkeleton:
     """The tree that `write_skeleton_json` wrote. Raises `SkeletonError` where the file is not one."""
     try:
@@ -170,8 +126,12 @@ def read_skeleton_json(path: str | os.PathLike) -> TreeSkeleton:
         raise SkeletonError(
             f"{path} has skeleton format {version}; this version reads {FORMAT}.", remedy="Update sketchtree."
         )
-    columns = {name: np.array(content["columns"][name], float if name in FLOATS else np.int64) for name in INTEGERS + FLOATS}
-    return TreeSkeleton(**shaped(columns))
+    try:
+        columns = {name: np.array(content["columns"][name], float if name in FLOATS else np.int64) for name in INTEGERS + FLOATS}
+        columns = shaped(columns)
+    except (KeyError, TypeError, ValueError, OverflowError) as error:
+        raise SkeletonError(f"{path}: a column is missing or holds no numbers ({error}).", remedy="Give a JSON file written by `sketchtree`.") from error
+    return TreeSkeleton(**columns)
 
 
 def shaped(columns: dict) -> dict:

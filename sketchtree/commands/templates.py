@@ -7,12 +7,11 @@ from pathlib import Path
 import click
 
 from sketchtree.commands.options import common, drawing
-from sketchtree.commands.planned import not_yet
 from sketchtree.commands.progress import Progress
 from sketchtree.errors import OptionError
 
-_SECTION = "The template database"
 SCORES = ("calibrated", "chen")
+GROWTH_HABITS = ("decurrent", "fastigiate", "weeping", "excurrent", "umbrella", "palm", "shrub", "irregular")
 
 
 @click.group(help="The exemplars a sketch is matched with.")
@@ -160,10 +159,72 @@ def cores() -> int:
     return len(os.sched_getaffinity(0)) if hasattr(os, "sched_getaffinity") else os.cpu_count() or 1
 
 
-@templates.command("import", context_settings={"allow_extra_args": True, "ignore_unknown_options": True}, add_help_option=False)
-def import_command() -> None:
-    """Digitised trees as exemplars (a later version)."""
-    raise not_yet("templates import", _SECTION, "Describe the tree in a recipe, and run `sketchtree templates build`.")
+@templates.command("import")
+@click.argument("files", nargs=-1, required=True, metavar="FILE...", type=click.Path(path_type=Path))
+@click.option("--into", type=click.Path(path_type=Path), required=True, help="The database to add to; begun where there is none.")
+@click.option("--name", help="Name of the exemplar (default: the file's). One file only.")
+@click.option("--title", help="Name for people (default: the name). One file only.")
+@click.option("--unit", type=click.Choice(["m", "cm", "mm"]), default="m", show_default=True, help="What the file's lengths are in.")
+@click.option("--up", type=click.Choice(["y", "z"]), help="Which axis points up (default: z in MTG and cylinder tables, else y).")
+@click.option("--species", default="", help="Botanical name.")
+@click.option("--growth-habit", type=click.Choice(GROWTH_HABITS), help="What it looks like before any species.")
+@click.option("--source", default="", help="Who measured it, where; kept with it.")
+@click.option("--leaf", help="Leaf model.")
+@click.option("--bark", help="Bark model.")
+@click.option("--like", metavar="NAME", help="Exemplar of --db whose leaves, bark and unmeasured habit it borrows.")
+@click.option("--replace", is_flag=True, help="Put it in the place of an exemplar of the same name.")
+@common
+def import_command(
+    files: tuple[Path, ...], into: Path, name: str | None, title: str | None, like: str | None, leaf: str | None, bark: str | None,
+    growth_habit: str | None, replace: bool, quiet: bool, json_log: bool, db: Path | None, report: Path | None, seed: int, **said,
+) -> None:  # fmt: skip
+    """Add digitised trees as exemplars: .mtg, .swc, .csv or .txt (cylinders), .npz, .json, .h5."""
+    from sketchtree.templates.importing.add import add, blocks_of, check_free
+    from sketchtree.templates.importing.read import Described, check_name, imported, name_of
+
+    if len(files) > 1 and (name is not None or title is not None):
+        raise OptionError("`--name` and `--title` are for one file.", remedy="Import the files one by one, or let their names be the exemplars'.")
+    if name is not None:
+        check_name(name)
+    habit = None if like is None else _habit_of(like, db)
+    _check_models(leaf, bark)
+    check_free(into, [name or name_of(file) for file in files if not _is_database(file)], replace=replace)
+    described = Described(name=name, title=title, growth_habit=growth_habit or "", leaf=leaf, bark=bark, like=habit, **said)
+    progress = Exemplars(tuple(map(str, files)), quiet=quiet, json_log=json_log)
+    with progress.running():
+        blocks = []
+        for file in files:
+            blocks += blocks_of(file) if _is_database(file) else [imported(file, described)]
+            progress(str(file))
+        database = add(into, blocks, replace=replace)
+        progress.say(f"wrote {into}: {len(database)} exemplars, {len(blocks)} of them new, {into.stat().st_size / 1e6:.2f} MB", event="written")
+    _write_report(report, {"exemplars": list(database.names), "imported": [b["exemplar/name"][0].decode() for b in blocks], "out": str(into)})
+
+
+def _is_database(file: Path) -> bool:
+    import h5py
+
+    from sketchtree.templates.writer import FORMAT
+
+    try:
+        with h5py.File(file, "r") as opened:
+            return opened.attrs.get("format") == FORMAT
+    except (OSError, RuntimeError):
+        return False
+
+
+def _habit_of(name: str, db: Path | None):
+    from sketchtree.templates.database import Database
+
+    return Database.open(db).exemplar(name).habit
+
+
+def _check_models(leaf: str | None, bark: str | None) -> None:
+    from sketchtree.choose import bark_model, leaf_model
+    from sketchtree.parameters import Habit
+
+    leaf_model(leaf, Habit(), None)
+    bark_model(bark, Habit())
 
 
 def _write_report(path: Path | None, content: dict) -> None:

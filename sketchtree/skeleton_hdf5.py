@@ -1,0 +1,55 @@
+"""A skeleton in an HDF5 file: one dataset a column of `TreeSkeleton`, without loss.
+
+The root's attributes are `format` ("SketchTree skeleton"), `schema` (1) and `version`. Columns that may be missing have
+the defaults of `TreeSkeleton.from_columns`; `parent`, `tip` and `radius` are needed.
+"""
+
+import os
+
+import numpy as np
+
+from sketchtree.errors import SkeletonError
+from sketchtree.skeleton import TreeSkeleton
+from sketchtree.skeleton_files import FLOATS, INTEGERS, shaped
+from sketchtree.version import __version__
+
+FORMAT, SCHEMA = "SketchTree skeleton", 1
+_REMEDY = "Give a file that `write_skeleton_hdf5` wrote, or another format."
+
+
+def read_skeleton_hdf5(path: str | os.PathLike) -> TreeSkeleton:
+    """The tree of an HDF5 file. Raises `SkeletonError`."""
+    import h5py
+
+    try:
+        with open(path, "rb"):
+            pass
+        with h5py.File(path, "r") as file:
+            form, schema = file.attrs.get("format"), int(file.attrs.get("schema", 0))
+            columns = {name: file[name][()] for name in INTEGERS + FLOATS if name in file}
+    except (OSError, RuntimeError, ValueError, TypeError, KeyError) as error:
+        if isinstance(error, OSError) and error.strerror:
+            raise SkeletonError(f"Can't read {path}: {error.strerror.lower()}.", remedy="Check the path.") from error
+        raise SkeletonError(f"{path} is no HDF5 file, or is damaged.", remedy=_REMEDY) from error
+    if form != FORMAT:
+        raise SkeletonError(f"{path} is an HDF5 file, but holds no skeleton.", remedy=_REMEDY)
+    if schema > SCHEMA:
+        raise SkeletonError(f"{path} has skeleton schema {schema}; this version reads {SCHEMA}.", remedy="Update sketchtree.")
+    missing = [name for name in ("parent", "tip", "radius") if name not in columns]
+    if missing:
+        raise SkeletonError(f"{path} has no column `{missing[0]}`.", remedy=_REMEDY)
+    if "curve_points" not in columns:
+        columns.pop("curve_start", None)
+        return TreeSkeleton.from_columns(**columns)
+    return TreeSkeleton.from_columns(**shaped(columns))
+
+
+def write_skeleton_hdf5(path: str | os.PathLike, tree: TreeSkeleton) -> None:
+    """Writes every column of the tree, without loss."""
+    import h5py
+
+    with h5py.File(path, "w", libver=("v110", "v110")) as file:
+        for name in INTEGERS + FLOATS:
+            column = getattr(tree, name)
+            file.create_dataset(name, data=column, compression="gzip" if np.size(column) else None, track_times=False)
+        file.attrs["format"], file.attrs["schema"], file.attrs["version"] = FORMAT, SCHEMA, __version__
