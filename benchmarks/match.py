@@ -100,11 +100,12 @@ def write_confusion(path: Path, tables: dict[str, np.ndarray], names: list[str])
     for axis, (title, table) in zip(figure.subplots(1, len(tables), squeeze=False)[0], tables.items(), strict=True):
         axis.imshow(table / np.maximum(table.sum(axis=1, keepdims=True), 1), cmap="Greys", vmin=0, vmax=1)
         for row, column in np.argwhere(table):
-            axis.text(column, row, table[row, column], ha="center", va="center", fontsize=6, color="tab:red" if row != column else "white")
+            dark = table[row, column] > 0.5 * table[row].sum()
+            axis.text(column, row, table[row, column], ha="center", va="center", fontsize=7, color="white" if dark else "tab:red")
         axis.set_xticks(range(len(names)), names, rotation=90, fontsize=7)
         axis.set_yticks(range(len(names)), names, fontsize=7)
         axis.set(title=title, xlabel="taken for", ylabel="sketch of")
-    figure.savefig(path, dpi=110)
+    figure.savefig(path, dpi=110, bbox_inches="tight")
 
 
 def print_bars(found: list[Ranked], kinds: dict[str, Recipe]) -> None:

@@ -104,8 +104,23 @@ class Database:
 
     @cached_property
     def views(self) -> Views:
-        """What matching compares: arrays over exemplar and view."""
-        part = {k: self.column(f"views/{k}") for k in _VIEWS}
+        """What matching compares: arrays over exemplar and view, as they are stored. Read slab by slab: they may be a gigabyte."""
+
+        def read(dataset) -> np.ndarray:
+            whole = np.empty(dataset.shape, dataset.dtype)
+
+            def slabs():
+                row = 0
+                for slab in _slabs(dataset):
+                    whole[row : row + len(slab)] = slab
+                    row += len(slab)
+                    yield slab
+
+            self._check(dataset.name.lstrip("/"), dataset, slabs())
+            return whole
+
+        with self._file() as file:
+            part = {k: read(file[f"views/{k}"]) for k in _VIEWS}
         moments = Branching(part["branching_mean"], part["branching_sd"], part["branching_count"])
         return Views(part["footprint"], moments, part["posture"])
 

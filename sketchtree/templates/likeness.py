@@ -16,7 +16,7 @@ so that one odd trait costs little more. A trait that an exemplar lacks counts a
 from dataclasses import dataclass
 
 import numpy as np
-from jaxtyping import Float
+from jaxtyping import Bool, Float
 
 from sketchtree.templates.branching import Branching
 from sketchtree.templates.exemplar import Views
@@ -50,7 +50,8 @@ def crown_likeness(shape: SketchShape, views: Views) -> Float[np.ndarray, "exemp
     """L_c = −‖f_S − f_E|v‖; None without a crown."""
     if shape.footprint is None:
         return None
-    return -np.sqrt(np.sum((views.footprint - shape.footprint.astype(views.footprint.dtype)) ** 2, axis=-1))
+    off = views.footprint - shape.footprint.astype(views.footprint.dtype)
+    return -np.sqrt(np.einsum("...d,...d->...", off, off))
 
 
 def branching_likeness(shape: SketchShape, views: Views) -> Float[np.ndarray, "exemplar view"]:
@@ -58,44 +59,40 @@ def branching_likeness(shape: SketchShape, views: Views) -> Float[np.ndarray, "e
     exemplar = views.branching
     mean, sd = (x[0].astype(exemplar.mean.dtype) for x in (shape.branching.mean, shape.branching.sd))
     variance = np.maximum(sd**2 + exemplar.sd**2, np.square(SIGMA_FLOOR, dtype=exemplar.mean.dtype))
-    return -np.nansum((mean - exemplar.mean) ** 2 / variance, axis=-1)
+    z = (mean - exemplar.mean) ** 2 / variance
+    return -sum(np.where(np.isnan(z[..., x]), 0, z[..., x]) for x in range(z.shape[-1]))
 
 
-def calibrated_terms(shape: SketchShape, views: Views, metric: Metric, square: Float[np.ndarray, "exemplar view"] | None = None):
-    """(crown or None, branching, posture), each (exemplar, view). `square`: ‖W f‖² of the views, where it is known (`search`)."""
+def calibrated_terms(shape: SketchShape, views: Views, metric: Metric):
+    """(crown or None, branching, posture), each (exemplar, view), as the formulas stand; `search` is the fast way."""
     w_crown, w_branching, w_posture = metric.weight.tolist()
-    crown = None if shape.footprint is None else -w_crown * heavy(crown_distance(shape, views, metric, square), 2 * HARMONICS + 1)
+    crown = None if shape.footprint is None else -w_crown * heavy(crown_distance(shape, views, metric), 2 * HARMONICS + 1)
     branching = heavy(*trait_distance(shape, views.branching.mean, metric, BRANCHING))
     posture = heavy(*trait_distance(shape, views.posture, metric, POSTURE))
     return crown, -w_branching * branching, -w_posture * posture
 
 
-def crown_distance(shape: SketchShape, views: Views, metric: Metric, square=None) -> Float[np.ndarray, "exemplar view"]:
+def crown_distance(shape: SketchShape, views: Views, metric: Metric) -> Float[np.ndarray, "exemplar view"]:
     """q of the crowns: the squared distance of the footprints' first harmonics."""
-    kind = views.footprint.dtype
-    if square is not None:
-        wave = shape.footprint @ metric.basis
-        return np.maximum(square + kind.type(wave @ wave) - views.footprint @ (2 * metric.basis @ wave).astype(kind), 0)
-    off = (views.footprint - shape.footprint.astype(kind)) @ metric.basis.astype(kind)
+    off = (views.footprint - shape.footprint) @ metric.basis
     return np.einsum("...c,...c->...", off, off)
 
 
-def trait_distance(shape: SketchShape, figures: Float[np.ndarray, "exemplar view trait"], metric: Metric, among: slice):
+def trait_distance(shape: SketchShape, figures: Float[np.ndarray, "*view trait"], metric: Metric, among: slice):
     """(q, k) of the branching or of the posture, over what the sketch shows."""
     wanted = (shape.traits - metric.shift)[among]
-    shown = np.flatnonzero(~np.isnan(wanted))
-    if len(shown) == 0:
-        return np.zeros(figures.shape[:2], figures.dtype), 0
+    shown = ~np.isnan(wanted)
+    off = figures[..., shown] - wanted[shown]
+    off = np.where(np.isnan(off), LACKING * metric.sd[among][shown], off) @ whitening(metric, among, shown)
+    return np.einsum("...t,...t->...", off, off), int(shown.sum())
+
+
+def whitening(metric: Metric, among: slice, shown: Bool[np.ndarray, " trait"]) -> Float[np.ndarray, "kept kept"]:
+    """W with ‖d W‖² the squared Mahalanobis distance of d, a difference of what is shown."""
     covariance = metric.covariance(among)[np.ix_(shown, shown)]
-    whiten = np.linalg.cholesky(np.linalg.inv(covariance))
-    off = (figures if len(shown) == figures.shape[-1] else figures[..., shown]) - wanted[shown].astype(figures.dtype)
-    if np.isnan(off.sum()):
-        away = LACKING * np.sqrt(np.diag(covariance)).astype(figures.dtype)
-        off = np.where(np.isnan(off), away, off)
-    off = off @ whiten.astype(figures.dtype)
-    return np.einsum("...t,...t->...", off, off), len(shown)
+    return np.linalg.cholesky(np.linalg.inv(covariance)) if shown.any() else np.zeros((0, 0))
 
 
 def heavy(q, k: int):
-    """−log of Student's t in k dimensions, up to a constant."""
-    return (NU + k) / 2 * np.log1p(q / NU)
+    """−log of Student's t in k dimensions, up to a constant. (log is several times faster than log1p in single precision.)"""
+    return (NU + k) / 2 * np.log(1 + q / NU)

@@ -62,10 +62,25 @@ def test_the_size_of_a_block_changes_nothing(crowd, monkeypatch):
     np.testing.assert_array_equal(best_views(shape, views, CROWN).view, whole.view)
 
 
+def test_what_sketch_and_exemplars_lack_is_treated_as_the_formulas_say(shipped):
+    v = shipped.views
+    posture, mean = v.posture.copy(), v.branching.mean.copy()
+    posture[3, 7, 2], posture[5, :, 8], mean[9, 1, 2], mean[9, 2] = np.nan, np.nan, np.nan, np.nan
+    views = Views(v.footprint, replace(v.branching, mean=mean), posture)
+    sketch = v.posture[4, 2].astype(float)
+    sketch[[3, 8]] = np.nan
+    for lacking in ([], [2], [0, 1, 2]):
+        drawn = v.branching.mean[4, 2].astype(float)
+        drawn[lacking] = np.nan
+        shape = SketchShape(None, Branching(drawn[None], np.zeros((1, 3)), np.ones((1, 3))), sketch)
+        terms = calibrated_terms(shape, views, BARE)
+        np.testing.assert_allclose(best_views(shape, views, BARE).score, sum(terms[1:]).max(axis=1), rtol=1e-6, atol=1e-6)
+
+
 def test_what_is_kept_of_a_database_goes_with_it(crowd):
     shape, views = crowd
     twin = replace(views, footprint=views.footprint)
     best_views(shape, twin, CROWN)
-    before = len(search._squares)
+    before = len(search._kept)
     del twin
-    assert len(search._squares) == before - 1
+    assert len(search._kept) == before - 1
