@@ -13,13 +13,12 @@ from dataclasses import dataclass
 
 import numpy as np
 from jaxtyping import Array, Bool, Float, Int, Key
-from scipy.spatial import ConvexHull
 
 from sketchtree import keys
 from sketchtree.axes import NULL
 from sketchtree.parameters import Habit
 from sketchtree.propagate.attach_block import Nodes
-from sketchtree.propagate.envelope import Envelope, Lobe
+from sketchtree.propagate.envelope import Envelope
 from sketchtree.propagate.laterals import Split
 from sketchtree.propagate.library import Library
 from sketchtree.propagate.open_branch import OpenBranches, arc_length, frames, limb_arcs
@@ -30,9 +29,6 @@ EXTENSION = np.array([0.04, 0.12])  # of a drawn limb's length, without a crown;
 _EXTENSION_TWIGS = 3.5  # twig lengths, at most, without a crown
 CROWN_EXTENSION = 0.5  # of a drawn limb's length, at most, towards the crown
 _PRESSES = 1.08  # times its straight way to the crown: a limb that bends still meets the surface
-_MARGIN = 0.13  # of the smaller side of the drawing's branches
-_MARGIN_TWIGS = 2.0  # twig lengths, at least
-WEEPING = 30.0  # degrees a metre: with more, twigs hang to the ground
 BEARING = 2.2  # twig lengths: a shorter limb bears no laterals
 _BEGINS = 0.06  # of the trunk's length: a palm's new fronds may start this far below its first drawn one
 _APART = np.cos(np.radians(25.0))  # a new lateral this close to a drawn one's direction is not grown
@@ -116,7 +112,7 @@ def bare_length(tree: TreeSkeleton, library: Library, envelope: Envelope | None 
     arc, whole = limb_arcs(tree)
     share = library.bare[np.minimum(tree.order, len(library.bare) - 1)]
     bare = share * whole
-    first = _first_drawn_lateral(tree, arc)
+    first = first_drawn_lateral(tree, arc)
     below = _BEGINS if len(library.bare) == 2 else 0.0  # max_order 1: a palm
     if envelope is not None and envelope.binding:
         bare = np.where(tree.order == 0, _enters(tree, arc, envelope), bare)
@@ -139,31 +135,6 @@ def rank_of_drawn(tree: TreeSkeleton, habit: Habit) -> Int[np.ndarray, " segment
     return np.where((times >= 1.0) & (habit.max_order > 2), np.minimum(tree.order, by_length), tree.order)
 
 
-def implied_crown(tree: TreeSkeleton, habit: Habit) -> Envelope | None:
-    """Where no crown was drawn: the convex hull of the drawn limbs on the page, widened by `_MARGIN`.
-
-    What grows from within keeps to it, so that the drawing's outline stays the tree's; it does not bind what was
-    drawn outside it in depth. A weeping habit's reaches down to the ground. None for a tree without drawn limbs, and
-    for palms, whose fronds have their length from the exemplar.
-    """
-    limbs = tree.order > 0
-    if habit.max_order < 2 or np.sum(limbs) < 3:
-        return None
-    arc, _ = limb_arcs(tree)
-    on_trunk = (tree.order == 0) & ~tree.is_base & (arc >= _first_drawn_lateral(tree, arc))
-    points = np.concatenate([tree.tip[limbs | on_trunk][:, :2], tree.start[limbs][:, :2]])
-    if np.ptp(points[:, 0]) <= 0 or np.ptp(points[:, 1]) <= 0:
-        return None
-    width = max(_MARGIN * np.ptp(points, axis=0).min(), _MARGIN_TWIGS * habit.twig_length)
-    turn = np.linspace(0.0, 2 * np.pi, 16, endpoint=False)
-    ring = width * np.column_stack([np.cos(turn), np.sin(turn)])
-    cloud = (points[:, None, :] + ring[None]).reshape(-1, 2)
-    if habit.gravitropism > WEEPING:
-        cloud = np.concatenate([cloud, np.column_stack([cloud[:, 0], np.full(len(cloud), tree.tip[tree.is_base, 1].min())])])
-    hull = cloud[ConvexHull(cloud).vertices]
-    return Envelope((Lobe.from_outline(hull),), binding=False)
-
-
 def _enters(tree, arc, envelope):
     """Arc where every row's limb first comes into the crown, metres: at the start of the first row that ends inside,
     the limb's end if none does."""
@@ -183,7 +154,7 @@ def _drawn_laterals_end(tree, arc):
     return last[of_row]
 
 
-def _first_drawn_lateral(tree, arc):
+def first_drawn_lateral(tree, arc):
     """Arc of the first drawn lateral of every row's limb, metres; inf where there is none."""
     at, limbs, of_row = _lateral_nodes(tree)
     first = np.full(limbs, np.inf)

@@ -66,6 +66,10 @@ class Lobe:
         """The outline's own axis at these heights, metres: always inside it."""
         return np.stack([self._span(y)[2], y, np.full(len(y), self.centre_z)], axis=1)
 
+    def edges_at(self, y: Float[np.ndarray, " height"]) -> tuple[Float[np.ndarray, " height"], Float[np.ndarray, " height"]]:
+        """(x_l, x_r) at these heights, metres."""
+        return self._span(y)[:2]
+
     def half_width_at(self, y: Float[np.ndarray, " height"]) -> Float[np.ndarray, " height"]:
         """From the axis to the nearer end of the outline at these heights, metres."""
         left, right, axis = self._span(y)

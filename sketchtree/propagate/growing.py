@@ -17,10 +17,11 @@ from sketchtree import keys
 from sketchtree.parameters import Habit
 from sketchtree.propagate.attach_block import MINIMUM_LENGTH, Nodes, attach
 from sketchtree.propagate.block import blocks_of, blocks_of_parameters
-from sketchtree.propagate.drawn import BEARING, WEEPING, DrawnLaterals, bare_length, drawn_nodes, implied_crown, open_tips, rank_of_drawn
+from sketchtree.propagate.drawn import BEARING, DrawnLaterals, bare_length, drawn_nodes, open_tips, rank_of_drawn
 from sketchtree.propagate.envelope import Envelope
 from sketchtree.propagate.fill import GAP, HOLLOW, HOLLOW_GAP, emptiness, empty_points, towards
 from sketchtree.propagate.gaps import into_gaps
+from sketchtree.propagate.implied import WEEPING, implied_crown
 from sketchtree.propagate.laterals import split_long
 from sketchtree.propagate.leaders import leaders
 from sketchtree.propagate.library import library
@@ -50,7 +51,7 @@ class Growing:
     def __init__(self, tree, habit, theta, exemplar, crown, max_segments, key):
         self.habit, self.theta, self.max_segments = habit, theta, max_segments
         self.key = keys.draw_key(key)
-        self.envelope = Envelope.from_outlines(crown) if len(crown) else implied_crown(tree, habit)
+        self.envelope = Envelope.from_outlines(crown) if len(crown) else implied_crown(tree, habit, exemplar)
         self.library = _library(tree, habit, theta, exemplar)
         self.scale = _height(tree, crown)
         self.ground = float(tree.tip[tree.is_base, 1].min())

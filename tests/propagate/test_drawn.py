@@ -5,7 +5,8 @@ from worlds import HABIT, THETA, circle, drawn_tree
 
 from sketchtree import keys
 from sketchtree.propagate.block import blocks_of, blocks_of_parameters
-from sketchtree.propagate.drawn import BEARING, DrawnLaterals, bare_length, drawn_nodes, implied_crown, open_tips, rank_of_drawn
+from sketchtree.propagate.drawn import BEARING, DrawnLaterals, bare_length, drawn_nodes, open_tips, rank_of_drawn
+from sketchtree.propagate.implied import implied_crown
 from sketchtree.propagate.envelope import Envelope
 from sketchtree.propagate.laterals import split_long
 from sketchtree.propagate.library import library

@@ -5,7 +5,7 @@ from scipy.spatial import cKDTree
 from worlds import HABIT, THETA, circle, drawn_tree
 
 from sketchtree import keys
-from sketchtree.propagate.drawn import implied_crown
+from sketchtree.propagate.implied import implied_crown
 from sketchtree.propagate.envelope import Envelope
 from sketchtree.propagate.fill import GAP, HOLLOW, HOLLOW_GAP, emptiness, empty_points, halton
 from sketchtree.propagate.generations import propagate
