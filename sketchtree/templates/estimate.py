@@ -113,6 +113,12 @@ def _orientation(pairs: Pairs, among, prior: TreeParameters, weight: float) -> t
     return mu, float(_normal(spread, np.angle(np.exp(1j * (prior.mu_gamma - mu))), prior.sigma_gamma, weight)[1])
 
 
+def orientation_residual(pairs: Pairs, among: Bool[np.ndarray, " pair"], mu: float) -> Float[np.ndarray, " kept"]:
+    """ϕ − offset_i − μ_γ, (−π, π], of those pairs that say anything of it."""
+    kept = among & (pairs.divergence > STRAIGHT)
+    return np.angle(np.exp(1j * (pairs.orientation - _offsets(pairs, mu) - mu)))[kept]
+
+
 def _offsets(pairs: Pairs, mu: float) -> Float[np.ndarray, " pair"]:
     """offset_i of every pair: what §4 adds to μ_γ for the child's label."""
     offset = np.zeros(len(pairs.child))

@@ -3,6 +3,7 @@
 import numpy as np
 import pytest
 
+from benchmarks.theta import tree_of
 from sketchtree.parameters import GENERIC, TreeParameters
 from sketchtree.skeleton import TreeSkeleton
 from sketchtree.templates.estimate import (
@@ -17,43 +18,12 @@ from sketchtree.templates.estimate import (
 THETA = TreeParameters(0.9, 0.15, np.radians(15), np.radians(4), np.radians(50), np.radians(6), np.radians(40), np.radians(12))
 
 
-def about_x(t):
-    return np.array([[1, 0, 0], [0, np.cos(t), -np.sin(t)], [0, np.sin(t), np.cos(t)]])
-
-
 def about_y(t):
     return np.array([[np.cos(t), 0, np.sin(t)], [0, 1, 0], [-np.sin(t), 0, np.cos(t)]])
 
 
-def tree_from(theta: TreeParameters, generations=5, seed=3):
-    """Chen's own construction: v_c = s R_y(ϕ) R_x(φ) v_p with ϕ, φ, s drawn for each child's label."""
-    rng = np.random.default_rng(seed)
-    parent, tip, order, limb = [-1, 0], [np.zeros(3), np.array([0.0, 1.0, 0.0])], [0, 0], [0, 0]
-    frames, sizes, truth = {1: np.eye(3)}, {1: 1.0}, []
-    front = [1]
-    for _ in range(generations):
-        new = []
-        for row in front:
-            for label in range(1, (count := int(rng.integers(1, 5))) + 1):
-                mean_phi, sd_phi, mean_gamma, sd_gamma = theta.child(label, count)
-                phi, gamma = abs(rng.normal(mean_phi, sd_phi)), rng.normal(mean_gamma, sd_gamma)
-                s = max(0.2, rng.normal(theta.mu_s, theta.sigma_s))
-                child = len(parent)
-                frames[child] = frames[row] @ about_y(gamma) @ about_x(phi)
-                sizes[child] = s * sizes[row]
-                parent.append(row)
-                tip.append(tip[row] + sizes[child] * frames[child] @ [0, 1, 0])
-                order.append(order[row] + (label > 1))
-                limb.append(limb[row] if label == 1 else child)
-                truth.append((s, phi, np.angle(np.exp(1j * gamma)), label == 1))
-                new.append(child)
-        front = new
-    tree = TreeSkeleton.from_columns(parent, np.array(tip), np.full(len(parent), 0.01), order=np.array(order), limb=np.array(limb))
-    return tree, np.array(truth)
-
-
 def test_every_pair_gives_back_its_scale_divergence_and_orientation():
-    tree, truth = tree_from(THETA)
+    tree, truth = tree_of(THETA, 3)
     pairs = parent_child_pairs(tree)
     np.testing.assert_allclose(pairs.scale, truth[:, 0], rtol=1e-9)
     np.testing.assert_allclose(pairs.divergence, truth[:, 1], atol=1e-9)
@@ -62,14 +32,14 @@ def test_every_pair_gives_back_its_scale_divergence_and_orientation():
 
 
 def test_theta_is_recovered_from_a_tree_built_with_it():
-    found = estimate(tree_from(THETA)[0]).as_dict(degrees=True)
+    found = estimate(tree_of(THETA, 3)[0]).as_dict(degrees=True)
     for name, value in THETA.as_dict(degrees=True).items():
         tolerance = 0.03 if name.endswith("_s") else 2.0
         assert found[name] == pytest.approx(value, abs=tolerance), name
 
 
 def test_theta_does_not_change_when_the_tree_is_turned_about_its_trunk_scaled_or_moved():
-    tree, _ = tree_from(THETA)
+    tree, _ = tree_of(THETA, 3)
     turned = tree.replace(tip=7.0 * tree.tip @ about_y(1.1).T + [3.0, 0.0, -2.0])
     before, after = estimate(tree).as_dict(), estimate(turned).as_dict()
     for name in ("mu_gamma", "sigma_gamma"):  # counted from the world's x in the pairs next to the base only
@@ -78,7 +48,7 @@ def test_theta_does_not_change_when_the_tree_is_turned_about_its_trunk_scaled_or
 
 
 def test_orders_are_shrunk_towards_the_whole_tree():
-    tree, _ = tree_from(THETA)
+    tree, _ = tree_of(THETA, 3)
     whole, orders = estimate(tree), estimate_by_order(tree)
     pairs = parent_child_pairs(tree)
     of_trunk = pairs.divergence[(tree.order[pairs.parent] == 0) & ~pairs.apical]
