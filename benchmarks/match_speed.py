@@ -115,7 +115,7 @@ def print_table(took: dict[str, float], bars: dict[str, float]) -> None:
         shown = f"{value:.2f} GB" if name == "rss" else f"{1000 * value:.1f} ms"
         bar = bars.get("warm" if name.startswith("warm") else name)
         unit = "GB" if name == "rss" else "s"
-        print(f"  {name:12}{shown:>12}" + (f"   at most {bar} {unit}: {'met' if value <= bar else 'missed'}" if bar else ""))
+        print(f"  {name:12}{shown:>12}" + (f"   at most {bar} {unit}: {'met' if value <= bar else 'missed'}" if bar is not None else ""))
 
 
 def main(arguments: list[str] | None = None) -> None:

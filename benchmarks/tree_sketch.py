@@ -93,7 +93,7 @@ def grown(wanted: list[Recipe], seeds) -> Iterator[tuple[Recipe, int, TreeSkelet
 
 
 def _fewer(drawn: TreeSkeleton, share: float, rng: np.random.Generator) -> TreeSkeleton:
-    """Without a share of its limbs, stems excepted: those that carry none go first to last, at random."""
+    """Without a share of its limbs, stems excepted, taken at random among those that carry none. (What is then too short to draw goes too.)"""
     carrier = {}
     for row in np.flatnonzero(drawn.parent != NULL):
         if drawn.limb[row] != drawn.limb[drawn.parent[row]]:
