@@ -28,7 +28,7 @@ from sketchtree.mrf.prior import Prior
 from sketchtree.mrf.solver import RESULTS
 from sketchtree.options import ReadingOptions, TreeOptions
 from sketchtree.page import drawn_radius, page_to_world
-from sketchtree.parameters import GENERIC, Habit
+from sketchtree.parameters import GENERIC, Habit, TreeParameters
 from sketchtree.propagate.generations import Propagate
 from sketchtree.roots import root_depth
 from sketchtree.similarity import Similarity
@@ -56,6 +56,7 @@ class DrawnTree:
     skeleton: TreeSkeleton  # metres; rows are those of the graph
     radius: Float[np.ndarray, " segment"]  # as drawn, metres; NaN where the lines' widths say nothing
     habit: Habit
+    theta: TreeParameters  # by which the rest grows: measured on these branches, or the template's where Θ is fixed
 
     @property
     def warnings(self) -> tuple[str, ...]:
@@ -122,7 +123,8 @@ def draw_out(
         radius[~graph.root] = drawn_radius(sketch, above, similarity, habit)
         skeleton = lift(graph, fit.depth, similarity, depth_sd=fit.depth_sd)
         skeleton = PipeRadii(habit, radius)(skeleton, key=stage_key(key, "radii"))
-    return DrawnTree(graph, matches, exemplar, fit, similarity, skeleton, radius, habit)
+    theta = fit.theta_before if options.theta == "fixed" else fit.theta
+    return DrawnTree(graph, matches, exemplar, fit, similarity, skeleton, radius, habit, theta)
 
 
 def _with_roots(fit: Fit, graph: SketchGraph) -> Fit:
@@ -166,7 +168,7 @@ def _propagated(drawn: DrawnTree, options: TreeOptions, key) -> tuple[TreeSkelet
     """The complete skeleton with its final radii, and what the user should know about it."""
     stage = Propagate(
         drawn.habit,
-        drawn.fit.theta,
+        drawn.theta,
         crown=tuple(drawn.similarity.to_world(outline) for outline in drawn.graph.crown),
         generations=options.generations,
         fill=options.fill,

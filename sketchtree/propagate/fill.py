@@ -8,6 +8,9 @@ volume (the Halton sequence, so that they are the same in every run); those fart
 from every node are empty. A near node that may still bear a lateral grows one towards each, as long as the
 way there; its laterals and theirs follow by blocks as everywhere. Rounds of this go on until no point is empty.
 
+The lateral leaves its limb at an angle the species has, μ_β ± `SPREADS` σ_β: of the near nodes one is chosen from which the way lies so,
+and where there is none the angle is brought to the nearer end, the side kept. A poplar fills its crown from below, an oak from beside.
+
 A crown of which more than `HOLLOW` is farther than `HOLLOW_GAP` spacings from all wood is *hollow*: a sketch of a trunk in an
 outline, or of limbs that lie far apart in depth. It is filled unasked, less densely, unless the user drew both the
 crown and the limbs in it.
@@ -18,7 +21,7 @@ from jaxtyping import Array, Float, Int, Key
 from scipy.spatial import cKDTree
 
 from sketchtree import keys, limb_ids
-from sketchtree.parameters import Habit
+from sketchtree.parameters import Habit, TreeParameters
 from sketchtree.propagate.attach_block import RANKS, Nodes
 from sketchtree.propagate.envelope import Envelope
 from sketchtree.propagate.open_branch import OpenBranches, polar, turn
@@ -29,7 +32,8 @@ HOLLOW, HOLLOW_GAP = 0.15, 2.5
 HOLLOW_ROUNDS, COARSE_GAP = 4, 2.0  # rounds in a hollow crown, and its gap in spacings of laterals
 LED_GAP = 1.3  # the same where leaders alone make the crown
 _POINTS = 30_000  # at most, over the crown's bounding box
-_NEAR = 6  # nodes of which one grows towards a point
+_NEAR = 16  # nodes of which one grows towards a point
+SPREADS = 1.5  # σ_β to either side of μ_β that a filling lateral may diverge
 _WIDEST = np.radians(110.0)  # from a limb: towards points behind it nothing grows
 
 
@@ -72,11 +76,17 @@ def _empty(point, tips, gap):
 
 
 def towards(
-    points: Float[np.ndarray, "point 3"], nodes: Nodes, habit: Habit, round_: int, key: Key[Array, ""] | np.uint64
+    points: Float[np.ndarray, "point 3"],
+    nodes: Nodes,
+    habit: Habit,
+    theta: TreeParameters,
+    round_: int,
+    key: Key[Array, ""] | np.uint64,
 ) -> OpenBranches:
     """One open branch from each node that is near an empty point, towards it. `nodes` may not be of
     the deepest order; `round_` keeps the limb ids of the rounds apart."""
-    at, point = _nearest(points, nodes)
+    angles = np.clip(theta.mu_beta + SPREADS * theta.sigma_beta * np.array([-1.0, 1.0]), 0.0, _WIDEST)
+    at, point = _nearest(points, nodes, angles)
     way = point - nodes.tip[at]
     length = np.linalg.norm(way, axis=1)
     divergence, orientation = polar(np.einsum("bji,bj->bi", nodes.frame[at], way))
@@ -87,7 +97,7 @@ def towards(
     return OpenBranches(
         row=nodes.row[at],
         origin=nodes.tip[at],
-        frame=turn(nodes.frame[at], divergence, orientation, np.zeros(len(at), bool)),
+        frame=turn(nodes.frame[at], np.clip(divergence, *angles), orientation, np.zeros(len(at), bool)),
         limb=limb,
         order=nodes.order[at] + 1,
         tree=nodes.tree[at],
@@ -99,14 +109,17 @@ def towards(
     )
 
 
-def _nearest(points, nodes) -> tuple[Int[np.ndarray, " branch"], Float[np.ndarray, "branch 3"]]:
-    """(node, point) pairs: for every point, of its nearest nodes one of the lowest order (its limb reaches
-    farthest); and of a node's points the nearest."""
+def _nearest(points, nodes, angles) -> tuple[Int[np.ndarray, " branch"], Float[np.ndarray, "branch 3"]]:
+    """(node, point) pairs: for every point, of its nearest nodes one from which the way there diverges by one of the `angles`
+    between (least, most), of these one of the lowest order (its limb reaches farthest); and of a node's points the nearest."""
     if len(points) == 0 or len(nodes) == 0:
         return np.zeros(0, np.int64), np.zeros((0, 3))
     near = min(_NEAR, len(nodes))
     distances, found = (x.reshape(len(points), near) for x in cKDTree(nodes.tip).query(points, near))
-    best = np.lexsort((distances, nodes.order[found]), axis=1)[:, 0]
+    along = np.einsum("pna,pna->pn", nodes.frame[found][:, :, :, 1], points[:, None] - nodes.tip[found])
+    turn_ = np.arccos(np.clip(along / np.maximum(distances, 1e-12), -1.0, 1.0))
+    away = np.maximum(np.maximum(angles[0] - turn_, turn_ - angles[1]), 0.0)
+    best = np.lexsort((distances, nodes.order[found], away > 0), axis=1)[:, 0]
     each = np.arange(len(points))
     distance, node = distances[each, best], found[each, best]
     order = np.lexsort((distance, node))

@@ -137,7 +137,7 @@ class Growing:
         nodes = self._nodes()
         empty = empty_points(self.envelope, nodes.tip, gap * self.habit.lateral_spacing)
         bears = (nodes.order < self.habit.max_order) & self.envelope.inside(nodes.tip)
-        self.open = self.open.join(towards(empty, nodes.select(bears), self.habit, round_, self.key))
+        self.open = self.open.join(towards(empty, nodes.select(bears), self.habit, self.theta, round_, self.key))
         before = self.rows
         self.run(min(limit, self.done + _ROUND))
         return self.rows > before
