@@ -38,7 +38,7 @@ class Writer:
             handle, name = tempfile.mkstemp(dir=self.path.parent, prefix=f".{self.path.name}.", suffix=".part")
             os.close(handle)
             self._temporary = Path(name)
-            self._file = h5py.File(name, "w", libver=("v110", "v110"))
+            self._file = h5py.File(name, "w", libver=("v110", "v110"), rdcc_nbytes=0)  # whole chunks only: nothing to cache
         except OSError as error:
             raise _unwritable(self.path, error) from error
         return self

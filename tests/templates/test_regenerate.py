@@ -1,10 +1,14 @@
 """The committed database is what its recipes make, on one process or several."""
 
+import tomllib
+from pathlib import Path
+
 import numpy as np
 import pytest
 
 from sketchtree.errors import TemplateError
 from sketchtree.parameters import TreeParameters
+from sketchtree.templates import database
 from sketchtree.templates.database import Database
 from sketchtree.templates.recipe import read_recipe
 from sketchtree.templates.regenerate import make, orders, recipe_folder, regenerate
@@ -18,6 +22,13 @@ def test_the_committed_file_has_exactly_the_recipes(shipped):
     for name, text in recipes.items():
         assert shipped.exemplar(name).recipe == text, f"{name}: run `sketchtree templates build` and commit"
     assert shipped.path.stat().st_size < 6e6
+
+
+def test_the_wheel_carries_it():
+    project = tomllib.loads((recipe_folder().parent / "pyproject.toml").read_text(encoding="utf-8"))
+    included = project["tool"]["hatch"]["build"]["targets"]["wheel"]["force-include"]
+    packaged = Path(database.__file__).parent / "data" / "exemplars.h5"
+    assert included["template_db/exemplars.h5"] == packaged.relative_to(recipe_folder().parent).as_posix()
 
 
 @pytest.mark.parametrize("name", ["date_palm", "english_oak"])
