@@ -129,6 +129,6 @@ def _numbers(path, number, text, cut, count, place) -> list[float]:
 
 def _is_number(word: str) -> bool:
     try:
-        return bool(np.isfinite(float(word)))
+        return abs(float(word)) < 2**53  # beyond it an id is no longer told from the next
     except ValueError:
         return False

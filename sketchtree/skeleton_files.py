@@ -8,6 +8,7 @@ What other programs and digitised trees come in; `export.skeletons` writes. MTG 
 import json
 import os
 import zipfile
+import zlib
 from pathlib import Path
 
 import numpy as np
@@ -20,6 +21,7 @@ from sketchtree.skeleton_rows import filled_radius, observed
 FLOATS = ("tip", "radius", "depth_sd", "age", "curve_points")
 INTEGERS = ("parent", "order", "limb", "stroke", "tree", "kind", "curve_start")
 FORMAT = 1
+LARGEST_ID = 2**53  # beyond it a number is no longer told from the next
 ENDINGS = (".swc", ".json", ".npz")  # always trees: what a folder is searched for
 ALL_ENDINGS = (*ENDINGS, ".mtg", ".csv", ".txt", ".h5")
 
@@ -37,7 +39,12 @@ def read_skeleton(path: str | os.PathLike) -> TreeSkeleton:
     }  # fmt: skip
     if ending not in readers:
         raise SkeletonError(f"{path} is no skeleton that can be read.", remedy=f"Give a file that ends in one of {', '.join(ALL_ENDINGS)}.")
-    return readers[ending](path)
+    try:
+        return readers[ending](path)
+    except SkeletonError as error:
+        if str(path) in error.message:
+            raise
+        raise SkeletonError(f"{path}: {error.message}", remedy=error.remedy) from error
 
 
 def read_npz(path: str | os.PathLike) -> TreeSkeleton:
@@ -48,7 +55,7 @@ def read_npz(path: str | os.PathLike) -> TreeSkeleton:
             parent, tip, radius = file["parent"].astype(np.int64), file["pos"].astype(float), file["radius"].astype(float)
     except OSError as error:
         raise SkeletonError(f"Can't read {path}: {(error.strerror or 'it is no .npz file').lower()}.", remedy="Check the path.") from error
-    except (ValueError, KeyError, TypeError, AttributeError, EOFError, zipfile.BadZipFile) as error:
+    except (ValueError, KeyError, TypeError, AttributeError, EOFError, RuntimeError, zipfile.BadZipFile, zlib.error) as error:
         raise SkeletonError(f"{path} holds no skeleton.", remedy="Give an .npz file with the arrays `parent`, `pos` and `radius`.") from error
     if tip.ndim != 2 or tip.shape[1] != 3 or not len(parent) == len(tip) == len(radius):
         raise SkeletonError(f"{path}: `parent`, `pos` and `radius` have different lengths.", remedy="Give one row a node, three columns of `pos`.")
@@ -85,7 +92,7 @@ def read_swc(path: str | os.PathLike) -> TreeSkeleton:
 def _swc_table(path):
     rows, lines = [], []
     try:
-        with open(path, encoding="utf-8", errors="replace") as file:
+        with open(path, encoding="utf-8-sig", errors="replace") as file:
             text = file.read()
     except OSError as error:
         raise SkeletonError(f"Can't read {path}: {(error.strerror or 'unknown error').lower()}.", remedy="Check the path.") from error
@@ -97,7 +104,7 @@ def _swc_table(path):
             values = [float(word) for word in words[:7]]
         except ValueError:
             values = []
-        if len(values) < 7 or not np.isfinite(values).all():
+        if len(values) < 7 or not np.isfinite(values).all() or np.abs([values[0], values[6]]).max() > LARGEST_ID:
             raise SkeletonError(
                 f"{path}, line {number}: expected `id type x y z radius parent`, got `{content.strip()[:60]}`.",
                 remedy="Repair the line or start it with #.",

@@ -7,6 +7,7 @@ from sketchtree.errors import SkeletonError
 from sketchtree.export.skeletons import write_skeleton_json, write_swc
 from sketchtree.skeleton import Kind, TreeSkeleton
 from sketchtree.skeleton_files import read_npz, read_skeleton
+from sketchtree.skeleton_hdf5 import write_skeleton_hdf5
 
 PARENT = np.array([-1, 0, 1, 1, 2])
 POS = np.array([[0, 0, 0], [0, 1, 0], [0, 2, 0], [1, 1.5, 0], [0, 3, 0.5]], float)
@@ -137,3 +138,42 @@ def test_another_ending_is_named(tmp_path, name):
     with pytest.raises(SkeletonError) as raised:
         read_skeleton(tmp_path / name)
     assert str(raised.value) == f"{tmp_path / name} is no skeleton that can be read. Give a file that ends in one of .swc, .json, .npz, .mtg, .csv, .txt, .h5."
+
+
+def test_an_id_beyond_what_a_number_holds_is_named_and_a_byte_order_mark_is_none(tmp_path):
+    (tmp_path / "t.swc").write_text("99999999999999999999 0 0 0 0 1 -1\n")
+    with pytest.raises(SkeletonError, match=r"t\.swc, line 1: expected `id type x y z radius parent`"):
+        read_skeleton(tmp_path / "t.swc")
+    (tmp_path / "t.swc").write_text("\ufeff1 0 0 0 0 1 -1\n2 0 0 1 0 1 1\n", encoding="utf-8")
+    assert len(read_skeleton(tmp_path / "t.swc")) == 2
+
+
+def test_json_with_a_column_missing_is_named(tmp_path):
+    (tmp_path / "t.json").write_text('{"sketchtree_skeleton": 1, "columns": {"parent": [-1]}}')
+    with pytest.raises(SkeletonError, match=r"t\.json: a column is missing or holds no numbers"):
+        read_skeleton(tmp_path / "t.json")
+
+
+@pytest.mark.parametrize("ending", ["swc", "json", "npz", "mtg", "csv", "h5"])
+def test_torn_and_altered_files_are_read_or_refused(tmp_path, ending):
+    """Bytes changed, cut out and put in at random: a tree or a `SkeletonError`, never another error."""
+    tree = TreeSkeleton.from_columns(PARENT, POS, RADIUS, limb=np.array([0, 0, 0, 3, 0]), order=np.array([0, 0, 0, 1, 0]))
+    path, rng = tmp_path / f"t.{ending}", np.random.default_rng(5)
+    table = "id,parent,x,y,z,endX,endY,endZ,radius\n1,0,0,0,0,0,1,0,.2\n2,1,0,1,0,0,2,0,.1\n"
+    mtg = "FEATURES:\nXX\tREAL\nMTG:\nENTITY-CODE\t\tXX\tYY\tZZ\n/P1\t\t0\t0\t0\n^/E1<<E4\t\t0\t0\t9\n\t+E1\t3\t0\t9\n"
+    write = {
+        "swc": lambda: write_swc(path, tree, header={}), "json": lambda: write_skeleton_json(path, tree), "npz": lambda: _npz(tmp_path),
+        "mtg": lambda: path.write_text(mtg), "csv": lambda: path.write_text(table), "h5": lambda: write_skeleton_hdf5(path, tree),
+    }  # fmt: skip
+    write[ending]()
+    whole = path.read_bytes()
+    assert len(read_skeleton(path)) >= 3
+    for _ in range(60):
+        data, at = bytearray(whole), int(rng.integers(len(whole)))
+        new = [bytes([rng.integers(256)]), b"", b"9999999999", b"nan", b"\n", b"\t"][rng.integers(6)]
+        data[at : at + int(rng.integers(30))] = new
+        path.write_bytes(data)
+        try:
+            read_skeleton(path)
+        except SkeletonError as error:
+            assert str(path) in str(error)
