@@ -98,10 +98,12 @@ def _moments(metric: Metric, train: list[Sample], views: Views, crown: bool, dia
         if crown:
             waves.append((shape.footprint - views.footprint[sample.own, best]) @ harmonics())
     off = np.array(off)
-    shift = np.nanmean(off, axis=0)
-    known, away = ~np.isnan(off), np.nan_to_num(off - shift)
+    known = ~np.isnan(off)
+    never = ~known.any(axis=0)  # aspect, where a crown is drawn
+    shift = np.where(known, off, 0).sum(axis=0) / np.maximum(known.sum(axis=0), 1)
+    away = np.where(known, off - shift, 0)
     covariance = away.T @ away / np.maximum(known.T.astype(float) @ known, 1)
-    sd = np.sqrt(np.diag(covariance))
+    sd = np.where(never, 1.0, np.sqrt(np.diag(covariance)))
     sd[TRAITS.index("stems")] = STEMS_SD
     correlation = (1 - SHRINK) * covariance / np.outer(sd, sd) * (0 if diagonal else 1)
     np.fill_diagonal(correlation, 1.0)

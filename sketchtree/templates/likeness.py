@@ -23,7 +23,7 @@ from sketchtree.templates.exemplar import Views
 from sketchtree.templates.metric import BRANCHING, HARMONICS, POSTURE, Metric
 
 SIGMA_FLOOR = (0.05, 0.01, 0.01)  # of sqrt(σ² + σ²) for s (1), α, β (rad): a drawing may be exactly regular
-NU = 8.0
+NU = 4.0
 LACKING = 2.0
 
 

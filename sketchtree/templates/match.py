@@ -22,7 +22,7 @@ from sketchtree.templates.database import Database
 from sketchtree.templates.drawing import Drawing
 from sketchtree.templates.footprint import footprint, root_branch
 from sketchtree.templates.likeness import SketchShape
-from sketchtree.templates.posture import posture
+from sketchtree.templates.posture import FEATURES, posture
 from sketchtree.templates.search import best_views
 from sketchtree.templates.weights import BARE, CROWN
 
@@ -72,11 +72,12 @@ def sketch_shape(graph: SketchGraph) -> SketchShape:
     if graph.segment_count == 0:
         raise SketchError("There is no branch to match.", remedy="Draw a trunk, or name a template with --template.")
     drawing = Drawing.of_graph(graph)
+    held = posture(drawing)[0]
+    if not graph.crown:
+        return SketchShape(None, branching(drawing), held)
+    held[FEATURES.index("aspect")] = np.nan  # the crown's curve says how wide the tree is, be its limbs ever so few
     outline = np.concatenate([_branch_points(graph), *graph.crown])
-    width = None
-    if graph.crown:
-        width = np.array([np.ptp(np.concatenate([graph.xy, *graph.crown])[:, 0])])
-    return SketchShape(footprint(outline) if graph.crown else None, branching(drawing), posture(drawing, width)[0])
+    return SketchShape(footprint(outline), branching(drawing), held)
 
 
 def _branch_points(graph: SketchGraph):

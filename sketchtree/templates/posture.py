@@ -29,13 +29,12 @@ from sketchtree.traverse import limb_chains
 FEATURES = ("aspect", "bare", "leader", "insertions", "rise", "start", "droop", "reach", "taper", "arch", "stems")
 
 
-def posture(drawing: Drawing, width: Float[np.ndarray, " view"] | None = None) -> Float[np.ndarray, "view feature"]:
-    """The features of every view, in the order of `FEATURES`. `width`: of crown and branches, where wider."""
+def posture(drawing: Drawing) -> Float[np.ndarray, "view feature"]:
+    """The features of every view, in the order of `FEATURES`."""
     base = drawing.parent == NULL
     ground = drawing.tip[:, base, 1].min(axis=1)
     height = np.maximum(drawing.tip[:, :, 1].max(axis=1) - ground, 1e-9)
     wide = np.ptp(drawing.tip[:, :, 0], axis=1)
-    wide = wide if width is None else np.maximum(wide, width)
     limbs = _Limbs(drawing)
     at = (limbs.start[..., 1] - ground[:, None]) / height[:, None]
     first, every = limbs.first_order, limbs.not_stem

@@ -9,6 +9,7 @@ from sketchtree.skeleton import TreeSkeleton
 from sketchtree.drawable import drawable
 from sketchtree.templates.footprint import crown_points, project
 from sketchtree.templates.match import match, sketch_shape
+from sketchtree.templates.posture import FEATURES
 from sketchtree.templates.procedural import grow
 from sketchtree.templates.recipe import parse_recipe, read_recipe
 from sketchtree.templates.regenerate import recipe_folder
@@ -126,6 +127,16 @@ def test_the_footprint_of_a_sketch_holds_crown_and_strokes_but_not_the_root_bran
     graph = graph_of([-1, 0, 1, 1], [[0, -50], [0, 2], [0, 3], [0.5, 3.0]], [0, 0, 0, 1], (crown,))
     f = sketch_shape(graph).footprint
     assert f[0] == f[16] == pytest.approx(0.5), "a square: the long stem below does not count"
+
+
+def test_where_a_crown_is_drawn_its_curve_alone_says_how_wide_the_tree_is(graph_of):
+    crown = np.array([[-3, 1], [3, 1], [3, 6], [-3, 6.0]])
+    graph = graph_of([-1, 0, 1, 1], [[0, 0], [0, 2], [0, 3], [0.5, 3.0]], [0, 0, 0, 1], (crown,))
+    aspect = FEATURES.index("aspect")
+    assert np.isnan(sketch_shape(graph).posture[aspect])
+    bare = sketch_shape(graph.replace(crown=())).posture
+    assert bare[aspect] == pytest.approx(np.log(0.5 / 3))
+    np.testing.assert_array_equal(np.delete(sketch_shape(graph).posture, aspect), np.delete(bare, aspect))
 
 
 def test_a_sketch_without_a_branch_is_refused(shipped, graph_of):

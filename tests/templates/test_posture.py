@@ -7,8 +7,8 @@ from sketchtree.templates.drawing import Drawing
 from sketchtree.templates.posture import FEATURES, posture
 
 
-def features(graph, width=None):
-    return dict(zip(FEATURES, posture(Drawing.of_graph(graph), width)[0], strict=True))
+def features(graph):
+    return dict(zip(FEATURES, posture(Drawing.of_graph(graph))[0], strict=True))
 
 
 @pytest.fixture
@@ -34,11 +34,6 @@ def test_the_figures_of_a_drawing_known_by_hand(cross):
 def test_it_is_free_of_scale_place_and_side(cross):
     moved = cross.replace(xy=cross.xy * [-30.0, 30.0] + [5.0, -9.0])
     np.testing.assert_allclose(posture(Drawing.of_graph(moved)), posture(Drawing.of_graph(cross)), atol=1e-12)
-
-
-def test_a_wider_crown_counts_for_the_aspect(cross):
-    assert features(cross, np.array([8.0]))["aspect"] == pytest.approx(np.log(2))
-    assert features(cross, np.array([0.1]))["aspect"] == pytest.approx(np.log(0.5))
 
 
 def test_longer_limbs_below_taper_upwards(graph_of):
