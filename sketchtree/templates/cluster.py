@@ -5,6 +5,7 @@ need no common disk. A worker with other sources than this program's refuses, so
 from two versions. The journal stays with the client.
 """
 
+import logging
 import time
 from collections.abc import Iterator
 from concurrent.futures import CancelledError
@@ -37,10 +38,24 @@ def cluster(address: str) -> Iterator[Crew]:
             f"--scheduler {address}: no Dask scheduler answers there.",
             remedy="Give the address that `dask scheduler` prints, such as tcp://10.0.0.1:8786.",
         ) from error
-    with client:
+    with _hushed(), client:
         crew = _Workers(client, address, (OSError, CancelledError, TimeoutError, KilledWorker))
         crew.greet()
         yield crew
+
+
+@contextmanager
+def _hushed():
+    """What distributed logs when a connection is lost, tracebacks, is ours to say in one paragraph."""
+    loggers = [logging.getLogger(name) for name in logging.root.manager.loggerDict if name.partition(".")[0] == "distributed"]
+    levels = [logger.level for logger in loggers]
+    for logger in loggers:
+        logger.setLevel(logging.CRITICAL + 1)
+    try:
+        yield
+    finally:
+        for logger, level in zip(loggers, levels, strict=True):
+            logger.setLevel(level)
 
 
 class _Workers:
