@@ -1,10 +1,11 @@
 """Which metric makes a sketch's own tree the likeliest? Learning the constants of `templates.weights` by cross-validation.
 
-    python -m benchmarks.fit_match              12 new trees of every recipe, two views each; prints the held-back figures of
-                                                every fold, then the constants
+    python -m benchmarks.fit_match              12 new trees of every recipe, two views each; prints the figures of held-back
+                                                seeds, then the constants
     python -m benchmarks.fit_match --folds 0    only the constants
 
-Three in seven sketches have the jitter of the benchmark (1 % of the height), the others 0 to 3 %; a third lack a third or two thirds of the limbs.
+Three in seven sketches have the jitter of the benchmark (1 % of the height), the others 0 to 3 %; a third lack a third or two
+thirds of the limbs.
 No tree, side or seed of `benchmarks.match` is among them. Two steps, taken twice:
 
     1. shift, sd, correlation, σ_k     moments of x_S − x_E|v over the training sketches, E their own exemplar and v its best view
