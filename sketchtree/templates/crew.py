@@ -4,13 +4,16 @@ A crew takes orders and gives futures. At most `window` orders are out at a time
 is flooded however many there are; blocks come back in the order in which they were asked for.
 """
 
+import os
 import signal
+import threading
 from collections import deque
 from collections.abc import Iterable, Iterator
 from concurrent.futures import Future, ProcessPoolExecutor
 from concurrent.futures.process import BrokenProcessPool
 from contextlib import contextmanager
-from multiprocessing import get_context
+from multiprocessing import get_context, parent_process
+from multiprocessing.connection import wait
 from typing import Protocol
 
 from sketchtree.errors import TemplateError
@@ -78,10 +81,19 @@ def processes(jobs: int) -> Iterator[Crew]:
     if jobs <= 1:
         yield Alone()
         return
-    # Ctrl-C is the parent's to handle; a worker that heard it too would print a traceback.
-    quiet = {"initializer": signal.signal, "initargs": (signal.SIGINT, signal.SIG_IGN)}
-    with ProcessPoolExecutor(jobs, mp_context=get_context("spawn"), **quiet) as pool:
+    with ProcessPoolExecutor(jobs, mp_context=get_context("spawn"), initializer=_begin) as pool:
         yield Processes(pool, jobs)
+
+
+def _begin() -> None:
+    """A worker leaves Ctrl-C to its parent, else it would print a traceback, and ends when the parent has been killed."""
+    signal.signal(signal.SIGINT, signal.SIG_IGN)
+    threading.Thread(target=_end_with_parent, daemon=True).start()
+
+
+def _end_with_parent() -> None:
+    wait([parent_process().sentinel])
+    os._exit(1)
 
 
 def in_turn(wanted: Iterable[Order], crew: Crew, journal: Journal) -> Iterator[tuple[Order, Block]]:

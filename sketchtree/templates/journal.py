@@ -12,6 +12,7 @@ import secrets
 import shutil
 import zipfile
 import zlib
+from collections.abc import Iterable
 from pathlib import Path
 
 import numpy as np
@@ -64,9 +65,9 @@ class Journal:
                 remedy="Write the database to a folder that is writable and has room.",
             ) from error
 
-    def count(self) -> int:
-        """How many parts there are."""
-        return sum(1 for _ in self.folder.glob("*.npz")) if self.folder.is_dir() else 0
+    def count(self, wanted: Iterable[Order]) -> int:
+        """How many of the exemplars there are."""
+        return sum(map(self.has, wanted)) if self.folder.is_dir() else 0
 
     def drop(self) -> None:
         """Removes the folder."""

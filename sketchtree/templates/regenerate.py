@@ -68,16 +68,16 @@ def regenerate(
     is done, `say` what was found of an earlier run and what is kept of this one."""
     out, journal = Path(out), Journal(out)
     crew = cluster(scheduler) if scheduler is not None else processes(min(jobs, len(wanted)))
-    if journal.count():
-        say(f"taking up {sum(map(journal.has, wanted))} of {len(wanted)} exemplars from an earlier run ({journal.folder})")
+    if found := journal.count(wanted):
+        say(f"taking up {found} of {len(wanted)} exemplars from an earlier run ({journal.folder})")
     try:
         with Writer(out, len(wanted), _widths(wanted)) as writer, crew as makers, closing(in_turn(wanted, makers, journal)) as made:
             for order, block in made:
                 writer.add(block)
                 progress(order.name)
     except BaseException:
-        if journal.count():
-            say(f"{journal.count()} finished exemplars are kept in {journal.folder}; the same command goes on from there")
+        if kept := journal.count(wanted):
+            say(f"{kept} finished exemplars are kept in {journal.folder}; the same command goes on from there")
         raise
     journal.drop()
     return Database(out)

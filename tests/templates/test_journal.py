@@ -5,6 +5,7 @@ import signal
 import subprocess
 import sys
 import time
+from pathlib import Path
 
 import pytest
 
@@ -50,7 +51,7 @@ def test_a_stopped_build_leaves_the_old_file_and_goes_on_to_the_same_bytes(tmp_p
     (last,) = _stopped_after(wanted, out, 3, jobs=jobs)
     assert out.read_bytes() == b"precious"
     parts = Journal(out)
-    kept = parts.count()
+    kept = parts.count(wanted)
     assert parts.folder.name == ".db.h5.parts" and 3 <= kept <= 6
     assert last == f"{kept} finished exemplars are kept in {parts.folder}; the same command goes on from there"
     assert sorted(p.name for p in tmp_path.iterdir() if p.name.startswith(".")) == [".db.h5.parts"], "no torn file stays"
@@ -97,21 +98,49 @@ def test_an_error_of_the_recipe_names_its_remedy_wherever_it_is_made(tmp_path, r
     assert not Journal(tmp_path / "db.h5").folder.exists() and not (tmp_path / "db.h5").exists()
 
 
+def _parts(folder):
+    return len(list(folder.glob("*.npz"))) if folder.is_dir() else 0
+
+
+def _runs(process):
+    """Whether there is such a process that is no zombie."""
+    try:
+        return Path(f"/proc/{process}/stat").read_text().rpartition(")")[2].split()[0] != "Z"
+    except OSError:
+        return False
+
+
 @pytest.mark.skipif(sys.platform == "win32", reason="signals")
 @pytest.mark.parametrize(("how", "status"), [(signal.SIGINT, 130), (signal.SIGKILL, -signal.SIGKILL)])
 def test_a_command_that_is_stopped_or_killed_leaves_the_old_file(tmp_path, recipes, how, status):
     out = tmp_path / "db.h5"
     regenerate(out, orders(recipes, count=1))
-    before, parts = out.read_bytes(), Journal(out)
+    before, folder = out.read_bytes(), Journal(out).folder
     typed = [sys.executable, "-m", "sketchtree", "templates", "build", "--recipes", recipes, "--count", "3000", "--out", out, "--jobs", "1"]
     with subprocess.Popen(list(map(str, typed)), stderr=subprocess.PIPE, text=True) as run:
         deadline = time.monotonic() + 60
-        while parts.count() < 3 and time.monotonic() < deadline and run.poll() is None:
+        while _parts(folder) < 3 and time.monotonic() < deadline and run.poll() is None:
             time.sleep(0.02)
         os.kill(run.pid, how)
         said = run.communicate(timeout=60)[1]
     assert run.returncode == status and "Traceback" not in said
     assert out.read_bytes() == before and Database(out).names == ("stick",)
-    assert parts.count() >= 3
+    assert _parts(folder) >= 3
     if how == signal.SIGINT:
         assert "finished exemplars are kept in" in said and said.splitlines()[-1] == "sketchtree: stopped; nothing was left half-written."
+
+
+@pytest.mark.skipif(not sys.platform.startswith("linux"), reason="reads /proc")
+def test_workers_end_with_a_killed_parent(tmp_path, recipes):
+    typed = [sys.executable, "-m", "sketchtree", "templates", "build", "--recipes", recipes, "--count", "3000", "--out", tmp_path / "db.h5", "--jobs", "2"]
+    with subprocess.Popen(list(map(str, typed)), stderr=subprocess.DEVNULL) as run:
+        deadline = time.monotonic() + 60
+        while _parts(Journal(tmp_path / "db.h5").folder) < 3 and time.monotonic() < deadline:
+            time.sleep(0.05)
+        children = Path(f"/proc/{run.pid}/task/{run.pid}/children").read_text()
+        workers = [int(child) for child in children.split() if b"spawn_main" in Path(f"/proc/{child}/cmdline").read_bytes()]
+        run.kill()
+    assert len(workers) == 2
+    while any(map(_runs, workers)) and time.monotonic() < deadline:
+        time.sleep(0.05)
+    assert not any(map(_runs, workers))
