@@ -169,6 +169,15 @@ def test_the_command_begins_a_database_and_adds_to_it(typed, tree, tmp_path):
     Database(into).verify()
 
 
+def test_show_tells_where_it_comes_from_and_how_sure_its_theta_is(typed, tree, tmp_path, capsys):
+    write_swc(tmp_path / "t.swc", tree, header={})
+    assert typed(tmp_path / "t.swc", "--into", tmp_path / "a.h5", "--species", "Tilia", "--quiet")[0] == 0
+    assert run(["templates", "show", "t", "--db", str(tmp_path / "a.h5")]) == 0
+    said = capsys.readouterr().out
+    assert "Tilia" in said and "not said" in said and "; imported by SketchTree" in said
+    assert "Θ, s.e. of means" in said and "Θ, order 2+, s.e." in said and "?" in said, "no pair of order 2 tells anything of γ"
+
+
 def test_the_same_import_gives_the_same_bytes(typed, tree, tmp_path):
     write_swc(tmp_path / "t.swc", tree, header={})
     for name in ("a.h5", "b.h5"):
