@@ -101,7 +101,8 @@ def _table(path) -> tuple[dict[str, np.ndarray], list[int]]:
             f"{path}, line {lines[0][0]}: {len(first)} numbers and no names of columns.",
             remedy="Let the first line name the columns (radius, length, startX …, axisX …, parent); fifteen columns of TreeQSM 2.3 need none.",
         )
-    place = {key: next(names.index(spelling) for spelling in spellings if spelling in names) for key, spellings in _SPELLINGS.items() if set(spellings) & set(names)}
+    spelt = {key: next((spelling for spelling in spellings if spelling in names), None) for key, spellings in _SPELLINGS.items()}
+    place = {key: names.index(spelling) for key, spelling in spelt.items() if spelling is not None}
     _refuse_missing(place, path)
     rows = np.array([_numbers(path, number, text, cut, len(names), place) for number, text in lines]).reshape(-1, len(place))
     if not len(rows):
@@ -116,7 +117,10 @@ def _refuse_missing(place, path) -> None:
     for key in needed:
         if key not in place:
             spelled = ", ".join(f"`{name}`" for name in _SPELLINGS[key])
-            raise SkeletonError(f"{path}: there is no column for {key} (looked for {spelled}).", remedy="Name the column so; docs/templates.md lists all spellings.")
+            raise SkeletonError(
+                f"{path}: there is no column for {key} (looked for {spelled}).",
+                remedy="Name the column so; docs/templates.md lists all spellings.",
+            )
 
 
 def _numbers(path, number, text, cut, count, place) -> list[float]:

@@ -4,7 +4,8 @@ A header (CODE, CLASSES, DESCRIPTION, FEATURES), then one line an entity or a ch
 it grows on: the last entity of the column to the left, or, after `^`, of the same column. `<` continues the axis, `+` bears a
 lateral, `/` refines at a finer scale; `E1<<E5` stands for E1<E2<…<E5, its figures for E5.
 
-Read are the entities with coordinates (`XX YY ZZ` or `X Y Z`), at whatever scale, and those between two of them that bear laterals, evenly spaced along their axis.
+Read are the entities with coordinates (`XX YY ZZ` or `X Y Z`), at whatever scale, and those between two of them that bear laterals, evenly spaced
+along their axis.
 Radii come from `TopDia` (tenths of the unit of length, as AMAPmod's digitisers write it), `diameter` or `radius` (the unit itself); an
 entity without one has its predecessor's.
 """
@@ -52,7 +53,8 @@ def _body(path, lines):
     """The lines after the header, and at which tab each feature stands."""
     heads = {text.split(":")[0].strip().upper(): i for i, (_, text) in enumerate(lines) if ":" in text}
     if "MTG" not in heads or "FEATURES" not in heads:
-        raise SkeletonError(f"{path} is no MTG file: it has no section `{'FEATURES' if 'MTG' in heads else 'MTG'}:`.", remedy="Give a file of AMAPmod or OpenAlea.")
+        lacks = "FEATURES" if "MTG" in heads else "MTG"
+        raise SkeletonError(f"{path} is no MTG file: it has no section `{lacks}:`.", remedy="Give a file of AMAPmod or OpenAlea.")
     code = re.search(r"FORM-\w", lines[heads["CODE"]][1]) if "CODE" in heads else None
     if code and code.group() != "FORM-A":
         raise SkeletonError(f"{path}: it is written in {code.group()}, and only FORM-A is read.", remedy="Save it as FORM-A.")
@@ -160,7 +162,7 @@ def _space_evenly(entities: list[Entity], points: list) -> None:
         between, row = [], entity.above
         while row != NULL and points[row] is None:
             between.append(row)
-            row = NULL if entities[row].lateral and entities[row].above == NULL else entities[row].above
+            row = entities[row].above
             if entities[between[-1]].lateral:
                 break
         if row == NULL or points[row] is None:

@@ -103,7 +103,7 @@ def match_command(sketch: Path, as_json: bool, score: str, db: Path | None, repo
 @templates.command("build")
 @click.option("--out", type=click.Path(path_type=Path), help="The file to write (default: exemplars.h5 beside the recipes).")
 @click.option("--recipes", type=click.Path(path_type=Path), help="Folder of recipes (default: template_db of the checkout).")
-@click.option("--only", multiple=True, metavar="SPECIES", help="Only this recipe; may be repeated.")
+@click.option("--only", multiple=True, metavar="SPECIES", help="Only this recipe, or all of this species; may be repeated.")
 @click.option("--count", type=click.IntRange(1, 100_000), help="So many exemplars: recipes in turn, each round from new seeds.")
 @click.option("--jobs", type=click.IntRange(1, 256), help="Processes (default: all cores); the result is the same.")
 @click.option("--scheduler", metavar="ADDRESS", help="Let the workers of a Dask scheduler do it, such as tcp://10.0.0.1:8786.")

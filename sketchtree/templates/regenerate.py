@@ -32,7 +32,8 @@ def recipe_folder() -> Path:
 
 
 def orders(folder: Path, *, only: tuple[str, ...] = (), count: int | None = None, seed: int = 0) -> list[Order]:
-    """What to make from the recipes in `folder`, in the order of their names. `seed` is added to the recipes' own."""
+    """What to make from the recipes in `folder`, in the order of their names. `only` names recipes or, botanically, species;
+    `seed` is added to the recipes' own."""
     files = sorted(Path(folder).glob("*.toml"))
     if not files:
         raise TemplateError(
@@ -42,10 +43,10 @@ def orders(folder: Path, *, only: tuple[str, ...] = (), count: int | None = None
     if len(recipes) < len(files):
         raise TemplateError(f"Two recipes in {folder} have the same `name`.", remedy="Give each a name of its own.")
     for name in only:
-        if name not in recipes:
+        if name not in recipes and not any(recipe.species == name for recipe, _ in recipes.values()):
             known = ", ".join(sorted(recipes))
             raise TemplateError(f"There is no recipe called {name!r}.", remedy=f"Use one of: {known}.")
-    chosen = [recipes[name] for name in sorted(recipes) if not only or name in only]
+    chosen = [recipes[name] for name in sorted(recipes) if not only or {name, recipes[name][0].species} & set(only)]
     wanted = len(chosen) if count is None else count
     return [_order(*chosen[i % len(chosen)], i // len(chosen), seed) for i in range(wanted)]
 

@@ -62,6 +62,11 @@ def test_a_count_goes_round_the_recipes_with_new_seeds():
     assert not np.array_equal(make(wanted[1])[0].skeleton.tip[:50], make(wanted[3])[0].skeleton.tip[:50])
 
 
+def test_a_species_stands_for_all_its_recipes():
+    assert [o.name for o in orders(recipe_folder(), only=("Picea abies",))] == ["norway_spruce", "norway_spruce_young"]
+    assert [o.name for o in orders(recipe_folder(), only=("apple", "Picea abies"))] == ["apple", "norway_spruce", "norway_spruce_young"]
+
+
 def test_unknown_or_doubled_recipes_are_refused(tmp_path, minimal):
     with pytest.raises(TemplateError, match=r"There is no recipe called 'elm'\. Use one of: american_elm, apple, "):
         orders(recipe_folder(), only=("elm",))

@@ -37,7 +37,10 @@ def habit_from_tree(tree: TreeSkeleton, *, like: Habit | None = None) -> Habit:
         "max_order": int(min(tree.order.max(), 12)),
         **_laterals(tree),
     }
-    limits = {"height": (0.05, 150), "trunk_ratio": (0.001, 0.2), "twig_radius": (1e-4, 0.1), "lateral_spacing": (0.01, 20), "lateral_ratio": (0, 4), "twig_length": (0.01, 20)}
+    limits = {
+        "height": (0.05, 150), "trunk_ratio": (0.001, 0.2), "twig_radius": (1e-4, 0.1), "lateral_spacing": (0.01, 20),
+        "lateral_ratio": (0, 4), "twig_length": (0.01, 20),
+    }  # fmt: skip
     known = {name: value for name, value in measured.items() if value is not None}
     for name, (low, high) in limits.items():
         if name in known:
