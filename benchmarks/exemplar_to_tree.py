@@ -15,8 +15,8 @@ from PIL import Image, ImageDraw, ImageFont
 from sketchtree.keys import root_key
 from sketchtree.pipeline import sketch_to_tree
 from sketchtree.sketch.formats import read_sketch
-from sketchtree.templates.database import Database
-from sketchtree.templates.thumbnail import thumbnail
+from sketchtree.templates.store.database import Database
+from sketchtree.templates.seen.thumbnail import thumbnail
 from sketchtree.view import preview
 
 EXAMPLES = Path(__file__).parents[1] / "examples"

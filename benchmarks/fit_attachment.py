@@ -25,9 +25,9 @@ from sketchtree.sketch.joining.candidates import nearest_places
 from sketchtree.sketch.joining.cleaning import clean
 from sketchtree.sketch.joining.evidence import evidence, slip_of
 from sketchtree.sketch.roles.sorting import sort_strokes
-from sketchtree.templates.procedural import grow
-from sketchtree.templates.recipe import read_recipe
-from sketchtree.templates.regenerate import recipe_folder
+from sketchtree.templates.growing.procedural import grow
+from sketchtree.templates.growing.recipe import read_recipe
+from sketchtree.templates.making.regenerate import recipe_folder
 
 TARGET = Path(fitted.__file__)
 FIRST_SEED = 1000  # of the trees grown for this

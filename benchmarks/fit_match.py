@@ -24,11 +24,11 @@ import numpy as np
 from scipy.optimize import minimize
 
 from benchmarks.tree_sketch import grown, random_pencil, recipes, sketch_of
-from sketchtree.templates.database import Database
+from sketchtree.templates.store.database import Database
 from sketchtree.templates.exemplar import Views
-from sketchtree.templates.likeness import SketchShape, calibrated_terms, chen_terms
-from sketchtree.templates.match import sketch_shape
-from sketchtree.templates.metric import BRANCHING, HARMONICS, POSTURE, TRAITS, Metric, harmonics
+from sketchtree.templates.matching.likeness import SketchShape, calibrated_terms, chen_terms
+from sketchtree.templates.matching.match import sketch_shape
+from sketchtree.templates.matching.metric import BRANCHING, HARMONICS, POSTURE, TRAITS, Metric, harmonics
 
 FIRST_SEED = 1000  # of the trees grown for this
 SHRINK = 0.05  # of correlations

@@ -19,7 +19,7 @@ from sketchtree.keys import root_key
 from sketchtree.options import ReadingOptions, TreeOptions
 from sketchtree.pipeline import TreeModel, sketch_to_tree
 from sketchtree.skeleton import TreeSkeleton
-from sketchtree.templates.database import Database
+from sketchtree.templates.store.database import Database
 from sketchtree.templates.estimate import parent_child_pairs
 
 AT_MOST = 3.0  # degrees

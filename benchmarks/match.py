@@ -18,9 +18,9 @@ import numpy as np
 
 from benchmarks.tree_sketch import Pencil, grown, main_limbs, random_pencil, recipes, sketch_of
 from sketchtree.skeleton import TreeSkeleton
-from sketchtree.templates.database import Database
-from sketchtree.templates.match import SCORES, match
-from sketchtree.templates.recipe import Recipe
+from sketchtree.templates.store.database import Database
+from sketchtree.templates.matching.match import SCORES, match
+from sketchtree.templates.growing.recipe import Recipe
 
 FIRST_SEED = 700_000  # of the trees grown for this; `fit_match` learns from others, and no choice was made by these
 BARS = {True: (0.75, 0.85), False: (0.60, 0.70)}  # with a crown, without: species among three, habit first

@@ -21,10 +21,10 @@ from pathlib import Path
 import h5py
 import numpy as np
 
-from sketchtree.templates.columns import COLUMNS, SCHEMA
-from sketchtree.templates.database import FORMAT, Database
-from sketchtree.templates.digest import Digest, root_digest
-from sketchtree.templates.match import match
+from sketchtree.templates.store.columns import COLUMNS, SCHEMA
+from sketchtree.templates.store.database import FORMAT, Database
+from sketchtree.templates.store.digest import Digest, root_digest
+from sketchtree.templates.matching.match import match
 
 SLAB = 1000  # exemplars written at a time
 NOISE = 0.02

@@ -20,7 +20,7 @@ from scipy.ndimage import binary_closing, binary_fill_holes
 from sketchtree.keys import root_key
 from sketchtree.options import ReadingOptions
 from sketchtree.pipeline import TreeModel, sketch_to_tree
-from sketchtree.templates.database import Database
+from sketchtree.templates.store.database import Database
 from sketchtree.view import preview
 
 SKETCH = Path(__file__).parent / "data" / "ten_strokes.svg"

@@ -16,10 +16,10 @@ from PIL import Image, ImageDraw, ImageFont
 from sketchtree import keys
 from sketchtree.foliage.models import leaf_model
 from sketchtree.foliage.populate import populate
-from sketchtree.templates.footprint import project
-from sketchtree.templates.procedural import grow
-from sketchtree.templates.recipe import GROWTH_HABITS, Recipe, read_recipe
-from sketchtree.templates.regenerate import recipe_folder
+from sketchtree.templates.seen.footprint import project
+from sketchtree.templates.growing.procedural import grow
+from sketchtree.templates.growing.recipe import GROWTH_HABITS, Recipe, read_recipe
+from sketchtree.templates.making.regenerate import recipe_folder
 
 CELL, CAPTION, FINER = 300, 34, 2  # pixels; drawn finer, then averaged
 LEAVES = 14_000  # a tree, at most

@@ -51,7 +51,7 @@ FIGURES = ("segments", "strokes", "listed", "reversed", "joined", "nearest")
 
 def trees(folder: Path | None = None) -> Iterator[tuple[str, object]]:
     """(name, skeleton) of every exemplar and every measured tree (of `folder`, by default those shipped)."""
-    from sketchtree.templates.database import Database
+    from sketchtree.templates.store.database import Database
 
     database = Database.open()
     for name in database.names:

@@ -17,10 +17,10 @@ from sketchtree.axes import NULL
 from sketchtree.drawable import drawable
 from sketchtree.skeleton import TreeSkeleton
 from sketchtree.sketch.graph import SketchGraph
-from sketchtree.templates.footprint import crown_points, project
-from sketchtree.templates.procedural import grow
-from sketchtree.templates.recipe import Recipe, read_recipe
-from sketchtree.templates.regenerate import recipe_folder
+from sketchtree.templates.seen.footprint import crown_points, project
+from sketchtree.templates.growing.procedural import grow
+from sketchtree.templates.growing.recipe import Recipe, read_recipe
+from sketchtree.templates.making.regenerate import recipe_folder
 
 SCALE, PLACE = 60.0, (400.0, 40.0)  # sketch units a metre, and where the tree stands on the page
 CORNERS, HARMONICS = 96, 6  # of a crown's curve

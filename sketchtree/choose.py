@@ -5,9 +5,9 @@ from sketchtree.foliage.models import leaf_names
 from sketchtree.geometry.bark import bark_names
 from sketchtree.parameters import Habit
 from sketchtree.sketch.graph import SketchGraph
-from sketchtree.templates.database import Database
+from sketchtree.templates.store.database import Database
 from sketchtree.templates.exemplar import Exemplar
-from sketchtree.templates.match import Match, match
+from sketchtree.templates.matching.match import Match, match
 
 
 def choose_template(graph: SketchGraph, templates: Database | None, wanted: str) -> tuple[list[Match], Exemplar | None]:

@@ -35,9 +35,9 @@ from sketchtree.similarity import Similarity
 from sketchtree.skeleton import TreeSkeleton
 from sketchtree.sketch.graph import SketchGraph
 from sketchtree.sketch.strokes import Sketch
-from sketchtree.templates.database import Database
+from sketchtree.templates.store.database import Database
 from sketchtree.templates.exemplar import Exemplar
-from sketchtree.templates.match import Match
+from sketchtree.templates.matching.match import Match
 from sketchtree.watch import Watch
 
 STAGES = ("read", "match", "infer", "propagate", "foliage", "mesh", "export")

@@ -45,7 +45,7 @@ def build(sketch: Path, output: Path, seed: int, quiet: bool, json_log: bool, re
     from sketchtree import options as choices
     from sketchtree import pipeline
     from sketchtree.keys import root_key
-    from sketchtree.templates.database import Database
+    from sketchtree.templates.store.database import Database
     from sketchtree.watch import Watch
 
     imported = time.perf_counter() - began

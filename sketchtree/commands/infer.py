@@ -28,7 +28,7 @@ def infer(sketch: Path, output: Path, frame: str, seed: int, quiet: bool, json_l
     from sketchtree import options as choices
     from sketchtree import pipeline
     from sketchtree.keys import root_key
-    from sketchtree.templates.database import Database
+    from sketchtree.templates.store.database import Database
     from sketchtree.watch import Watch
 
     imported = time.perf_counter() - began

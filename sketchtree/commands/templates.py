@@ -24,7 +24,7 @@ def templates() -> None:
 @common
 def list_command(as_json: bool, db: Path | None, report: Path | None, **_) -> None:
     """One line an exemplar and nothing else."""
-    from sketchtree.templates.database import Database
+    from sketchtree.templates.store.database import Database
 
     database = Database.open(db)
     columns = (database.names, database.titles, database.species, database.growth_habits)
@@ -44,7 +44,7 @@ def list_command(as_json: bool, db: Path | None, report: Path | None, **_) -> No
 @common
 def show_command(name: str, out: Path | None, db: Path | None, report: Path | None, quiet: bool, **_) -> None:
     """What the database knows of one exemplar."""
-    from sketchtree.templates.database import Database
+    from sketchtree.templates.store.database import Database
     from sketchtree.templates.pictures import portrait, save_picture
     from sketchtree.templates.summary import summary
 
@@ -64,7 +64,7 @@ def show_command(name: str, out: Path | None, db: Path | None, report: Path | No
 @common
 def sheet_command(out: Path, db: Path | None, report: Path | None, **_) -> None:
     """All exemplars on one picture."""
-    from sketchtree.templates.database import Database
+    from sketchtree.templates.store.database import Database
     from sketchtree.templates.pictures import contact_sheet, save_picture
 
     database = Database.open(db)
@@ -83,8 +83,8 @@ def match_command(sketch: Path, as_json: bool, score: str, db: Path | None, repo
     from sketchtree.commands.writing import split_options
     from sketchtree.drawing import read_drawing
     from sketchtree.options import DrawingOptions
-    from sketchtree.templates.database import Database
-    from sketchtree.templates.match import match
+    from sketchtree.templates.store.database import Database
+    from sketchtree.templates.matching.match import match
     from sketchtree.watch import Watch
 
     (options,) = split_options(wanted, DrawingOptions)
@@ -116,7 +116,7 @@ def build_command(
 
     A build that was stopped goes on where it was when the same command is run again.
     """
-    from sketchtree.templates.regenerate import orders, recipe_folder, regenerate
+    from sketchtree.templates.making.regenerate import orders, recipe_folder, regenerate
 
     if scheduler is not None and jobs is not None:
         raise OptionError("`--jobs` and `--scheduler` exclude each other.", remedy="Leave one out.")
@@ -204,7 +204,7 @@ def import_command(
 def _is_database(file: Path) -> bool:
     import h5py
 
-    from sketchtree.templates.writer import FORMAT
+    from sketchtree.templates.store.writer import FORMAT
 
     try:
         with h5py.File(file, "r") as opened:
@@ -214,7 +214,7 @@ def _is_database(file: Path) -> bool:
 
 
 def _habit_of(name: str, db: Path | None):
-    from sketchtree.templates.database import Database
+    from sketchtree.templates.store.database import Database
 
     return Database.open(db).exemplar(name).habit
 

@@ -1,1 +1,1 @@
-"""Which exemplar is a sketch most like? Recipes, the database made from them, and matching."""
+"""Trees that a sketch may be like: grown from recipes or imported, kept in a database, matched with what was drawn."""

@@ -11,14 +11,14 @@ from jaxtyping import Float, UInt8
 
 from sketchtree.parameters import Habit, LimbStatistics, TreeParameters
 from sketchtree.skeleton import TreeSkeleton
-from sketchtree.templates.branching import Branching, branching
+from sketchtree.templates.seen.branching import Branching, branching
 from sketchtree.drawable import drawable
-from sketchtree.templates.drawing import Drawing
+from sketchtree.templates.seen.drawing import Drawing
 from sketchtree.templates.estimate import estimate, estimate_by_order
-from sketchtree.templates.footprint import crown_points, footprint, project, view_azimuths
+from sketchtree.templates.seen.footprint import crown_points, footprint, project, view_azimuths
 from sketchtree.templates.limb_statistics import limb_statistics
-from sketchtree.templates.posture import posture
-from sketchtree.templates.thumbnail import thumbnail
+from sketchtree.templates.seen.posture import posture
+from sketchtree.templates.seen.thumbnail import thumbnail
 
 
 @dataclass(frozen=True, eq=False)

@@ -7,9 +7,9 @@ from jaxtyping import UInt8
 from PIL import Image, ImageDraw, ImageFont
 
 from sketchtree.errors import OptionError
-from sketchtree.templates.database import Database
+from sketchtree.templates.store.database import Database
 from sketchtree.templates.exemplar import Exemplar
-from sketchtree.templates.thumbnail import thumbnail
+from sketchtree.templates.seen.thumbnail import thumbnail
 
 PORTRAIT = 640  # pixels a view
 CELL = 320  # pixels an exemplar on the sheet

@@ -4,12 +4,12 @@ import numpy as np
 import pytest
 
 from benchmarks.fit_match import Sample, _first, fit, measured, written
-from sketchtree.templates.branching import Branching
-from sketchtree.templates.database import Database
-from sketchtree.templates.likeness import SketchShape, calibrated_terms
-from sketchtree.templates.metric import BRANCHING, POSTURE, TRAITS, Metric, correlations
-from sketchtree.templates.regenerate import recipe_folder
-from sketchtree.templates.weights import BARE
+from sketchtree.templates.seen.branching import Branching
+from sketchtree.templates.store.database import Database
+from sketchtree.templates.matching.likeness import SketchShape, calibrated_terms
+from sketchtree.templates.matching.metric import BRANCHING, POSTURE, TRAITS, Metric, correlations
+from sketchtree.templates.making.regenerate import recipe_folder
+from sketchtree.templates.matching.weights import BARE
 
 SHIFT, SD = 0.1, 0.08
 

@@ -3,7 +3,7 @@
 import pytest
 
 from benchmarks.fixed_theta import AT_MOST, apart
-from sketchtree.templates.database import Database
+from sketchtree.templates.store.database import Database
 
 
 @pytest.mark.parametrize("name", ["english_oak", "apple", "norway_spruce"])

@@ -3,7 +3,7 @@
 import pytest
 
 from benchmarks.match_speed import measure, print_table, write_large
-from sketchtree.templates.database import Database
+from sketchtree.templates.store.database import Database
 
 
 @pytest.mark.parametrize("gzip", [False, True])

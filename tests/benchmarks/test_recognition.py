@@ -5,8 +5,8 @@ import pytest
 
 from benchmarks.match import BARS, HANDS, PLAIN, Ranked, confusion, shares, sketch_and_rank, write_confusion
 from benchmarks.tree_sketch import recipes
-from sketchtree.templates.database import Database
-from sketchtree.templates.regenerate import recipe_folder
+from sketchtree.templates.store.database import Database
+from sketchtree.templates.making.regenerate import recipe_folder
 
 SEED = 950_000  # neither learnt from nor among the benchmark's
 FLOORS = {True: (0.75, 0.90, 0.88), False: (0.70, 0.88, 0.84)}  # with a crown, without: species first, among three, habit first

@@ -7,8 +7,8 @@ import pytest
 import shapely
 
 from benchmarks.tree_sketch import PLACE, SCALE, Pencil, crown_curve, main_limbs, random_pencil, recipes, sketch_of
-from sketchtree.templates.footprint import crown_points, footprint, project
-from sketchtree.templates.procedural import grow
+from sketchtree.templates.seen.footprint import crown_points, footprint, project
+from sketchtree.templates.growing.procedural import grow
 
 PENCIL = Pencil(azimuth=40.0)
 

@@ -7,8 +7,8 @@ import pytest
 from PIL import Image
 
 from sketchtree.commands.app import run
-from sketchtree.templates.database import Database
-from sketchtree.templates.regenerate import recipe_folder
+from sketchtree.templates.store.database import Database
+from sketchtree.templates.making.regenerate import recipe_folder
 
 ROOT = Path(__file__).resolve().parents[2]
 SHIPPED = recipe_folder() / "exemplars.h5"
@@ -94,7 +94,7 @@ def test_build_makes_what_is_asked_and_says_so_in_plain_lines(typed, tmp_path):
 
 def test_build_takes_all_processors_and_tells_of_many_in_tenths(typed, tmp_path, monkeypatch, capsys):
     from sketchtree.commands.templates import Exemplars, cores
-    from sketchtree.templates import regenerate as module
+    from sketchtree.templates.making import regenerate as module
 
     asked = {}
     monkeypatch.setattr(module, "regenerate", lambda out, wanted, **how: asked.update(how) or Database(SHIPPED))
@@ -134,7 +134,7 @@ def test_the_users_mistakes_end_in_one_paragraph_and_status_2(typed, tmp_path, m
 
 def test_a_part_never_replaces_the_whole_database_unasked(capfd):
     from sketchtree.commands.app import run
-    from sketchtree.templates.regenerate import recipe_folder
+    from sketchtree.templates.making.regenerate import recipe_folder
 
     before = (recipe_folder() / "exemplars.h5").read_bytes()
     assert run(["templates", "build", "--only", "hazel", "--quiet"]) == 2

@@ -217,7 +217,7 @@ def test_wrong_options_are_refused(options, message):
 @pytest.mark.skipif(not Path("template_db/exemplars.h5").exists(), reason="the template database is not built")
 @pytest.mark.parametrize("name", ["english_oak", "norway_spruce", "date_palm"])
 def test_an_exemplar_wears_its_leaves_on_its_wood(name):
-    from sketchtree.templates.database import Database
+    from sketchtree.templates.store.database import Database
 
     exemplar = Database.open().exemplar(name)
     leaves = populate(exemplar.skeleton, exemplar.habit, key=KEY)

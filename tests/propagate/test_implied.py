@@ -6,7 +6,7 @@ import pytest
 from sketchtree.propagate.envelope import Lobe
 from sketchtree.propagate.implied import LEVELS, NARROWEST, TEMPLATES_SHARE, crown_profile, implied_crown, shaped
 from sketchtree.skeleton import TreeSkeleton
-from sketchtree.templates.database import Database
+from sketchtree.templates.store.database import Database
 from tests.propagate.test_drawn import HABIT, drawn_tree
 
 

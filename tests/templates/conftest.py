@@ -4,8 +4,8 @@ import numpy as np
 import pytest
 
 from sketchtree.sketch.graph import SketchGraph
-from sketchtree.templates.database import Database
-from sketchtree.templates.regenerate import recipe_folder
+from sketchtree.templates.store.database import Database
+from sketchtree.templates.making.regenerate import recipe_folder
 
 MINIMAL = """
 name = "stick"

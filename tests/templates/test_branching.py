@@ -3,10 +3,10 @@
 import numpy as np
 import pytest
 
-from sketchtree.templates.branching import SHORT, branching
+from sketchtree.templates.seen.branching import SHORT, branching
 from sketchtree.drawable import drawable
-from sketchtree.templates.drawing import Drawing
-from sketchtree.templates.footprint import view_azimuths
+from sketchtree.templates.seen.drawing import Drawing
+from sketchtree.templates.seen.footprint import view_azimuths
 
 
 def slow_twin(drawing: Drawing, view: int):

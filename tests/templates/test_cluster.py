@@ -5,11 +5,11 @@ import sys
 import pytest
 
 from sketchtree.errors import OptionError, SketchTreeError, TemplateError
-from sketchtree.templates import cluster as cluster_module
-from sketchtree.templates.cluster import cluster
-from sketchtree.templates.fingerprint import fingerprint
-from sketchtree.templates.journal import Journal
-from sketchtree.templates.regenerate import orders, recipe_folder, regenerate
+from sketchtree.templates.making import cluster as cluster_module
+from sketchtree.templates.making.cluster import cluster
+from sketchtree.templates.making.fingerprint import fingerprint
+from sketchtree.templates.making.journal import Journal
+from sketchtree.templates.making.regenerate import orders, recipe_folder, regenerate
 
 pytestmark = pytest.mark.filterwarnings("default")  # those of distributed and tornado are not ours
 

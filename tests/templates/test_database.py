@@ -15,13 +15,13 @@ import numpy as np
 import pytest
 
 from sketchtree.errors import TemplateError
-from sketchtree.templates.columns import COLUMNS, SCHEMA, to_columns
-from sketchtree.templates.database import Database, default_path
+from sketchtree.templates.store.columns import COLUMNS, SCHEMA, to_columns
+from sketchtree.templates.store.database import Database, default_path
 from sketchtree.templates.exemplar import measure
-from sketchtree.templates.procedural import grow
-from sketchtree.templates.recipe import parse_recipe
-from sketchtree.templates.regenerate import recipe_folder
-from sketchtree.templates.writer import Writer, write_database
+from sketchtree.templates.growing.procedural import grow
+from sketchtree.templates.growing.recipe import parse_recipe
+from sketchtree.templates.making.regenerate import recipe_folder
+from sketchtree.templates.store.writer import Writer, write_database
 
 SHIPPED = recipe_folder() / "exemplars.h5"
 
@@ -249,7 +249,7 @@ def test_a_reader_in_another_process_is_told_that_the_file_was_replaced(made, tm
     columns = to_columns([made[0]], [made[1]])
     write_database(path, columns)
     code = (
-        "import sys; from sketchtree.templates.database import Database; db = Database(sys.argv[1]); print(db.exemplar('stick').seed, flush=True);"
+        "import sys; from sketchtree.templates.store.database import Database; db = Database(sys.argv[1]); print(db.exemplar('stick').seed, flush=True);"
         "sys.stdin.readline()\ntry: db.exemplar('stick')\nexcept Exception as error: print(error)\nprint(Database(sys.argv[1]).exemplar('stick').seed)"
     )
     with subprocess.Popen([sys.executable, "-c", code, path], stdin=subprocess.PIPE, stdout=subprocess.PIPE, text=True) as reader:

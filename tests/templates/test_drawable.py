@@ -5,7 +5,7 @@ import pytest
 
 from sketchtree.skeleton import TreeSkeleton
 from sketchtree.drawable import ALONG_LIMB, ALONG_STEM, DEEPEST, TOLERANCE, bends, drawable
-from sketchtree.templates.drawing import Drawing
+from sketchtree.templates.seen.drawing import Drawing
 from sketchtree.traverse import limb_chains
 
 

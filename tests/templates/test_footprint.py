@@ -3,7 +3,7 @@
 import numpy as np
 import pytest
 
-from sketchtree.templates.footprint import (
+from sketchtree.templates.seen.footprint import (
     DIRECTIONS,
     VIEWS,
     crown_points,

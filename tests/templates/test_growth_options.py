@@ -3,9 +3,9 @@
 import numpy as np
 import pytest
 
-from sketchtree.templates.procedural import grow
-from sketchtree.templates.recipe import parse_recipe
-from sketchtree.templates.space import Space
+from sketchtree.templates.growing.procedural import grow
+from sketchtree.templates.growing.recipe import parse_recipe
+from sketchtree.templates.growing.space import Space
 from sketchtree.traverse import is_tip, limb_chains
 
 

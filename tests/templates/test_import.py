@@ -14,13 +14,13 @@ from sketchtree.parameters import Habit
 from sketchtree.skeleton import Kind, TreeSkeleton
 from sketchtree.skeleton_files import read_skeleton
 from sketchtree.skeleton_hdf5 import write_skeleton_hdf5
-from sketchtree.templates import recipe
-from sketchtree.templates.database import Database
+from sketchtree.templates.growing import recipe
+from sketchtree.templates.store.database import Database
 from sketchtree.templates.importing.frame import stood
 from sketchtree.templates.importing.habit import habit_from_tree
 from sketchtree.templates.importing.read import Described, check_name, imported, name_of
-from sketchtree.templates.order import make
-from sketchtree.templates.regenerate import orders, recipe_folder
+from sketchtree.templates.making.order import make
+from sketchtree.templates.making.regenerate import orders, recipe_folder
 
 SHIPPED = recipe_folder() / "exemplars.h5"
 SKELETONS = Path(__file__).resolve().parents[3] / "shared" / "data" / "skeletons"

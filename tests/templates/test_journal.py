@@ -10,10 +10,10 @@ from pathlib import Path
 import pytest
 
 from sketchtree.errors import TemplateError
-from sketchtree.templates.database import Database
-from sketchtree.templates.journal import Journal
-from sketchtree.templates.order import Refusal, make_block
-from sketchtree.templates.regenerate import orders, regenerate
+from sketchtree.templates.store.database import Database
+from sketchtree.templates.making.journal import Journal
+from sketchtree.templates.making.order import Refusal, make_block
+from sketchtree.templates.making.regenerate import orders, regenerate
 
 
 @pytest.fixture
@@ -64,7 +64,7 @@ def test_what_was_kept_is_not_made_again(tmp_path, recipes, whole, monkeypatch):
     out, wanted = tmp_path / "db.h5", orders(recipes, count=6)
     _stopped_after(wanted, out, 4)
     made = []
-    monkeypatch.setattr("sketchtree.templates.crew.make_block", lambda order: made.append(order.name) or make_block(order))
+    monkeypatch.setattr("sketchtree.templates.making.crew.make_block", lambda order: made.append(order.name) or make_block(order))
     regenerate(out, wanted)
     assert made == ["stick_5", "stick_6"] and out.read_bytes() == whole
 
@@ -86,13 +86,13 @@ def test_a_part_serves_only_its_own_recipe_seed_and_program(tmp_path, recipes, m
     assert not any(map(Journal(out).has, orders(recipes, count=2, seed=1)))
     (recipes / "stick.toml").write_text(minimal.replace("height = 4.0", "height = 5.0"))
     assert not any(map(Journal(out).has, orders(recipes, count=2)))
-    monkeypatch.setattr("sketchtree.templates.journal.fingerprint", lambda: "another")
+    monkeypatch.setattr("sketchtree.templates.making.journal.fingerprint", lambda: "another")
     assert not any(map(Journal(out).has, wanted))
 
 
 def test_an_error_of_the_recipe_names_its_remedy_wherever_it_is_made(tmp_path, recipes, monkeypatch):
     wanted = orders(recipes)
-    monkeypatch.setattr("sketchtree.templates.crew.make_block", lambda order: Refusal("It will not grow.", "Water it."))
+    monkeypatch.setattr("sketchtree.templates.making.crew.make_block", lambda order: Refusal("It will not grow.", "Water it."))
     with pytest.raises(TemplateError, match=r"^It will not grow\. Water it\.$"):
         regenerate(tmp_path / "db.h5", wanted)
     assert not Journal(tmp_path / "db.h5").folder.exists() and not (tmp_path / "db.h5").exists()

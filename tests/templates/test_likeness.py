@@ -5,9 +5,9 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
-from sketchtree.templates.branching import Branching
+from sketchtree.templates.seen.branching import Branching
 from sketchtree.templates.exemplar import Views
-from sketchtree.templates.likeness import (
+from sketchtree.templates.matching.likeness import (
     LACKING,
     NU,
     SIGMA_FLOOR,
@@ -17,8 +17,8 @@ from sketchtree.templates.likeness import (
     chen_terms,
     crown_likeness,
 )
-from sketchtree.templates.metric import BRANCHING, HARMONICS, POSTURE, TRAITS
-from sketchtree.templates.weights import BARE, CROWN
+from sketchtree.templates.matching.metric import BRANCHING, HARMONICS, POSTURE, TRAITS
+from sketchtree.templates.matching.weights import BARE, CROWN
 
 
 @pytest.fixture(scope="module")

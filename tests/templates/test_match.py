@@ -7,12 +7,12 @@ from scipy.spatial import ConvexHull
 from sketchtree.errors import OptionError, SketchError
 from sketchtree.skeleton import TreeSkeleton
 from sketchtree.drawable import drawable
-from sketchtree.templates.footprint import crown_points, project
-from sketchtree.templates.match import match, sketch_shape
-from sketchtree.templates.posture import FEATURES
-from sketchtree.templates.procedural import grow
-from sketchtree.templates.recipe import parse_recipe, read_recipe
-from sketchtree.templates.regenerate import recipe_folder
+from sketchtree.templates.seen.footprint import crown_points, project
+from sketchtree.templates.matching.match import match, sketch_shape
+from sketchtree.templates.seen.posture import FEATURES
+from sketchtree.templates.growing.procedural import grow
+from sketchtree.templates.growing.recipe import parse_recipe, read_recipe
+from sketchtree.templates.making.regenerate import recipe_folder
 
 UNSEEN = 17.0  # degrees: no view of the database
 KEPT = 0.95  # share of sketches whose own species comes first: 0.989 without a crown, 1.0 with one

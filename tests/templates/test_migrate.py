@@ -6,13 +6,13 @@ import h5py
 import numpy as np
 import pytest
 
-from sketchtree.templates.columns import COLUMNS, SCHEMA, to_columns
-from sketchtree.templates.database import Database
-from sketchtree.templates.digest import digest_of, root_digest
-from sketchtree.templates.migrate import ADDED, filled, stored
-from sketchtree.templates.order import make
-from sketchtree.templates.regenerate import orders, recipe_folder
-from sketchtree.templates.writer import Writer, write_database
+from sketchtree.templates.store.columns import COLUMNS, SCHEMA, to_columns
+from sketchtree.templates.store.database import Database
+from sketchtree.templates.store.digest import digest_of, root_digest
+from sketchtree.templates.store.migrate import ADDED, filled, stored
+from sketchtree.templates.making.order import make
+from sketchtree.templates.making.regenerate import orders, recipe_folder
+from sketchtree.templates.store.writer import Writer, write_database
 
 
 @pytest.fixture

@@ -3,8 +3,8 @@
 import numpy as np
 import pytest
 
-from sketchtree.templates.drawing import Drawing
-from sketchtree.templates.posture import FEATURES, posture
+from sketchtree.templates.seen.drawing import Drawing
+from sketchtree.templates.seen.posture import FEATURES, posture
 
 
 def features(graph):

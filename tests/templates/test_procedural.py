@@ -4,11 +4,11 @@ import numpy as np
 import pytest
 
 from sketchtree.errors import TemplateError
-from sketchtree.templates.draws import Draws, limb_stream_id
-from sketchtree.templates.headings import UP, bend, cross, lateral, side, tropism, turn, unit
-from sketchtree.templates.pipes import pipe_radii
-from sketchtree.templates.procedural import grow
-from sketchtree.templates.recipe import parse_recipe
+from sketchtree.templates.growing.draws import Draws, limb_stream_id
+from sketchtree.templates.growing.headings import UP, bend, cross, lateral, side, tropism, turn, unit
+from sketchtree.templates.growing.pipes import pipe_radii
+from sketchtree.templates.growing.procedural import grow
+from sketchtree.templates.growing.recipe import parse_recipe
 from sketchtree.traverse import is_tip, limb_chains
 
 
@@ -91,7 +91,7 @@ def test_several_stems_stand_on_bases_of_their_own(minimal):
 
 
 def test_a_recipe_that_runs_wild_is_refused(minimal, monkeypatch):
-    monkeypatch.setattr("sketchtree.templates.procedural.MAX_SEGMENTS", 900)
+    monkeypatch.setattr("sketchtree.templates.growing.procedural.MAX_SEGMENTS", 900)
     text = minimal.replace("levels = 2", "levels = 8").replace("ratio = 0.3", "ratio = 2.0")
     with pytest.raises(TemplateError, match=r"Recipe stick: it grows more than 900 segments\. Use longer segments"):
         grown(text.replace("spacing = 1.0", "spacing = 0.5").replace("[habit]", "spacing = 0.4\n[habit]"))

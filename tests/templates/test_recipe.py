@@ -6,10 +6,10 @@ import pytest
 
 from sketchtree.errors import TemplateError
 from sketchtree.parameters import Habit
-from sketchtree.templates.profile import Profile
-from sketchtree.templates.recipe import GROWTH_HABITS, parse_recipe, read_recipe
-from sketchtree.templates.regenerate import recipe_folder
-from sketchtree.templates.tables import Crown, Limbs
+from sketchtree.templates.growing.profile import Profile
+from sketchtree.templates.growing.recipe import GROWTH_HABITS, parse_recipe, read_recipe
+from sketchtree.templates.making.regenerate import recipe_folder
+from sketchtree.templates.growing.tables import Crown, Limbs
 
 
 def test_a_number_is_a_constant_profile_and_pairs_are_knots(minimal):

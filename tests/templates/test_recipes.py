@@ -7,9 +7,9 @@ import pytest
 
 from sketchtree.foliage.models import leaf_names
 from sketchtree.geometry.bark import bark_names
-from sketchtree.templates.procedural import grow
-from sketchtree.templates.recipe import GROWTH_HABITS, read_recipe
-from sketchtree.templates.regenerate import recipe_folder
+from sketchtree.templates.growing.procedural import grow
+from sketchtree.templates.growing.recipe import GROWTH_HABITS, read_recipe
+from sketchtree.templates.making.regenerate import recipe_folder
 from sketchtree.traverse import limb_chains
 
 RECIPES = {path.stem: read_recipe(path) for path in sorted(recipe_folder().glob("*.toml"))}

@@ -8,10 +8,10 @@ import pytest
 
 from sketchtree.errors import TemplateError
 from sketchtree.parameters import TreeParameters
-from sketchtree.templates import database
-from sketchtree.templates.database import Database
-from sketchtree.templates.recipe import read_recipe
-from sketchtree.templates.regenerate import make, orders, recipe_folder, regenerate
+from sketchtree.templates.store import database
+from sketchtree.templates.store.database import Database
+from sketchtree.templates.growing.recipe import read_recipe
+from sketchtree.templates.making.regenerate import make, orders, recipe_folder, regenerate
 
 SOME = ("apple", "date_palm", "hazel")
 
@@ -27,7 +27,7 @@ def test_the_committed_file_has_exactly_the_recipes(shipped):
 def test_the_wheel_carries_it():
     project = tomllib.loads((recipe_folder().parent / "pyproject.toml").read_text(encoding="utf-8"))
     included = project["tool"]["hatch"]["build"]["targets"]["wheel"]["force-include"]
-    packaged = Path(database.__file__).parent / "data" / "exemplars.h5"
+    packaged = Path(database.__file__).parents[1] / "data" / "exemplars.h5"
     assert included["template_db/exemplars.h5"] == packaged.relative_to(recipe_folder().parent).as_posix()
 
 

@@ -5,12 +5,12 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
-from sketchtree.templates import search
-from sketchtree.templates.branching import Branching
+from sketchtree.templates.matching import search
+from sketchtree.templates.seen.branching import Branching
 from sketchtree.templates.exemplar import Views
-from sketchtree.templates.likeness import SketchShape, calibrated_terms, chen_terms
-from sketchtree.templates.search import best_views
-from sketchtree.templates.weights import BARE, CROWN
+from sketchtree.templates.matching.likeness import SketchShape, calibrated_terms, chen_terms
+from sketchtree.templates.matching.search import best_views
+from sketchtree.templates.matching.weights import BARE, CROWN
 
 
 @pytest.fixture(scope="module")

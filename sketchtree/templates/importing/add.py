@@ -7,10 +7,10 @@ from collections.abc import Iterator, Sequence
 from pathlib import Path
 
 from sketchtree.errors import TemplateError
-from sketchtree.templates.columns import TEXTS
-from sketchtree.templates.database import Database
-from sketchtree.templates.order import Block
-from sketchtree.templates.writer import Writer
+from sketchtree.templates.store.columns import TEXTS
+from sketchtree.templates.store.database import Database
+from sketchtree.templates.making.order import Block
+from sketchtree.templates.store.writer import Writer
 
 
 def add(into: Path, new: Sequence[Block], *, replace: bool = False) -> Database:

@@ -8,12 +8,12 @@ from pathlib import Path
 from sketchtree.errors import SketchTreeError, TemplateError
 from sketchtree.parameters import Habit
 from sketchtree.skeleton_files import read_skeleton
-from sketchtree.templates.columns import to_columns
+from sketchtree.templates.store.columns import to_columns
 from sketchtree.templates.exemplar import measure
 from sketchtree.templates.importing.frame import UP, stood
 from sketchtree.templates.importing.habit import habit_from_tree
-from sketchtree.templates.order import Block
-from sketchtree.templates.recipe import NAME_LENGTH
+from sketchtree.templates.making.order import Block
+from sketchtree.templates.growing.recipe import NAME_LENGTH
 from sketchtree.version import __version__
 
 
