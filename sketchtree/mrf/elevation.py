@@ -85,7 +85,7 @@ class Elevation(AbstractSolver):
     typical: bool = True  # show `answer.typical`; False: the best tree itself
     chain_count: int = 24  # fewer on drawings above 256 rows
     burn: tuple[float, ...] = (1.7, 1.0, 1.0)  # temperature of each block
-    keep: int = 6  # blocks at temperature 1 whose states are samples
+    keep: int = 7  # blocks at temperature 1 whose states are samples
     cool: tuple[float, ...] = (0.3, 0.05, 1e-4)
     polish: Any = None  # an `optimistix.AbstractMinimiser` to run after cooling; costs a second program
 
