@@ -118,8 +118,8 @@ def _nearest(points, nodes, angles) -> tuple[Int[np.ndarray, " branch"], Float[n
     distances, found = (x.reshape(len(points), near) for x in cKDTree(nodes.tip).query(points, near))
     along = np.einsum("pna,pna->pn", nodes.frame[found][:, :, :, 1], points[:, None] - nodes.tip[found])
     turn_ = np.arccos(np.clip(along / np.maximum(distances, 1e-12), -1.0, 1.0))
-    away = np.maximum(np.maximum(angles[0] - turn_, turn_ - angles[1]), 0.0)
-    best = np.lexsort((distances, nodes.order[found], away > 0), axis=1)[:, 0]
+    unlike = (turn_ < angles[0]) | (turn_ > angles[1])
+    best = np.lexsort((distances, nodes.order[found], unlike), axis=1)[:, 0]
     each = np.arange(len(points))
     distance, node = distances[each, best], found[each, best]
     order = np.lexsort((distance, node))
