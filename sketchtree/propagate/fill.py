@@ -22,9 +22,9 @@ from scipy.spatial import cKDTree
 
 from sketchtree import keys, limb_ids
 from sketchtree.parameters import Habit, TreeParameters
-from sketchtree.propagate.attach_block import RANKS, Nodes
-from sketchtree.propagate.envelope import Envelope
-from sketchtree.propagate.open_branch import OpenBranches, polar, turn
+from sketchtree.propagate.blocks.attach_block import RANKS, Nodes
+from sketchtree.propagate.space.envelope import Envelope
+from sketchtree.propagate.blocks.open_branch import OpenBranches, polar, turn
 
 ROUNDS = 6  # at most
 GAP = 1.6  # spacings of laterals

@@ -15,18 +15,19 @@ from jaxtyping import Int
 
 from sketchtree import keys
 from sketchtree.parameters import Habit
-from sketchtree.propagate.attach_block import MINIMUM_LENGTH, Nodes, attach
-from sketchtree.propagate.block import blocks_of, blocks_of_parameters
-from sketchtree.propagate.drawn import BEARING, DrawnLaterals, bare_length, drawn_nodes, open_tips, rank_of_drawn
-from sketchtree.propagate.envelope import Envelope
+from sketchtree.propagate.blocks.attach_block import MINIMUM_LENGTH, Nodes, attach
+from sketchtree.propagate.blocks.block import blocks_of, blocks_of_parameters
+from sketchtree.propagate.drawn.drawn_laterals import DrawnLaterals
+from sketchtree.propagate.drawn.ends import BEARING, bare_length, drawn_nodes, open_tips, rank_of_drawn
+from sketchtree.propagate.space.envelope import Envelope
 from sketchtree.propagate.fill import GAP, HOLLOW, HOLLOW_GAP, emptiness, empty_points, towards
-from sketchtree.propagate.gaps import into_gaps
-from sketchtree.propagate.implied import WEEPING, implied_crown
-from sketchtree.propagate.laterals import split_long
-from sketchtree.propagate.leaders import leaders
-from sketchtree.propagate.library import library
+from sketchtree.propagate.drawn.gaps import into_gaps
+from sketchtree.propagate.drawn.implied import WEEPING, implied_crown
+from sketchtree.propagate.drawn.laterals import split_long
+from sketchtree.propagate.drawn.leaders import leaders
+from sketchtree.propagate.blocks.library import library
 from sketchtree.propagate.limb_growth import NODES, grow, plan
-from sketchtree.propagate.open_branch import OpenBranches, frames, limb_arcs
+from sketchtree.propagate.blocks.open_branch import OpenBranches, frames, limb_arcs
 from sketchtree.skeleton import Kind, TreeSkeleton
 from sketchtree.traverse import generations
 

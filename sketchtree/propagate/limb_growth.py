@@ -19,10 +19,10 @@ from jaxtyping import Array, Float, Int, Key
 from sketchtree import keys, limb_ids
 from sketchtree.axes import NULL
 from sketchtree.parameters import Habit, TreeParameters
-from sketchtree.propagate.attach_block import RANKS, Nodes
-from sketchtree.propagate.envelope import Envelope
-from sketchtree.propagate.library import Library
-from sketchtree.propagate.open_branch import OpenBranches, direction, polar, turn
+from sketchtree.propagate.blocks.attach_block import RANKS, Nodes
+from sketchtree.propagate.space.envelope import Envelope
+from sketchtree.propagate.blocks.library import Library
+from sketchtree.propagate.blocks.open_branch import OpenBranches, direction, polar, turn
 
 NODES = 24  # of one limb, at most
 _LARGEST_TURN = np.radians(60.0)  # of one step by gravity

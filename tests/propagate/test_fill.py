@@ -2,11 +2,11 @@ import dataclasses
 
 import numpy as np
 from scipy.spatial import cKDTree
-from worlds import HABIT, THETA, circle, drawn_tree
+from tests.propagate.worlds import HABIT, THETA, circle, drawn_tree
 
 from sketchtree import keys
-from sketchtree.propagate.implied import implied_crown
-from sketchtree.propagate.envelope import Envelope
+from sketchtree.propagate.drawn.implied import implied_crown
+from sketchtree.propagate.space.envelope import Envelope
 from sketchtree.propagate.fill import GAP, HOLLOW, HOLLOW_GAP, emptiness, empty_points, halton
 from sketchtree.propagate.generations import propagate
 

@@ -2,12 +2,12 @@ import dataclasses
 
 import numpy as np
 import pytest
-from worlds import HABIT, THETA, circle, drawn_tree
+from tests.propagate.worlds import HABIT, THETA, circle, drawn_tree
 
 from sketchtree import keys, limb_ids
 from sketchtree.axes import NULL
 from sketchtree.errors import OptionError
-from sketchtree.propagate.envelope import Envelope
+from sketchtree.propagate.space.envelope import Envelope
 from sketchtree.propagate.generations import Propagate, propagate
 from sketchtree.propagate.growing import Growing
 from sketchtree.skeleton import Kind, TreeSkeleton

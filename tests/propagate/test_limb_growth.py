@@ -1,12 +1,12 @@
 import numpy as np
-from worlds import HABIT, THETA, circle
+from tests.propagate.worlds import HABIT, THETA, circle
 
 from sketchtree import keys
-from sketchtree.propagate.block import blocks_of_parameters
-from sketchtree.propagate.envelope import Envelope
-from sketchtree.propagate.library import library
+from sketchtree.propagate.blocks.block import blocks_of_parameters
+from sketchtree.propagate.space.envelope import Envelope
+from sketchtree.propagate.blocks.library import library
 from sketchtree.propagate.limb_growth import NODES, gravity, grow, plan
-from sketchtree.propagate.open_branch import OpenBranches, direction, turn
+from sketchtree.propagate.blocks.open_branch import OpenBranches, direction, turn
 
 KEY = keys.root_key(0)
 BLOCKS = blocks_of_parameters(THETA, HABIT)

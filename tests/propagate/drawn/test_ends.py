@@ -1,16 +1,17 @@
 import dataclasses
 
 import numpy as np
-from worlds import HABIT, THETA, circle, drawn_tree
+from tests.propagate.worlds import HABIT, THETA, circle, drawn_tree
 
 from sketchtree import keys
-from sketchtree.propagate.block import blocks_of, blocks_of_parameters
-from sketchtree.propagate.drawn import BEARING, DrawnLaterals, bare_length, drawn_nodes, open_tips, rank_of_drawn
-from sketchtree.propagate.implied import implied_crown
-from sketchtree.propagate.envelope import Envelope
-from sketchtree.propagate.laterals import split_long
-from sketchtree.propagate.library import library
-from sketchtree.propagate.open_branch import limb_arcs
+from sketchtree.propagate.blocks.block import blocks_of, blocks_of_parameters
+from sketchtree.propagate.drawn.drawn_laterals import DrawnLaterals
+from sketchtree.propagate.drawn.ends import BEARING, bare_length, drawn_nodes, open_tips, rank_of_drawn
+from sketchtree.propagate.drawn.implied import implied_crown
+from sketchtree.propagate.space.envelope import Envelope
+from sketchtree.propagate.drawn.laterals import split_long
+from sketchtree.propagate.blocks.library import library
+from sketchtree.propagate.blocks.open_branch import limb_arcs
 from sketchtree.traverse import is_tip
 
 KEY = keys.root_key(0)

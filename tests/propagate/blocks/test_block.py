@@ -2,13 +2,13 @@ import dataclasses
 
 import numpy as np
 import pytest
-from worlds import HABIT, THETA, drawn_tree
+from tests.propagate.worlds import HABIT, THETA, drawn_tree
 
 from sketchtree import keys
 from sketchtree.parameters import TreeParameters
-from sketchtree.propagate.attach_block import Nodes, attach
-from sketchtree.propagate.block import Blocks, blocks_of, blocks_of_parameters, habit_reach, log_likelihood
-from sketchtree.propagate.open_branch import direction, frames, limb_positions, turn
+from sketchtree.propagate.blocks.attach_block import Nodes, attach
+from sketchtree.propagate.blocks.block import Blocks, blocks_of, blocks_of_parameters, habit_reach, log_likelihood
+from sketchtree.propagate.blocks.open_branch import direction, frames, limb_positions, turn
 from sketchtree.skeleton import TreeSkeleton
 from sketchtree.traverse import children
 

@@ -1,7 +1,7 @@
 import numpy as np
-from worlds import drawn_tree
+from tests.propagate.worlds import drawn_tree
 
-from sketchtree.propagate.open_branch import (
+from sketchtree.propagate.blocks.open_branch import (
     OpenBranches,
     arc_length,
     direction,

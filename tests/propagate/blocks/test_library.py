@@ -1,11 +1,11 @@
 import dataclasses
 
 import numpy as np
-from worlds import HABIT, THETA, drawn_tree
+from tests.propagate.worlds import HABIT, THETA, drawn_tree
 
 from sketchtree.parameters import TreeParameters
-from sketchtree.propagate.block import blocks_of, blocks_of_parameters
-from sketchtree.propagate.library import library
+from sketchtree.propagate.blocks.block import blocks_of, blocks_of_parameters
+from sketchtree.propagate.blocks.library import library
 
 SUPPLEMENT = blocks_of_parameters(THETA, HABIT)
 NONE = SUPPLEMENT.select(np.zeros(len(SUPPLEMENT), bool))

@@ -3,11 +3,11 @@
 import numpy as np
 import pytest
 
-from sketchtree.propagate.envelope import Lobe
-from sketchtree.propagate.implied import LEVELS, NARROWEST, TEMPLATES_SHARE, crown_profile, implied_crown, shaped
+from sketchtree.propagate.space.envelope import Lobe
+from sketchtree.propagate.drawn.implied import LEVELS, NARROWEST, TEMPLATES_SHARE, crown_profile, implied_crown, shaped
 from sketchtree.skeleton import TreeSkeleton
 from sketchtree.templates.store.database import Database
-from tests.propagate.test_drawn import HABIT, drawn_tree
+from tests.propagate.drawn.test_ends import HABIT, drawn_tree
 
 
 def _whorls(reach):

@@ -15,7 +15,7 @@ import numpy as np
 from jaxtyping import Bool, Float, Int
 
 from sketchtree.axes import NULL
-from sketchtree.propagate.open_branch import arc_length, limb_arcs
+from sketchtree.propagate.blocks.open_branch import arc_length, limb_arcs
 from sketchtree.skeleton import TreeSkeleton
 
 _SERVES = 0.3  # of the spacing: a drawn node this near to k · h takes its place

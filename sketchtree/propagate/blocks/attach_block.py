@@ -23,8 +23,8 @@ from jaxtyping import Array, Float, Int, Key
 
 from sketchtree import keys, limb_ids
 from sketchtree.parameters import Habit, TreeParameters
-from sketchtree.propagate.block import Blocks
-from sketchtree.propagate.open_branch import Frame, OpenBranches, turn
+from sketchtree.propagate.blocks.block import Blocks
+from sketchtree.propagate.blocks.open_branch import Frame, OpenBranches, turn
 
 RANKS = 64  # ranks along a limb are 64 · node + 1 + number of the lateral at that node
 MINIMUM_LENGTH = 0.6  # of the habit's twig length: shorter laterals are not grown

@@ -1,9 +1,9 @@
 import numpy as np
-from worlds import drawn_tree
+from tests.propagate.worlds import drawn_tree
 
 from sketchtree.axes import NULL
-from sketchtree.propagate.laterals import split_long
-from sketchtree.propagate.open_branch import arc_length, limb_arcs
+from sketchtree.propagate.drawn.laterals import split_long
+from sketchtree.propagate.blocks.open_branch import arc_length, limb_arcs
 from sketchtree.skeleton import TreeSkeleton
 
 

@@ -9,19 +9,17 @@ Generation 0 is what was drawn (Chen et al. 2008, §6). It offers two things to 
 A drawn trunk is bare up to its first drawn limb: where the drawing begins to branch, so does the tree.
 """
 
-from dataclasses import dataclass
-
 import numpy as np
-from jaxtyping import Array, Bool, Float, Int, Key
+from jaxtyping import Array, Float, Int, Key
 
 from sketchtree import keys
 from sketchtree.axes import NULL
 from sketchtree.parameters import Habit
-from sketchtree.propagate.attach_block import Nodes
-from sketchtree.propagate.envelope import Envelope
-from sketchtree.propagate.laterals import Split
-from sketchtree.propagate.library import Library
-from sketchtree.propagate.open_branch import OpenBranches, arc_length, frames, limb_arcs
+from sketchtree.propagate.blocks.attach_block import Nodes
+from sketchtree.propagate.space.envelope import Envelope
+from sketchtree.propagate.drawn.laterals import Split
+from sketchtree.propagate.blocks.library import Library
+from sketchtree.propagate.blocks.open_branch import OpenBranches, arc_length, frames, limb_arcs
 from sketchtree.skeleton import TreeSkeleton
 from sketchtree.traverse import is_tip
 
@@ -31,7 +29,6 @@ CROWN_EXTENSION = 0.5  # of a drawn limb's length, at most, towards the crown
 _PRESSES = 1.08  # times its straight way to the crown: a limb that bends still meets the surface
 BEARING = 2.2  # twig lengths: a shorter limb bears no laterals
 _BEGINS = 0.06  # of the trunk's length: a palm's new fronds may start this far below its first drawn one
-_APART = np.cos(np.radians(25.0))  # a new lateral this close to a drawn one's direction is not grown
 
 
 def open_tips(
@@ -168,63 +165,3 @@ def _lateral_nodes(tree):
     lateral = np.flatnonzero((tree.parent != NULL) & (tree.limb != tree.limb[above]))
     limbs, of_row = np.unique(tree.limb, return_inverse=True)
     return tree.parent[lateral], len(limbs), of_row
-
-
-@dataclass(frozen=True, eq=False)
-class DrawnLaterals:
-    """The drawn laterals, sorted along one axis on which every limb has a stretch of its own."""
-
-    place: Float[np.ndarray, " lateral"]  # limb · stretch + arc of the node, rising
-    limb: Int[np.ndarray, " lateral"]  # dense number of the parent limb
-    node: Int[np.ndarray, " lateral"]  # row it grows from
-    heading: Float[np.ndarray, "lateral 3"]  # unit
-    end: Float[np.ndarray, "lateral 3"]  # tip of the whole lateral, metres
-    length: Float[np.ndarray, " lateral"]  # of the whole lateral, metres
-    at: Float[np.ndarray, " segment"]  # the same axis for the tip of every row of the tree
-    of_row: Int[np.ndarray, " segment"]
-
-    @classmethod
-    def of(cls, tree: TreeSkeleton) -> "DrawnLaterals":
-        """All laterals of a drawn tree."""
-        arc, whole = limb_arcs(tree)
-        _, of_row = np.unique(tree.limb, return_inverse=True)
-        at = of_row * (2.0 * arc.max(initial=0.0) + 1.0) + arc
-        above = np.where(tree.parent == NULL, 0, tree.parent)
-        rows = np.flatnonzero((tree.parent != NULL) & (tree.limb != tree.limb[above]) & (tree.length > 0))
-        rows = rows[np.argsort(at[tree.parent[rows]], kind="stable")]
-        node = tree.parent[rows]
-        tip = np.zeros(of_row.max(initial=-1) + 1, np.int64)
-        tip[of_row] = np.arange(len(tree))
-        heading = tree.vector[rows] / tree.length[rows][:, None]
-        return cls(at[node], of_row[node], node, heading, tree.tip[tip[of_row[rows]]], whole[rows], at, of_row)
-
-    def beside(
-        self, new: OpenBranches, spacing: Float[np.ndarray, " segment"]
-    ) -> Bool[np.ndarray, " branch"]:
-        """Which new branches start near a drawn lateral of the same limb and point its way."""
-        clash = np.zeros(len(new), bool)
-        if not len(self.place):
-            return clash
-        at = self.at[new.row]
-        following = np.searchsorted(self.place, at)
-        for offset in (-2, -1, 0, 1):
-            other = np.clip(following + offset, 0, len(self.place) - 1)
-            near = np.abs(self.place[other] - at) < 1.2 * spacing[new.row]
-            clash |= near & (np.einsum("bi,bi->b", self.heading[other], new.frame[:, :, 1]) > _APART)
-        return clash
-
-    def usual_length(self, new: OpenBranches) -> Float[np.ndarray, " branch"]:
-        """How long the drawn laterals are where each new branch starts, interpolated along the limb; NaN
-        on limbs with none. On the page a limb is as long as it was drawn or longer in depth, never shorter."""
-        usual = np.full(len(new), np.nan)
-        if not len(self.place):
-            return usual
-        at, limb = self.at[new.row], self.of_row[new.row]
-        right = np.clip(np.searchsorted(self.place, at), 0, len(self.place) - 1)
-        left = np.maximum(right - 1, 0)
-        right_on, left_on = self.limb[right] == limb, self.limb[left] == limb
-        span = self.place[right] - self.place[left]
-        t = np.clip(np.where(span > 0, (at - self.place[left]) / np.where(span > 0, span, 1.0), 1.0), 0.0, 1.0)
-        t = np.where(left_on & right_on, t, np.where(right_on, 1.0, 0.0))
-        between = (1 - t) * self.length[left] + t * self.length[right]
-        return np.where(left_on | right_on, between, np.nan)

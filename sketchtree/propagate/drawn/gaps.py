@@ -10,8 +10,8 @@ import numpy as np
 from jaxtyping import Array, Float, Key
 
 from sketchtree import keys, limb_ids
-from sketchtree.propagate.drawn import DrawnLaterals
-from sketchtree.propagate.open_branch import OpenBranches, polar, turn
+from sketchtree.propagate.drawn.drawn_laterals import DrawnLaterals
+from sketchtree.propagate.blocks.open_branch import OpenBranches, polar, turn
 from sketchtree.skeleton import TreeSkeleton
 
 WIDEST = np.radians(60.0)  # between neighbouring limbs, seen from above

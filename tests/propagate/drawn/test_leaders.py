@@ -2,13 +2,13 @@ import dataclasses
 
 import numpy as np
 import pytest
-from worlds import HABIT, THETA, circle, drawn_tree
+from tests.propagate.worlds import HABIT, THETA, circle, drawn_tree
 
 from sketchtree import keys
 from sketchtree.axes import NULL
-from sketchtree.propagate.envelope import Envelope, Lobe
+from sketchtree.propagate.space.envelope import Envelope, Lobe
 from sketchtree.propagate.generations import propagate
-from sketchtree.propagate.leaders import leaders, unled
+from sketchtree.propagate.drawn.leaders import leaders, unled
 from sketchtree.skeleton import Kind, TreeSkeleton
 
 KEY = keys.root_key(0)

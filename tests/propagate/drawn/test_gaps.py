@@ -1,14 +1,15 @@
 import dataclasses
 
 import numpy as np
-from worlds import HABIT, THETA, drawn_tree
+from tests.propagate.worlds import HABIT, THETA, drawn_tree
 
 from sketchtree import keys
 from sketchtree.axes import NULL
-from sketchtree.propagate.drawn import DrawnLaterals, open_tips
-from sketchtree.propagate.gaps import WIDEST, into_gaps
+from sketchtree.propagate.drawn.drawn_laterals import DrawnLaterals
+from sketchtree.propagate.drawn.ends import open_tips
+from sketchtree.propagate.drawn.gaps import WIDEST, into_gaps
 from sketchtree.propagate.generations import propagate
-from sketchtree.propagate.open_branch import frames
+from sketchtree.propagate.blocks.open_branch import frames
 from sketchtree.skeleton import TreeSkeleton
 
 KEY = keys.root_key(0)

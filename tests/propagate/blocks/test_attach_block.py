@@ -2,11 +2,11 @@ import dataclasses
 
 import numpy as np
 import pytest
-from worlds import HABIT, THETA
+from tests.propagate.worlds import HABIT, THETA
 
 from sketchtree import keys, limb_ids
-from sketchtree.propagate.attach_block import LARGEST_REACH, MINIMUM_LENGTH, Nodes, attach
-from sketchtree.propagate.block import blocks_of_parameters
+from sketchtree.propagate.blocks.attach_block import LARGEST_REACH, MINIMUM_LENGTH, Nodes, attach
+from sketchtree.propagate.blocks.block import blocks_of_parameters
 
 KEY = keys.root_key(0)
 

@@ -17,9 +17,9 @@ from jaxtyping import Float
 from scipy.spatial import ConvexHull
 
 from sketchtree.parameters import Habit
-from sketchtree.propagate.drawn import first_drawn_lateral
-from sketchtree.propagate.envelope import Envelope, Lobe
-from sketchtree.propagate.open_branch import limb_arcs
+from sketchtree.propagate.drawn.ends import first_drawn_lateral
+from sketchtree.propagate.space.envelope import Envelope, Lobe
+from sketchtree.propagate.blocks.open_branch import limb_arcs
 from sketchtree.skeleton import TreeSkeleton
 
 TEMPLATES_SHARE = 0.5

@@ -24,9 +24,9 @@ from jaxtyping import Array, Bool, Float, Int, Key
 from sketchtree import keys, limb_ids
 from sketchtree.axes import NULL
 from sketchtree.parameters import Habit
-from sketchtree.propagate.attach_block import Nodes
-from sketchtree.propagate.envelope import Envelope, Lobe
-from sketchtree.propagate.open_branch import frames, limb_arcs, polar, turn
+from sketchtree.propagate.blocks.attach_block import Nodes
+from sketchtree.propagate.space.envelope import Envelope, Lobe
+from sketchtree.propagate.blocks.open_branch import frames, limb_arcs, polar, turn
 from sketchtree.skeleton import TreeSkeleton
 
 _LED = 0.6  # of its height: with more drawn wood inside, a crown outline needs no leader

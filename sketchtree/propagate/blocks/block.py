@@ -24,7 +24,7 @@ from jaxtyping import Bool, Float, Int
 from sketchtree.axes import NULL
 from sketchtree.limb_ids import child_limb_id
 from sketchtree.parameters import Habit, TreeParameters
-from sketchtree.propagate.open_branch import frames, limb_positions, polar
+from sketchtree.propagate.blocks.open_branch import frames, limb_positions, polar
 from sketchtree.skeleton import TreeSkeleton
 from sketchtree.traverse import children
 

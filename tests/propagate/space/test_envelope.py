@@ -1,9 +1,9 @@
 import numpy as np
 import pytest
-from worlds import circle
+from tests.propagate.worlds import circle
 
 from sketchtree.errors import OptionError
-from sketchtree.propagate.envelope import Envelope, Lobe
+from sketchtree.propagate.space.envelope import Envelope, Lobe
 
 
 def ball(count=4000, size=7.0, seed=0):

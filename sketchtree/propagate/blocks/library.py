@@ -22,8 +22,8 @@ from jaxtyping import Float, Int
 
 from sketchtree.limb_ids import child_limb_id
 from sketchtree.parameters import TreeParameters
-from sketchtree.propagate.block import Blocks, log_likelihood
-from sketchtree.propagate.open_branch import limb_positions
+from sketchtree.propagate.blocks.block import Blocks, log_likelihood
+from sketchtree.propagate.blocks.open_branch import limb_positions
 from sketchtree.skeleton import TreeSkeleton
 
 SLOTS = 256  # of each cell of the table
