@@ -20,6 +20,7 @@ from sketchtree.propagate.blocks.block import blocks_of, blocks_of_parameters
 from sketchtree.propagate.drawn.drawn_laterals import DrawnLaterals
 from sketchtree.propagate.drawn.ends import BEARING, bare_length, drawn_nodes, open_tips, rank_of_drawn
 from sketchtree.propagate.space.envelope import Envelope
+from sketchtree.propagate.space.space import Space
 from sketchtree.propagate.fill import GAP, HOLLOW, HOLLOW_GAP, emptiness, empty_points, towards
 from sketchtree.propagate.drawn.gaps import into_gaps
 from sketchtree.propagate.drawn.implied import WEEPING, implied_crown
@@ -53,6 +54,7 @@ class Growing:
         self.habit, self.theta, self.max_segments = habit, theta, max_segments
         self.key = keys.draw_key(key)
         self.envelope = Envelope.from_outlines(crown) if len(crown) else implied_crown(tree, habit, exemplar)
+        self.space = Space(() if self.envelope is None else (self.envelope,))
         self.library = _library(tree, habit, theta, exemplar)
         self.scale = _height(tree, crown)
         self.ground = float(tree.tip[tree.is_base, 1].min())
@@ -111,7 +113,7 @@ class Growing:
     def _to_surface(self, opened: OpenBranches, led) -> OpenBranches:
         """The same, those on `led` limbs as long as it takes to come near the crown's surface, half the crown at most."""
         widest = 0.5 * max(lobe.reach for lobe in self.envelope.lobes)
-        way = self.envelope.exit_fraction(opened.origin, opened.origin + widest * opened.frame[:, :, 1], bisections=7) * widest
+        way = self.space.exit_fraction(opened.origin, opened.origin + widest * opened.frame[:, :, 1], bisections=7) * widest
         way = way * (_NEARS[0] + (_NEARS[1] - _NEARS[0]) * keys.uniform(self.key, opened.limb, 15))
         return replace(opened, length=np.where(led, np.maximum(opened.length, way), opened.length))
 
@@ -137,6 +139,7 @@ class Growing:
             return False
         nodes = self._nodes()
         empty = empty_points(self.envelope, nodes.tip, gap * self.habit.lateral_spacing)
+        empty = empty[self.space.inside(empty)]
         bears = (nodes.order < self.habit.max_order) & self.envelope.inside(nodes.tip)
         self.open = self.open.join(towards(empty, nodes.select(bears), self.habit, self.theta, round_, self.key))
         before = self.rows
@@ -179,7 +182,7 @@ class Growing:
         uneven = _GROUND[0] + _GROUND[1] * keys.uniform(self.key, self.open.limb, 11) ** 2
         ground = self.ground + uneven * self.scale
         grown, parent = grow(
-            self.open, nodes, self.library, self.habit, self.theta, self.envelope, ground, self.key,
+            self.open, nodes, self.library, self.habit, self.theta, self.space, ground, self.key,
             first_row=self.rows,
         )  # fmt: skip
         self.parts.append((grown, parent))
@@ -204,11 +207,11 @@ class Growing:
         return (order < self.habit.max_order) & (whole >= BEARING * self.habit.twig_length)
 
     def _free(self, opened: OpenBranches) -> OpenBranches:
-        """The same, each no longer than its way to the crown; those left too short are not opened."""
-        if self.envelope is None:
+        """The same, each no longer than its way to a barrier; those left too short are not opened."""
+        if not self.space.barriers:
             return opened
         end = opened.origin + opened.length[:, None] * opened.frame[:, :, 1]
-        reach = _PRESSES * self.envelope.exit_fraction(opened.origin, end, bisections=7)
+        reach = _PRESSES * self.space.exit_fraction(opened.origin, end, bisections=7)
         length = opened.length * np.minimum(reach, 1.0)
         opened = replace(opened, length=length)
         return opened.select(length >= MINIMUM_LENGTH * self.habit.twig_length)

@@ -3,12 +3,13 @@
 Node by node, all open branches at once. At every node a replication block is chosen (Chen et al. 2008, §6); its apical
 child turns the limb and its laterals will open new branches in the next generation. One step:
 
-    d ← gravity(R_y(ϕ) R_x(φ) d)          then   p ← p + min(ℓ, exit) d
+    d ← guide(gravity(R_y(ϕ) R_x(φ) d))   then   p ← p + min(ℓ, exit) d
 
     d, p      direction and end of the limb;  ℓ  length of the step
     φ, ϕ      the block's apical angles: φ the bend that is not by the vertical, + κ σ_α ε
     gravity   turns d towards the ground by the block's `droop` · ℓ (towards the sky, if negative), never past it
-    exit      where the crown's surface or the ground is met: the branch is scaled back to touch it and stops
+    guide     turns d away from obstacles and neighbours, and towards the light (`space`)
+    exit      where the crown's surface, another barrier or the ground is met: the branch is scaled back to touch it and stops
 """
 
 from dataclasses import dataclass
@@ -20,7 +21,7 @@ from sketchtree import keys, limb_ids
 from sketchtree.axes import NULL
 from sketchtree.parameters import Habit, TreeParameters
 from sketchtree.propagate.blocks.attach_block import RANKS, Nodes
-from sketchtree.propagate.space.envelope import Envelope
+from sketchtree.propagate.space.space import Space
 from sketchtree.propagate.blocks.library import Library
 from sketchtree.propagate.blocks.open_branch import OpenBranches, direction, polar, turn
 
@@ -73,7 +74,7 @@ def grow(
     library: Library,
     habit: Habit,
     theta: TreeParameters,
-    envelope: Envelope | None,
+    space: Space,
     ground: Float[np.ndarray, " branch"],
     key: Key[Array, ""],
     *,
@@ -93,8 +94,9 @@ def grow(
     for k in range(int(nodes.count.max(initial=0))):
         alive = alive[nodes.count[alive] > k]
         flat = offset[alive] + k
-        turned = _turned(axes[alive], divergence[flat], orientation[flat], droop[flat])
-        fraction, end = _stopped(at[alive], turned[:, :, 1] * nodes.step[flat][:, None], envelope, ground[alive])
+        guided = _guided(space, at[alive], nodes.step[flat], open_.limb[alive])
+        turned = _turned(axes[alive], divergence[flat], orientation[flat], droop[flat], guided)
+        fraction, end = _stopped(at[alive], turned[:, :, 1] * nodes.step[flat][:, None], space, ground[alive])
         keep = fraction > _SHORTEST
         tip[flat[keep]], frame[flat[keep]], made[flat[keep]] = end[keep], turned[keep], True
         at[alive[keep]], axes[alive[keep]] = end[keep], turned[keep]
@@ -102,10 +104,15 @@ def grow(
     return _as_nodes(open_, nodes, tip, frame, made, habit, first_row)
 
 
-def _stopped(start, step, envelope, ground):
-    """(the fraction of each step that is free, where it ends): 1 and the whole step, or up to the crown or ground."""
+def _guided(space, start, step, limb):
+    """What turns a heading at these places; None where nothing does."""
+    return (lambda heading: space.turned(start, heading, step, limb)) if space.guides else None
+
+
+def _stopped(start, step, space, ground):
+    """(the fraction of each step that is free, where it ends): 1 and the whole step, or up to a barrier or the ground."""
     end = start + step
-    fraction = np.ones(len(start)) if envelope is None else envelope.exit_fraction(start, end)
+    fraction = space.exit_fraction(start, end)
     sinks = (end[:, 1] < ground) & (step[:, 1] < 0)
     above = np.maximum(start[sinks, 1] - ground[sinks], 0.0)
     fraction[sinks] = np.minimum(fraction[sinks], above / -step[sinks, 1])
@@ -131,11 +138,13 @@ def _bends(open_, nodes, library, theta, key, spread):
     )
 
 
-def _turned(frame, divergence, orientation, pull):
-    """Frames after the block's bend and gravity, both as transport along the limb."""
+def _turned(frame, divergence, orientation, pull, guided):
+    """Frames after the block's bend, gravity and the guides, all as transport along the limb."""
     heading = np.einsum("bij,bj->bi", frame, direction(divergence, orientation))
     if np.any(pull):
         heading = gravity(heading, pull)
+    if guided is not None:
+        heading = guided(heading)
     local = np.einsum("bji,bj->bi", frame, heading)
     return turn(frame, *polar(local), np.ones(len(frame), bool))
 

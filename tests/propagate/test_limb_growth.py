@@ -4,6 +4,7 @@ from tests.propagate.worlds import HABIT, THETA, circle
 from sketchtree import keys
 from sketchtree.propagate.blocks.block import blocks_of_parameters
 from sketchtree.propagate.space.envelope import Envelope
+from sketchtree.propagate.space.space import Space
 from sketchtree.propagate.blocks.library import library
 from sketchtree.propagate.limb_growth import NODES, gravity, grow, plan
 from sketchtree.propagate.blocks.open_branch import OpenBranches, direction, turn
@@ -28,7 +29,7 @@ def open_branches(count=60, length=2.0, height=5.0, order=2):
 def grown(open_, envelope=None, ground=-100.0, spacing=0.3):
     nodes = plan(open_, LIBRARY, np.full(len(open_), spacing), KEY)
     ground = np.full(len(open_), ground)
-    return nodes, *grow(open_, nodes, LIBRARY, HABIT, THETA, envelope, ground, KEY, first_row=1)
+    return nodes, *grow(open_, nodes, LIBRARY, HABIT, THETA, Space() if envelope is None else Space((envelope,)), ground, KEY, first_row=1)
 
 
 def test_a_limb_is_several_segments_that_sum_to_its_length():
