@@ -8,20 +8,18 @@ A crown that is still hollow then is filled by a few rounds more (`fill`). Growt
 at the crown's surface, or at `max_segments`.
 """
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 import numpy as np
-from jaxtyping import Array, Int, Key
+from jaxtyping import Array, Float, Int, Key
 
-from sketchtree.errors import OptionError
 from sketchtree.parameters import Habit, TreeParameters
+from sketchtree.propagate.after.level import cut_back
 from sketchtree.propagate.fill import COARSE_GAP, GAP, HOLLOW_ROUNDS, LED_GAP, ROUNDS
-from sketchtree.propagate.growing import Growing, to_scale
+from sketchtree.propagate.growing import Growing
+from sketchtree.propagate.wanted import CROWN_GENERATIONS, Wanted
 from sketchtree.roots import is_root, with_roots, without_roots
 from sketchtree.skeleton import TreeSkeleton
-
-GENERATIONS = 5  # without a crown (Chen §6)
-CROWN_GENERATIONS = 12  # with one, or where a hollow one is filled, at most
 
 
 @dataclass(frozen=True, eq=False)
@@ -34,61 +32,36 @@ class Propagation:
     generations_done: int
     stopped_by: str  # generations | habit | max_segments
     warnings: tuple[str, ...]
+    tip_weight: Float[np.ndarray, " segment"] | None = None  # pipes that start in each row; None: one in every tip
 
 
 @dataclass(frozen=True)
-class Propagate:
+class Propagate(Wanted):
     """The stage: a drawn skeleton in, a complete one out (Chen §6)."""
-
-    habit: Habit
-    theta: TreeParameters
-    crown: tuple = ()  # closed outlines, each (point 2), world metres
-    generations: int | None = None  # 0-50; None: 5 without a crown, at most 12 with one
-    fill: bool = False  # keep on until the crown is evenly filled
-    max_segments: int = 200_000  # of the result, drawn ones included; ≥ 1
-    exemplar: TreeSkeleton | None = None  # lends its blocks where the drawing has too few
 
     def __call__(self, tree: TreeSkeleton, *, key: Key[Array, ""]) -> TreeSkeleton:
         return self.run(tree, key=key).skeleton
 
     def run(self, tree: TreeSkeleton, *, key: Key[Array, ""]) -> Propagation:
         """As the call, with the generations, warnings and what ended the growth."""
-        return propagate(
-            tree,
-            self.habit,
-            self.theta,
-            crown=self.crown,
-            generations=self.generations,
-            fill=self.fill,
-            max_segments=self.max_segments,
-            exemplar=self.exemplar,
-            key=key,
-        )
+        return _complete(tree, self, key)
 
 
-def propagate(
-    tree: TreeSkeleton,
-    habit: Habit,
-    theta: TreeParameters,
-    *,
-    crown: tuple = (),
-    generations: int | None = None,
-    fill: bool = False,
-    max_segments: int = 200_000,
-    exemplar: TreeSkeleton | None = None,
-    key: Key[Array, ""],
-) -> Propagation:
-    """Grow what the sketch left out. Options as in `Propagate`; the given rows are kept as they are, long ones split."""
-    limit = _limits(generations, max_segments, bool(crown))
-    whole = tree
+def propagate(tree: TreeSkeleton, habit: Habit, theta: TreeParameters, *, key: Key[Array, ""], **wanted) -> Propagation:
+    """Grow what the sketch left out. Options as in `Wanted`; the given rows are kept as they are, long ones split."""
+    return Propagate(habit, theta, **wanted).run(tree, key=key)
+
+
+def _complete(whole: TreeSkeleton, wanted: Wanted, key) -> Propagation:
+    limit = wanted.limit
     tree, above = without_roots(whole)
     if len(tree) == 0 or limit == 0:
         return Propagation(whole, np.zeros(len(whole), int), np.arange(len(whole)), 0, "generations", ())
-    growing = Growing(tree, to_scale(habit, tree, crown), theta, exemplar, crown, max_segments, key)
+    growing = Growing(tree, wanted, key)
     growing.run(limit)
-    limit = CROWN_GENERATIONS if generations is None else limit
+    limit = CROWN_GENERATIONS if wanted.generations is None else limit
     gaps = HOLLOW_ROUNDS * [LED_GAP if growing.leaders else COARSE_GAP] if growing.is_hollow() else []
-    gaps = gaps[: 1 if fill else None] + (ROUNDS * [GAP] if fill else [])
+    gaps = gaps[: 1 if wanted.fill else None] + (ROUNDS * [GAP] if wanted.fill else [])
     for round_, gap in enumerate(gaps):
         growing.fill(round_, limit, gap)
     if gaps:
@@ -97,13 +70,29 @@ def propagate(
     grown, row = growing.skeleton(), np.zeros(len(whole), np.int64)
     row[above] = growing.drawn.row
     row[is_root(whole)] = len(grown) + np.arange(len(whole) - len(above))
-    return Propagation(
+    found = Propagation(
         skeleton=with_roots(grown, whole, row),
         generation=np.r_[growing.generation_of_rows(), np.zeros(len(whole) - len(above), int)],
         drawn_row=row,
         generations_done=growing.done,
         stopped_by=ended,
         warnings=_warnings(growing),
+    )
+    return found if wanted.generations in (None, limit) else _at_level(found, wanted.generations)
+
+
+def _at_level(found: Propagation, level: float) -> Propagation:
+    """The same with its last generation cut back to a level between two generations."""
+    whole = int(level)
+    cut = cut_back(found.skeleton, found.generation, whole + 1, level - whole)
+    place = np.zeros(len(found.skeleton), np.int64)
+    place[cut.rows] = np.arange(len(cut.rows))
+    return replace(
+        found,
+        skeleton=cut.skeleton,
+        generation=found.generation[cut.rows],
+        drawn_row=place[found.drawn_row],
+        tip_weight=cut.tip_weight,
     )
 
 
@@ -117,19 +106,7 @@ def _warnings(growing: Growing) -> tuple[str, ...]:
         )
     if growing.stopped_by == "max_segments":
         found.append(
-            f"Growth stopped at max_segments = {growing.max_segments} in generation {growing.done}: "
+            f"Growth stopped at max_segments = {growing.wanted.max_segments} in generation {growing.done}: "
             "its branches were thinned evenly. Raise --max-segments, or ask for fewer generations."
         )
     return tuple(found)
-
-
-def _limits(generations: int | None, max_segments: int, crown: bool) -> int:
-    if max_segments < 1:
-        raise OptionError(f"max_segments is {max_segments}, but must be 1 or more.", remedy="Give a positive number.")
-    if generations is None:
-        return CROWN_GENERATIONS if crown else GENERATIONS
-    if not 0 <= generations <= 50:
-        raise OptionError(
-            f"generations is {generations}, but must lie between 0 and 50.", remedy="5 to 12 make a full tree."
-        )
-    return generations

@@ -29,6 +29,7 @@ from sketchtree.propagate.drawn.leaders import leaders
 from sketchtree.propagate.blocks.library import library
 from sketchtree.propagate.limb_growth import NODES, grow, plan
 from sketchtree.propagate.blocks.open_branch import OpenBranches, frames, limb_arcs
+from sketchtree.propagate.wanted import Wanted
 from sketchtree.skeleton import Kind, TreeSkeleton
 from sketchtree.traverse import generations
 
@@ -50,16 +51,20 @@ _LIKE_DRAWN = 1.1  # times the drawn laterals around it, a new one on a drawn li
 class Growing:
     """The tree while it grows: the rows made so far and the branches still open."""
 
-    def __init__(self, tree, habit, theta, exemplar, crown, max_segments, key):
-        self.habit, self.theta, self.max_segments = habit, theta, max_segments
+    def __init__(self, tree, wanted: Wanted, key):
+        crown, exemplar = wanted.crown, wanted.exemplar
+        self.wanted, self.theta = wanted, wanted.theta
         self.key = keys.draw_key(key)
-        self.envelope = Envelope.from_outlines(crown) if len(crown) else implied_crown(tree, habit, exemplar)
+        usual = to_scale(wanted.habit, tree, crown)
+        self.envelope = Envelope.from_outlines(crown) if len(crown) else implied_crown(tree, usual, exemplar)
         self.space = Space(() if self.envelope is None else (self.envelope,))
-        self.library = _library(tree, habit, theta, exemplar)
+        self.finer = wanted.density ** (-1.0 / 3.0)
+        self.habit = finer(usual, self.finer)
+        self.library = _library(tree, self.habit, self.theta, exemplar)
         self.scale = _height(tree, crown)
         self.ground = float(tree.tip[tree.is_base, 1].min())
         self.order_of = dict(zip(tree.limb.tolist(), tree.order.tolist(), strict=True))
-        self.drawn = self._split(tree.replace(order=rank_of_drawn(tree, habit)))
+        self.drawn = self._split(tree.replace(order=rank_of_drawn(tree, self.habit)))
         self.parts, self.rows, self.done, self.stopped_by = [], len(self.drawn.tree), 0, "generations"
         self.segments = self.drawn.tree.segment_count
         self.leaders = self._lead()
@@ -81,7 +86,7 @@ class Growing:
 
     def _lead(self):
         """The limbs that go on into a crown which the drawing left empty: the first generation, if there are any."""
-        most = self.max_segments - self.segments
+        most = self.wanted.max_segments - self.segments
         found = leaders(self.drawn.tree, self.envelope, self.habit, self.spacing, self.key, most=most)
         if found is not None:
             self.parts.append((found.nodes, found.parent))
@@ -123,7 +128,7 @@ class Growing:
         habit = self.habit.lateral_spacing
         wide = np.where((order == 0) & (self.habit.arrangement != "whorled"), _TRUNK_SPACING, 1.0) * habit
         lent = self.library.spacing[np.minimum(order, self.habit.max_order)] * self.scale
-        lent = np.clip(lent - _CLOSER * habit, habit, _SPARSEST * habit)
+        lent = np.clip(lent * self.finer - _CLOSER * habit, habit, _SPARSEST * habit)
         apart = _WEEPS if self.habit.gravitropism > WEEPING else 1.0
         return np.maximum(np.where(np.isnan(lent), wide, lent) * apart, whole / (4 * NODES))
 
@@ -218,7 +223,7 @@ class Growing:
 
     def _within_limit(self, count):
         """Which open branches are grown so that the whole keeps to `max_segments`: thinned evenly, by limb id."""
-        left = self.max_segments - self.segments
+        left = self.wanted.max_segments - self.segments
         if count.sum() <= left:
             return np.ones(len(count), bool)
         lot = np.argsort(keys.uniform(self.key, self.open.limb, 9), kind="stable")
@@ -282,3 +287,8 @@ def to_scale(habit: Habit, tree: TreeSkeleton, crown: tuple = ()) -> Habit:
         twig_length=habit.twig_length * scale,
         gravitropism=habit.gravitropism / scale,
     )
+
+
+def finer(habit: Habit, by: float) -> Habit:
+    """The habit with twigs and the spaces between them `by` times as long."""
+    return dataclasses.replace(habit, lateral_spacing=habit.lateral_spacing * by, twig_length=habit.twig_length * by)

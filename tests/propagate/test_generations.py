@@ -10,6 +10,7 @@ from sketchtree.errors import OptionError
 from sketchtree.propagate.space.envelope import Envelope
 from sketchtree.propagate.generations import Propagate, propagate
 from sketchtree.propagate.growing import Growing
+from sketchtree.propagate.wanted import Wanted
 from sketchtree.skeleton import Kind, TreeSkeleton
 from sketchtree.stage import SkeletonStage
 from sketchtree.traverse import limb_chains
@@ -311,7 +312,7 @@ def test_a_small_tree_has_small_twigs():
 
 def test_limbs_that_hang_stand_farther_apart():
     upright, hanging = (
-        Growing(drawn_tree(3), dataclasses.replace(HABIT, gravitropism=pull), THETA, None, (), 10_000, KEY) for pull in (0.0, 60.0)
+        Growing(drawn_tree(3), Wanted(dataclasses.replace(HABIT, gravitropism=pull), THETA), KEY) for pull in (0.0, 60.0)
     )
     order, whole = np.array([1, 2]), np.array([3.0, 2.0])
     assert (hanging._spacing(order, whole) > 1.1 * upright._spacing(order, whole)).all()
