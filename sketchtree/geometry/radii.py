@@ -15,6 +15,9 @@ rows the tree has, and wood without branches tapers gently because leaves were f
 more tips stand than the trunk has pipes, λ is 0 and n grows until they fit. Palms thicken no further
 (monocots have no cambium): their trunk is nearly a cylinder and their fronds thin, whatever they carry.
 
+A tip that is still growing may count for part of a pipe (`tip_weight`), and wood that was a tip until it bore for the rest;
+nothing is thinner than one pipe, so that radii change as smoothly as the tree grows.
+
 Radii that were drawn are honoured; the model fills in between them. A stroke of one width all along says how thick the
 wood is where it starts, not that it ends like a pipe: it tapers from there to a twig. A hairline is no measure of wood:
 nothing is thinner than a twig, nor than `_LEAST` of what the model says it takes to carry what stands beyond.
@@ -47,6 +50,7 @@ class PipeRadii:
 
     habit: Habit
     drawn_radius: Float[np.ndarray, " segment"] | None = None  # metres at the tip, > 0; NaN where nothing was drawn
+    tip_weight: Float[np.ndarray, " segment"] | None = None  # pipes that start in each row, ≥ 0; None: one in every tip
 
     def __call__(self, tree: TreeSkeleton, *, key: Key[Array, ""] | None = None) -> TreeSkeleton:
         """The tree with new radii. `key` is part of the stage's door; nothing here is random."""
@@ -54,7 +58,8 @@ class PipeRadii:
             return tree
         drawn = None if self.drawn_radius is None else _checked(self.drawn_radius, len(tree))
         above, rows = without_roots(tree)
-        radius, start = pipe_radii(above, self.habit)
+        weight = None if self.tip_weight is None else self.tip_weight[rows]
+        radius, start = pipe_radii(above, self.habit, weight)
         if drawn is not None:
             radius = honour_drawn(above, radius, start, drawn[rows], self.habit.twig_radius)
         full = np.ones(len(tree))
@@ -62,9 +67,11 @@ class PipeRadii:
         return tree.replace(radius=root_radius(tree, full, drawn, self.habit.twig_radius))
 
 
-def pipe_radii(tree: TreeSkeleton, habit: Habit) -> tuple[Float[np.ndarray, " segment"], Float[np.ndarray, " segment"]]:
+def pipe_radii(
+    tree: TreeSkeleton, habit: Habit, tip_weight: Float[np.ndarray, " segment"] | None = None
+) -> tuple[Float[np.ndarray, " segment"], Float[np.ndarray, " segment"]]:
     """Radius by the pipe model at the tip and at the start of every segment, metres."""
-    tips = sum_to_root(tree.parent, is_tip(tree.parent).astype(float))
+    tips = sum_to_root(tree.parent, is_tip(tree.parent).astype(float) if tip_weight is None else tip_weight)
     beyond = sum_to_root(tree.parent, tree.length) - tree.length  # metres of wood past each tip
     at_tip, at_start = np.empty(len(tree)), np.empty(len(tree))
     for name in np.unique(tree.tree):
@@ -87,7 +94,7 @@ def _one_tree(tips, wood, stem_tips: float, stem_wood: float, ground: float, hab
         exponent = np.log(stem_tips) / np.log(ground / twig)
         pipes = stem_tips
     per_metre = (pipes - stem_tips) / stem_wood if stem_wood > 0 else 0.0
-    return twig * (tips + per_metre * wood) ** (1.0 / exponent)
+    return twig * np.maximum(tips + per_metre * wood, 1.0) ** (1.0 / exponent)
 
 
 def _palm(tree: TreeSkeleton, rows, ground: float, wood, beyond, habit: Habit):
