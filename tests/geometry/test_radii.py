@@ -172,3 +172,13 @@ def test_wrong_length_of_drawn_radii_is_named():
 def test_a_drawn_radius_of_zero_is_named():
     with pytest.raises(OptionError, match="The drawn radius of row 1 is 0, which is not a positive length. Give metres above zero"):
         PipeRadii(HABIT, np.array([np.nan, 0.0]))(stick([(0, 0, 0), (0, 1, 0)], 1.0))
+
+
+def test_a_tip_may_count_for_part_of_a_pipe():
+    tree = bushy(3)
+    half = 0.5 * is_tip(tree.parent)
+    whole, light = (pipe_radii(tree, Habit(trunk_ratio=0.003, twig_radius=0.003), weight)[0] for weight in (None, half))
+    same, _ = pipe_radii(tree, Habit(trunk_ratio=0.003, twig_radius=0.003), 2 * half)
+    np.testing.assert_array_equal(whole, same)
+    assert (light[is_tip(tree.parent)] == 0.003).all()
+    assert light[0] == pytest.approx(whole[0])
