@@ -155,11 +155,10 @@ class TreeSkeleton:
                 row=int(orphan[0]),
                 remedy="Keep every ancestor of a kept row.",
             )
-        count = np.diff(self.curve_start)[rows]
-        points = np.concatenate(
-            [self.curve_points[self.curve_start[row] : self.curve_start[row + 1]] for row in rows]
-            or [np.zeros((0, 3))]
-        )
+        count = np.diff(self.curve_start)
+        kept = np.zeros(len(self), bool)
+        kept[rows] = True
+        points, count = self.curve_points[np.repeat(kept, count)], count[rows]
         columns = {name: getattr(self, name)[rows] for name in _ROW_COLUMNS}
         columns["parent"] = renumber[columns["parent"]]
         return self.replace(**columns, curve_points=points, curve_start=np.r_[0, np.cumsum(count)])
