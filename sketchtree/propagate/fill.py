@@ -24,6 +24,7 @@ from sketchtree import keys, limb_ids
 from sketchtree.parameters import Habit, TreeParameters
 from sketchtree.propagate.blocks.attach_block import RANKS, Nodes
 from sketchtree.propagate.space.envelope import Envelope
+from sketchtree.propagate.space.space import Space
 from sketchtree.propagate.blocks.open_branch import OpenBranches, polar, turn
 
 ROUNDS = 6  # at most
@@ -45,9 +46,10 @@ def empty_points(
     return point[_empty(point, tips, gap)]
 
 
-def emptiness(envelope: Envelope, tips: Float[np.ndarray, "node 3"], gap: float) -> float:
-    """The share of the envelope's volume that is farther than `gap` metres from every tip."""
+def emptiness(envelope: Envelope, tips: Float[np.ndarray, "node 3"], gap: float, space: Space = Space()) -> float:
+    """The share of the envelope's volume, as far as the space is free, that is farther than `gap` metres from every tip."""
     point = _spread(envelope, gap)
+    point = point[space.inside(point)]
     return float(np.mean(_empty(point, tips, gap))) if len(point) else 0.0
 
 

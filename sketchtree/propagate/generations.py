@@ -17,6 +17,7 @@ from sketchtree.parameters import Habit, TreeParameters
 from sketchtree.propagate.after.level import cut_back
 from sketchtree.propagate.fill import COARSE_GAP, GAP, HOLLOW_ROUNDS, LED_GAP, ROUNDS
 from sketchtree.propagate.growing import Growing
+from sketchtree.propagate.space.obstacles import Obstacles
 from sketchtree.propagate.wanted import CROWN_GENERATIONS, Wanted
 from sketchtree.roots import is_root, with_roots, without_roots
 from sketchtree.skeleton import TreeSkeleton
@@ -104,9 +105,28 @@ def _warnings(growing: Growing) -> tuple[str, ...]:
             "All drawn branches lie outside the crown, so nothing grew. "
             "Draw the crown around the tips, or use --crown off."
         )
+    if growing.obstacles is not None:
+        found += _warnings_of(growing.obstacles, growing.drawn.tree)
     if growing.stopped_by == "max_segments":
         found.append(
             f"Growth stopped at max_segments = {growing.wanted.max_segments} in generation {growing.done}: "
             "its branches were thinned evenly. Raise --max-segments, or ask for fewer generations."
         )
     return tuple(found)
+
+
+def _warnings_of(obstacles: Obstacles, drawn: TreeSkeleton) -> list[str]:
+    """The same of obstacles."""
+    found = [
+        f"{name} is out of the tree's reach and changes nothing. If it should stand by the tree: its file "
+        "counts in metres, y up, and the root is its origin."
+        for name in obstacles.out_of_reach
+    ]
+    touched = obstacles.touched(drawn)
+    if touched:
+        some = "1 drawn branch comes" if touched == 1 else f"{touched} drawn branches come"
+        found.append(
+            f"{some} nearer than {obstacles.clearance:.2f} m to an obstacle, or into it. "
+            "What was drawn stays as it is; nothing grows on from where it is so near."
+        )
+    return found

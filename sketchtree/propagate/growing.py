@@ -19,7 +19,9 @@ from sketchtree.propagate.blocks.attach_block import MINIMUM_LENGTH, Nodes, atta
 from sketchtree.propagate.blocks.block import blocks_of, blocks_of_parameters
 from sketchtree.propagate.drawn.drawn_laterals import DrawnLaterals
 from sketchtree.propagate.drawn.ends import BEARING, bare_length, drawn_nodes, open_tips, rank_of_drawn
+from sketchtree.propagate.space.domain import Domain
 from sketchtree.propagate.space.envelope import Envelope
+from sketchtree.propagate.space.obstacles import Obstacles
 from sketchtree.propagate.space.space import Space
 from sketchtree.propagate.fill import GAP, HOLLOW, HOLLOW_GAP, emptiness, empty_points, towards
 from sketchtree.propagate.drawn.gaps import into_gaps
@@ -57,11 +59,12 @@ class Growing:
         self.key = keys.draw_key(key)
         usual = to_scale(wanted.habit, tree, crown)
         self.envelope = Envelope.from_outlines(crown) if len(crown) else implied_crown(tree, usual, exemplar)
-        self.space = Space(() if self.envelope is None else (self.envelope,))
         self.finer = wanted.density ** (-1.0 / 3.0)
         self.habit = finer(usual, self.finer)
         self.library = _library(tree, self.habit, self.theta, exemplar)
         self.scale = _height(tree, crown)
+        self.obstacles = self._in_the_way(tree, wanted)
+        self.space = self._space()
         self.ground = float(tree.tip[tree.is_base, 1].min())
         self.order_of = dict(zip(tree.limb.tolist(), tree.order.tolist(), strict=True))
         self.drawn = self._split(tree.replace(order=rank_of_drawn(tree, self.habit)))
@@ -70,6 +73,17 @@ class Growing:
         self.leaders = self._lead()
         self.open = self._first_generation()
         self.outside = len(self.open) == 0 and len(crown) > 0 and not self.envelope.inside(tree.tip).any()
+
+    def _in_the_way(self, tree, wanted) -> Obstacles | None:
+        """The obstacles in the tree's reach, if any were given."""
+        if not (wanted.obstacles or wanted.regions):
+            return None
+        return Obstacles.build(wanted.obstacles, wanted.regions, Domain.of(tree, self.envelope, self.habit, self.scale))
+
+    def _space(self) -> Space:
+        """The crown and the obstacles; those out of reach change nothing."""
+        crown = () if self.envelope is None else (self.envelope,)
+        return Space((*crown, self.obstacles), (self.obstacles,)) if self.obstacles else Space(crown)
 
     def _split(self, tree):
         arc, whole = limb_arcs(tree)
@@ -87,7 +101,7 @@ class Growing:
     def _lead(self):
         """The limbs that go on into a crown which the drawing left empty: the first generation, if there are any."""
         most = self.wanted.max_segments - self.segments
-        found = leaders(self.drawn.tree, self.envelope, self.habit, self.spacing, self.key, most=most)
+        found = leaders(self.drawn.tree, self.envelope, self.habit, self.spacing, self.key, most=most, obstacles=self.obstacles)
         if found is not None:
             self.parts.append((found.nodes, found.parent))
             self.rows, self.segments, self.done = self.rows + len(found), self.segments + len(found), 1
@@ -146,7 +160,8 @@ class Growing:
         empty = empty_points(self.envelope, nodes.tip, gap * self.habit.lateral_spacing)
         empty = empty[self.space.inside(empty)]
         bears = (nodes.order < self.habit.max_order) & self.envelope.inside(nodes.tip)
-        self.open = self.open.join(towards(empty, nodes.select(bears), self.habit, self.theta, round_, self.key))
+        new = towards(empty, nodes.select(bears), self.habit, self.theta, round_, self.key)
+        self.open = self.open.join(self._free(new) if self.obstacles else new)
         before = self.rows
         self.run(min(limit, self.done + _ROUND))
         return self.rows > before
@@ -216,7 +231,7 @@ class Growing:
         if not self.space.barriers:
             return opened
         end = opened.origin + opened.length[:, None] * opened.frame[:, :, 1]
-        reach = _PRESSES * self.space.exit_fraction(opened.origin, end, bisections=7)
+        reach = _PRESSES * self.space.reach(opened.origin, end, bisections=7)
         length = opened.length * np.minimum(reach, 1.0)
         opened = replace(opened, length=length)
         return opened.select(length >= MINIMUM_LENGTH * self.habit.twig_length)

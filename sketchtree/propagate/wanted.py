@@ -24,6 +24,8 @@ class Wanted:
     generations: float | None = None  # 0-50; 3.5: three and half of the fourth; None: 5 without a crown, at most 12 with one
     fill: bool = False  # keep on until the crown is evenly filled
     max_segments: int = 200_000  # of the result, drawn ones included; ≥ 1
+    obstacles: tuple = ()  # what nothing grows through: each a trimesh.Trimesh, world metres; a closed one is solid
+    regions: tuple = ()  # the same on the page, through all depths: closed outlines, each (point 2), world metres
     exemplar: TreeSkeleton | None = None  # lends its blocks where the drawing has too few
     density: float = 1.0  # twigs per volume over the habit's, 0.01-100
 

@@ -26,6 +26,7 @@ from sketchtree.axes import NULL
 from sketchtree.parameters import Habit
 from sketchtree.propagate.blocks.attach_block import Nodes
 from sketchtree.propagate.space.envelope import Envelope, Lobe
+from sketchtree.propagate.space.obstacles import Obstacles
 from sketchtree.propagate.blocks.open_branch import frames, limb_arcs, polar, turn
 from sketchtree.skeleton import TreeSkeleton
 
@@ -78,14 +79,15 @@ def leaders(
     key: Key[Array, ""] | np.uint64,
     *,
     most: int,
+    obstacles: Obstacles | None = None,
 ) -> Leaders | None:
     """The leaders into every drawn outline that is unled, `most` nodes at most in all; None where there are none.
 
-    Each crosses the gap between its tip and the crown, and once inside stays inside."""
+    Each crosses the gap between its tip and the crown, and once inside stays inside. Obstacles it is led round, or ends there."""
     if envelope is None or not envelope.binding:
         return None
     frame = frames(tree)
-    parts = [_grown(tree, course, frame, spacing, habit, key) for course in _courses(tree, envelope, habit)]
+    parts = [_grown(tree, course, frame, spacing, habit, obstacles, key) for course in _courses(tree, envelope, habit)]
     parts = [part for part in parts if part is not None]
     if not parts:
         return None
@@ -162,12 +164,13 @@ def _ends(lobe: Lobe, tip, habit: Habit) -> Float[np.ndarray, "leader 3"]:
     return lobe.axis_at(y) + _ASIDE * lobe.half_width_at(y)[:, None] * share
 
 
-def _grown(tree, course: _Course, frame, spacing, habit, key) -> Nodes | None:
+def _grown(tree, course: _Course, frame, spacing, habit, obstacles, key) -> Nodes | None:
     """The nodes of one leader (`row` still that of the drawn tip); None where it would not enter the outline."""
     arcs, _ = limb_arcs(tree)
     arc = 0.0 if course.forks else float(arcs[course.row])
     step = min(float(spacing[course.row]), _CLOSEST * float(np.ptp(course.lobe.height)))
     point = _curve(tree.tip[course.row], frame[course.row][:, 1], course, habit, step, key)
+    point = obstacles.clear(point) if obstacles else point
     run = np.cumsum(np.linalg.norm(np.diff(point, axis=0), axis=1))
     point, kept = _until_outside(point[1:], course.lobe)
     if kept is None:

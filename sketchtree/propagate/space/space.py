@@ -6,6 +6,9 @@ that: away from an obstacle or a neighbour, towards the light. Both look at many
 
     free fraction    f = min over barriers of the share of a step that may be grown
     heading          d ← guide_k( … guide_1(d)), each of unit length
+
+A branch that would meet a barrier is planned no longer than its straight way there. Where that barrier is a guide too, it
+will turn and go along it: then `_ALONG` of the rest is planned as well.
 """
 
 from dataclasses import dataclass
@@ -13,6 +16,8 @@ from typing import Protocol
 
 import numpy as np
 from jaxtyping import Bool, Float, Int
+
+_ALONG = 0.5  # of what a branch would have had beyond
 
 
 class Barrier(Protocol):
@@ -65,6 +70,17 @@ class Space:
         for barrier in self.barriers:
             fraction = np.minimum(fraction, barrier.exit_fraction(start, end, bisections))
         return fraction
+
+    def reach(
+        self, start: Float[np.ndarray, "branch 3"], end: Float[np.ndarray, "branch 3"], bisections: int = 16
+    ) -> Float[np.ndarray, " branch"]:
+        """The share of the straight way from `start` to `end` that a branch is planned to grow, 0-1."""
+        share = np.ones(len(start))
+        for barrier in self.barriers:
+            free = barrier.exit_fraction(start, end, bisections)
+            turns = any(barrier is guide for guide in self.guides)
+            share = np.minimum(share, free + _ALONG * (1.0 - free) * (free > 0) if turns else free)
+        return share
 
     def turned(self, start, heading, step, limb) -> Float[np.ndarray, "branch 3"]:
         """The headings after every guide."""
