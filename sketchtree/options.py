@@ -45,6 +45,7 @@ class TreeOptions:
     generations: int | None = None  # ≥ 0; None: 5, or up to 12 inside a crown; 0: only what was drawn
     fill: bool = False  # keep on until the crown is evenly filled
     max_segments: int = 200_000
+    obstacle: tuple[str, ...] = ()  # mesh files that nothing grows through: metres, y up, the trunk's root at the origin
     leaf: str | None = None  # leaf model, exemplar whose leaf to take, or "none"; None: the template's
     season: str = "summer"
     bark: str | None = None  # None: the template's

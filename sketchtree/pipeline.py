@@ -88,8 +88,9 @@ def sketch_to_tree(
     """Every stage in order (Chen et al. 2008, Figure 2). `sketch` may be a path to a file."""
     watch = watch or Watch()
     leaf_model(tree.leaf, Habit(), templates), bark_model(tree.bark, Habit())  # refuse a wrong name before the work
+    obstacles = _read_obstacles(tree)
     drawn = draw_out(sketch, templates, key=key, options=reading, watch=watch)
-    return complete(drawn, templates, key=key, options=tree, watch=watch)
+    return complete(drawn, templates, key=key, options=tree, obstacles=obstacles, watch=watch)
 
 
 def draw_out(
@@ -143,15 +144,19 @@ def complete(
     *,
     key: Key[Array, ""],
     options: TreeOptions = TreeOptions(),
+    obstacles: tuple | None = None,
     watch: Watch | None = None,
 ) -> TreeModel:
-    """Replication blocks, radii, leaves and meshes: the complete tree (§6)."""
+    """Replication blocks, radii, leaves and meshes: the complete tree (§6).
+
+    `obstacles` are the meshes of `options.obstacle` (trimesh.Trimesh, world metres), if they have been read."""
     watch = watch or Watch()
     habit = drawn.habit
     leaf = leaf_model(options.leaf, habit, templates)
     bark = bark_model(options.bark, habit)
     with watch("propagate"):
-        skeleton, warnings = _propagated(drawn, options, stage_key(key, "propagate"))
+        obstacles = _read_obstacles(options) if obstacles is None else obstacles
+        skeleton, warnings = _propagated(drawn, options, obstacles, stage_key(key, "propagate"))
     with watch("foliage"):
         season = "bare" if leaf is None else options.season
         leaves = populate(skeleton, habit, key=stage_key(key, "foliage"), model=leaf or habit.leaf, season=season)
@@ -164,12 +169,26 @@ def complete(
     return TreeModel(drawn, skeleton, leaves, tuple(meshes), drawn.warnings + warnings)
 
 
-def _propagated(drawn: DrawnTree, options: TreeOptions, key) -> tuple[TreeSkeleton, tuple[str, ...]]:
+def _read_obstacles(options: TreeOptions) -> tuple:
+    """The meshes of the files named; refused here, before the work, if one is around the root, which is the world's origin."""
+    if not options.obstacle:
+        return ()
+    from sketchtree.propagate.space.mesh_files import read_mesh
+    from sketchtree.propagate.space.obstacle import refuse_around
+
+    meshes = tuple(read_mesh(path) for path in options.obstacle)
+    refuse_around(meshes, np.zeros((1, 3)))
+    return meshes
+
+
+def _propagated(drawn: DrawnTree, options: TreeOptions, obstacles: tuple, key) -> tuple[TreeSkeleton, tuple[str, ...]]:
     """The complete skeleton with its final radii, and what the user should know about it."""
     stage = Propagate(
         drawn.habit,
         drawn.theta,
         crown=tuple(drawn.similarity.to_world(outline) for outline in drawn.graph.crown),
+        obstacles=obstacles,
+        regions=tuple(drawn.similarity.to_world(outline) for outline in drawn.graph.obstacles),
         generations=options.generations,
         fill=options.fill,
         max_segments=options.max_segments,

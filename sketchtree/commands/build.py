@@ -10,7 +10,6 @@ from sketchtree.commands.planned import not_yet
 from sketchtree.commands.progress import Progress
 
 _LATER = {
-    "obstacle": ("--obstacle", "What the sketch left out"),
     "solid": ("--solid", "Files that drop into real tools"),
     "pack": ("--pack", "Files that drop into real tools"),
 }
@@ -23,6 +22,7 @@ _LATER = {
 @click.option("--generations", type=int, metavar="N", help="Generations of undrawn branches (default 5; up to 12 inside a crown; 0: none).")
 @click.option("--fill", is_flag=True, help="Grow on until the crown is evenly filled.")
 @click.option("--max-segments", type=click.IntRange(1), default=200_000, show_default=True)
+@click.option("--obstacle", multiple=True, metavar="MESH", help="Nothing grows through it: .glb .obj .ply .stl, metres, root at the origin; may be repeated.")
 @click.option("--leaf", metavar="MODEL|EXEMPLAR|none", help="Leaf model (default: the template's).")
 @click.option("--season", type=click.Choice(options.SEASONS), default="summer", show_default=True)
 @click.option("--bark", metavar="NAME", help="Bark (default: the template's).")
@@ -31,7 +31,6 @@ _LATER = {
 @click.option("--wood", type=click.Choice(["one-piece", "tubes"]), default="tubes", show_default=True)
 @click.option("--lod", type=click.IntRange(0, 3), default=0, show_default=True)
 @click.option("--leaves", type=click.Choice(["merged", "instanced"]), default="merged", show_default=True)
-@click.option("--obstacle", multiple=True, hidden=True)
 @click.option("--solid", is_flag=True, hidden=True)
 @click.option("--pack", hidden=True)
 @options.common

@@ -174,7 +174,7 @@ class Growing:
         if self.leaders:
             return True
         wood = np.concatenate([self.drawn.tree.tip] + [part.tip for part, _ in self.parts])
-        return emptiness(self.envelope, wood, HOLLOW_GAP * self.habit.lateral_spacing) > HOLLOW
+        return emptiness(self.envelope, wood, HOLLOW_GAP * self.habit.lateral_spacing, self.space) > HOLLOW
 
     def _nodes(self) -> Nodes:
         """All nodes that may bear laterals."""
