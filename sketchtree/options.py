@@ -6,6 +6,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from sketchtree.errors import OptionError
+from sketchtree.propagate.after import shears
 
 
 @dataclass(frozen=True)
@@ -42,17 +43,33 @@ class ReadingOptions(DrawingOptions):
 class TreeOptions:
     """How the drawn branches become a complete tree."""
 
-    generations: int | None = None  # ≥ 0; None: 5, or up to 12 inside a crown; 0: only what was drawn
+    generations: float | None = None  # 0-50; 3.5: three and half of the fourth; None: 5, or up to 12 inside a crown; 0: only what was drawn
     fill: bool = False  # keep on until the crown is evenly filled
     max_segments: int = 200_000
+    sag: float = 0.0  # 0-5 times the weight that bends undrawn branches; 0: none, 1: as physics says
+    shed: float = 0.0  # 0-1: undrawn branches that get less than this share of the light are dropped; 0: none
+    shed_twigs: float = 0.0  # 0-20 twig lengths: shorter undrawn branches that bear nothing are dropped; 0: none
+    prune: tuple[str, ...] = ()  # planes and mesh files that cut the tree, drawn wood too (`propagate.after.shears`)
     obstacle: tuple[str, ...] = ()  # mesh files that nothing grows through: metres, y up, the trunk's root at the origin
     leaf: str | None = None  # leaf model, exemplar whose leaf to take, or "none"; None: the template's
     season: str = "summer"
     bark: str | None = None  # None: the template's
 
     def __post_init__(self):
-        if self.generations is not None and not 0 <= self.generations <= 12:
-            raise OptionError(f"`--generations {self.generations}` is out of range.", remedy="Give 0 to 12.")
+        _whole(self, "generations")
+        for name, most in (("generations", 50), ("sag", 5), ("shed", 1), ("shed_twigs", 20)):
+            value = getattr(self, name)
+            if value is not None and not 0 <= value <= most:
+                raise OptionError(f"`--{name.replace('_', '-')} {value:g}` is out of range.", remedy=f"Give 0 to {most}.")
+        for shape in self.prune:
+            shears.plane(shape)  # refuse a misspelt one before the work
+
+
+def _whole(record, name: str) -> None:
+    """3.0 is 3, in the report too."""
+    value = getattr(record, name)
+    if isinstance(value, float) and value.is_integer():
+        object.__setattr__(record, name, int(value))
 
 
 def options_as_dict(*options) -> dict:

@@ -1,6 +1,6 @@
 """A sketch in, a complete tree out: every stage in order.
 
-    strokes → sketch graph → template → depths → skeleton → propagation → radii → leaves → meshes
+    strokes → sketch graph → template → depths → skeleton → propagation → radii → sag, shedding, pruning → leaves → meshes
 """
 
 import dataclasses
@@ -29,7 +29,12 @@ from sketchtree.mrf.solver import RESULTS
 from sketchtree.options import ReadingOptions, TreeOptions
 from sketchtree.page import drawn_radius, page_to_world
 from sketchtree.parameters import GENERIC, Habit, TreeParameters
-from sketchtree.propagate.generations import Propagate
+from sketchtree.propagate.after.level import kept_weight
+from sketchtree.propagate.after.prune import Prune
+from sketchtree.propagate.after.sag import Sag
+from sketchtree.propagate.after.shed import Shed
+from sketchtree.propagate.generations import Propagate, Propagation
+from sketchtree.propagate.growing import to_scale
 from sketchtree.roots import root_depth
 from sketchtree.similarity import Similarity
 from sketchtree.skeleton import TreeSkeleton
@@ -88,6 +93,7 @@ def sketch_to_tree(
     """Every stage in order (Chen et al. 2008, Figure 2). `sketch` may be a path to a file."""
     watch = watch or Watch()
     leaf_model(tree.leaf, Habit(), templates), bark_model(tree.bark, Habit())  # refuse a wrong name before the work
+    Prune(tree.prune)  # and a mesh that can't be used
     obstacles = _read_obstacles(tree)
     drawn = draw_out(sketch, templates, key=key, options=reading, watch=watch)
     return complete(drawn, templates, key=key, options=tree, obstacles=obstacles, watch=watch)
@@ -195,9 +201,26 @@ def _propagated(drawn: DrawnTree, options: TreeOptions, obstacles: tuple, key) -
         exemplar=drawn.exemplar.skeleton if drawn.exemplar else None,
     )
     grown = stage.run(drawn.skeleton, key=key)  # roots keep their rows, after all others
+    left = _weathered(drawn, grown, options)
+    pruned = Prune(options.prune).run(left)
+    cut = pruned.strokes_cut
+    told = (f"Pruning cut {cut} drawn stroke{'s' if cut > 1 else ''}.",) if cut else ()
+    return pruned.skeleton, grown.warnings + told
+
+
+def _weathered(drawn: DrawnTree, grown: Propagation, options: TreeOptions) -> TreeSkeleton:
+    """What weight and shade leave of a grown tree, with the radii of what is left."""
     radius = np.full(len(grown.skeleton), np.nan)
     radius[grown.drawn_row] = drawn.radius
-    return PipeRadii(drawn.habit, radius)(grown.skeleton, key=key), grown.warnings
+    tree, weight = grown.skeleton, grown.tip_weight
+    tree = PipeRadii(drawn.habit, radius, weight)(tree)
+    crown = tuple(drawn.similarity.to_world(outline) for outline in drawn.graph.crown)
+    shed = Shed(options.shed, options.shed_twigs, to_scale(drawn.habit, drawn.skeleton, crown))
+    for stage in (Sag(options.sag, drawn.habit, grown.space), shed):
+        cut = stage.run(tree)
+        radius, weight = radius[cut.rows], None if weight is None else kept_weight(tree, cut, weight)
+        tree = cut.skeleton
+    return PipeRadii(drawn.habit, radius, weight)(tree) if options.sag or options.shed or options.shed_twigs else tree
 
 
 @dataclass(frozen=True)

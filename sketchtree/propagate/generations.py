@@ -18,6 +18,7 @@ from sketchtree.propagate.after.level import cut_back
 from sketchtree.propagate.fill import COARSE_GAP, GAP, HOLLOW_ROUNDS, LED_GAP, ROUNDS
 from sketchtree.propagate.growing import Growing
 from sketchtree.propagate.space.obstacles import Obstacles
+from sketchtree.propagate.space.space import Space
 from sketchtree.propagate.wanted import CROWN_GENERATIONS, Wanted
 from sketchtree.roots import is_root, with_roots, without_roots
 from sketchtree.skeleton import TreeSkeleton
@@ -34,6 +35,7 @@ class Propagation:
     stopped_by: str  # generations | habit | max_segments
     warnings: tuple[str, ...]
     tip_weight: Float[np.ndarray, " segment"] | None = None  # pipes that start in each row; None: one in every tip
+    space: Space = Space()  # where it grew
 
 
 @dataclass(frozen=True)
@@ -78,6 +80,7 @@ def _complete(whole: TreeSkeleton, wanted: Wanted, key) -> Propagation:
         generations_done=growing.done,
         stopped_by=ended,
         warnings=_warnings(growing),
+        space=growing.space,
     )
     return found if wanted.generations in (None, limit) else _at_level(found, wanted.generations)
 

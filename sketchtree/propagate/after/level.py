@@ -21,6 +21,7 @@ import numpy as np
 from jaxtyping import Float, Int
 
 from sketchtree.axes import NULL
+from sketchtree.propagate.after.cutting import Cut
 from sketchtree.skeleton import TreeSkeleton
 from sketchtree.traverse import generations, is_tip, sum_from_root
 
@@ -54,6 +55,12 @@ def cut_back(
     rows = np.flatnonzero(keep)
     cut = tree.replace(tip=tip).select(keep)
     return Level(cut, rows, _tip_weight(cut, generation[rows] == last, fraction))
+
+
+def kept_weight(before: TreeSkeleton, cut: Cut, tip_weight: Float[np.ndarray, " segment"]) -> Float[np.ndarray, " kept"]:
+    """The weights once a part of the tree is cut off: what thereby became a tip has a whole pipe."""
+    was = is_tip(before.parent)[cut.rows]
+    return np.where(is_tip(cut.skeleton.parent) & ~was, 1.0, tip_weight[cut.rows])
 
 
 def _tip_weight(tree: TreeSkeleton, grows, fraction: float):

@@ -60,9 +60,9 @@ class Sag:
 
     def run(self, tree: TreeSkeleton) -> Cut:
         """As the call, with the rows that are left."""
-        moves = ~bears(tree.parent, ~np.isin(tree.kind, (int(Kind.PROPAGATED), int(Kind.GROWN)))) & ~tree.is_base
-        if self.strength == 0 or not moves.any():
+        if self.strength == 0 or len(tree) == 0:
             return Cut(tree, np.arange(len(tree)))
+        moves = ~bears(tree.parent, ~np.isin(tree.kind, (int(Kind.PROPAGATED), int(Kind.GROWN)))) & ~tree.is_base
         hung = tree.replace(tip=hanging(tree, moves, self.strength, self.habit))
         return cut(hung, self._free(hung, moves))
 
@@ -71,7 +71,8 @@ class Sag:
         share, rows = np.ones(len(tree)), np.flatnonzero(moves)
         start, end = tree.start[rows], tree.tip[rows]
         ground = tree.tip[tree.is_base, 1].min()
-        free = self.space.exit_fraction(start, end)
+        binding = tuple(barrier for barrier in self.space.barriers if getattr(barrier, "binding", True))
+        free = Space(binding).exit_fraction(start, end)
         sinks = (end[:, 1] < ground) & (end[:, 1] < start[:, 1])
         above = np.maximum(start[sinks, 1] - ground, 0.0)
         free[sinks] = np.minimum(free[sinks], above / (start[sinks, 1] - end[sinks, 1]))

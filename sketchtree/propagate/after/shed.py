@@ -46,7 +46,7 @@ class Shed:
 
     shade: float = 0.0  # 0-1: branches that get less than this share of the open sky's light go; 0: none
     twigs: float = 0.0  # 0-20 twig lengths: shorter branches that bear nothing go; 0: none
-    habit: Habit = Habit()
+    habit: Habit = Habit()  # to the tree's scale (`growing.to_scale`)
 
     def __post_init__(self):
         if not 0 <= self.shade <= 1:
@@ -61,6 +61,8 @@ class Shed:
     def run(self, tree: TreeSkeleton) -> Cut:
         """As the call, with the rows that are left."""
         falls = np.zeros(len(tree), bool)
+        if (self.shade == 0 and self.twigs == 0) or len(tree) == 0:
+            return Cut(tree, np.arange(len(tree)))
         if self.shade > 0:
             falls |= light_of_branches(tree, self.habit) < self.shade
         if self.twigs > 0:
