@@ -9,7 +9,14 @@ its first moment S = Σ m_j (x_j − x), turns by
     ⊥     the part across the piece: the rest would twist it
     E     Young's modulus of green wood, 9 GPa (USDA Wood Handbook 2021, table 5-3: green white oak 8.6, red oak 9.3 GPa)
     ρ     1000 kg/m³, green (ibid.: specific gravity about 0.6, moisture about 70 %)
-    leaf  0.25 kg a m² of blade, fresh (about 0.08 dry, Wright et al. 2004, and a dry share of a third)
+
+The mass of a piece is its wood and the leaves fed along it. By the pipe model (`geometry.radii`) P = (r / r_twig)^n twigs hang on
+wood of radius r, also those that no row stands for; what a row i of siblings j is fed of its parent's, and its leaves, are
+
+    p_i = P(parent) P_i / Σ_j P_j − P_i   (a tip: + P_i)        m = H π r_twig² p · 0.25 kg/m²
+
+    H     leaf area over the wood's cross-section, 5000 (an inverse Huber value: Tyree & Ewers 1991 give 1000 to 10 000)
+    0.25  kg a m² of fresh leaf: 0.08 dry (Wright et al. 2004), a third of it dry matter
 
 From the foot of a branch to its twigs: S is turned with all that has turned before it, so that what has come to hang bends no
 further. A piece turns by `_MOST` at most and neither past hanging straight down nor past where its load hangs under it. Its
@@ -33,9 +40,9 @@ STRONGEST = 5.0
 _GRAVITY = 9.81  # m/s²
 _YOUNG = 9.0e9  # Pa
 _DENSITY = 1000.0  # kg/m³
-_LEAF = 0.25  # kg a m² of blade
-_BLADE = 0.5  # of the square of a leaf's length: area of its blade
-_LEAFY = 3.0  # twig radii: thinner wood bears leaves
+_LEAF = 0.25  # kg a m² of leaf
+_LEAF_AREA = 5000.0  # H
+_LEAFLETS = 0.15  # kg a metre of a palm's midrib: two leaflets 0.4 m by 0.03 m every 0.03 m
 _MOST = np.radians(40.0)  # of one row
 _STUMP = 0.05  # of a row: what is cut shorter at a barrier is left out
 
@@ -110,9 +117,22 @@ def _rod(tree: TreeSkeleton, length, habit: Habit):
     """(mass in kg, E I in N m²) of every row."""
     thick, thin = start_radius(tree), tree.radius
     wood = np.pi * length * (thick**2 + thick * thin + thin**2) / 3 * _DENSITY
-    blades = _BLADE * habit.leaf_size**2 / habit.leaf_spacing
-    leaves = np.where(thin <= _LEAFY * habit.twig_radius, length * blades * _LEAF, 0.0)
+    if habit.leaf_arrangement == "frond":
+        leaves = _LEAFLETS * length
+    else:
+        leaves = _LEAF_AREA * np.pi * habit.twig_radius**2 * _LEAF * twigs_fed(tree, habit)
     return np.where(tree.parent == NULL, 0.0, wood + leaves), _YOUNG * np.pi / 4 * (thick * thin) ** 2
+
+
+def twigs_fed(tree: TreeSkeleton, habit: Habit) -> Float[np.ndarray, " segment"]:
+    """How many twigs hang on each row itself, not on what it bears, by the pipe model; none at bases."""
+    pipes = (tree.radius / habit.twig_radius) ** habit.pipe_exponent
+    rows = np.flatnonzero(tree.parent != NULL)
+    above = tree.parent[rows]
+    borne = np.bincount(above, pipes[rows], minlength=len(tree))
+    fed = np.zeros(len(tree))
+    fed[rows] = np.maximum(pipes[above] / borne[above] - 1.0, 0.0) * pipes[rows]
+    return fed + np.where((borne == 0) & (tree.parent != NULL), pipes, 0.0)
 
 
 def _bend(chord, lever, softness):
