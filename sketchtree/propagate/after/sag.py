@@ -1,10 +1,10 @@
 """How does a branch hang under its own weight?
 
-Each undrawn branch is an elastic rod (Euler & Bernoulli). A piece of length ℓ that carries the mass m beyond its start, with
-its first moment S = Σ m_j (x_j − x), turns by
+Each undrawn branch is an elastic rod (Euler & Bernoulli). A piece of length ℓ turns by
 
     θ = c M ℓ / (E I),     M = g |S × ŷ|⊥,     I = π r⁴ / 4
 
+    S     first moment Σ_j m_j (x_j − x) of all that lies beyond, about the piece's start and its end, the mean of both
     c     `strength`: 1 as physics says, 0 nothing
     ⊥     the part across the piece: the rest would twist it
     E     Young's modulus of green wood, 9 GPa (USDA Wood Handbook 2021, table 5-3: green white oak 8.6, red oak 9.3 GPa)
@@ -94,9 +94,11 @@ def hanging(tree: TreeSkeleton, moves, strength: float, habit: Habit) -> Float[n
     length = np.linalg.norm(vector, axis=1)
     mass, stiffness = _rod(tree, length, habit)
     load = np.column_stack([mass[:, None] * (start + 0.5 * vector), mass])
+    own = load.copy()
     for rows in reversed(steps[1:]):
         np.add.at(load, tree.parent[rows], load[rows])
-    lever = load[:, :3] - load[:, 3:] * start
+    beyond = load - own
+    lever = 0.5 * (load[:, :3] - load[:, 3:] * start + beyond[:, :3] - beyond[:, 3:] * tree.tip)
     softness = strength * _GRAVITY * length / stiffness
     tip = np.array(tree.tip)
     turned = np.broadcast_to(np.eye(3), (len(tree), 3, 3)).copy()
