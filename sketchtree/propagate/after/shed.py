@@ -14,7 +14,7 @@ evenly filled with them a shadow's reach R holds `LEAF_AREA` m² over every m² 
 
     σ   spread of the leafy wood, metres: an even ellipsoid of the same spread has the volume V
 
-so that there s = κ · LEAF_AREA and light e^(−4) = 0.02, on a bush as on an oak; the outside of a crown is in full light.
+so that there s = κ · LEAF_AREA and light e^(−1.5) = 0.22, on a bush as on an oak; the outside of a crown is in full light.
 
 A branch begins where undrawn wood leaves drawn wood or its limb leaves another; it goes with all it bears. What is drawn, and
 what bears any of that, is never shed; nor are branches without leafy wood. All branches are judged at once, by the light before any fell.
@@ -32,10 +32,10 @@ from sketchtree.propagate.space.shadow import ShadowField
 from sketchtree.skeleton import Kind, TreeSkeleton
 from sketchtree.traverse import generations, sum_to_root
 
-LEAF_AREA = 8.0  # m² a m², of a dense crown (Asner et al. 2003: 5 in broadleaved forest, 8.7 in plantations)
+LEAF_AREA = 3.0  # m² a m², of a tree that stands free; closed broadleaved forest has 5 (Asner et al. 2003)
 MOST_TWIGS = 20.0
 _LEAFY = 3.0  # twig radii: thinner wood bears leaves
-_REACH = 0.3  # of the least of the crown's sides: how far down a shadow reaches
+_REACH = 0.1  # of the least of the crown's sides; most of a pyramid lies 2 to 4 of it below
 _VOXELS = 40  # along the longest side of the crown
 _GRAIN = 1e-6  # m²: leaf areas are counted in whole square millimetres, so that sums are the same in any order
 
