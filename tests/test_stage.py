@@ -10,12 +10,21 @@ from sketchtree.geometry.radii import PipeRadii
 from sketchtree.parameters import GENERIC, Habit
 from sketchtree.options import ReadingOptions
 from sketchtree.pipeline import SketchSource
+from sketchtree.propagate.after.prune import Prune
+from sketchtree.propagate.after.sag import Sag
+from sketchtree.propagate.after.shed import Shed
 from sketchtree.propagate.generations import Propagate
 from sketchtree.skeleton import Kind, TreeSkeleton
 
 CURVY = Path(__file__).resolve().parents[1] / "examples" / "curvy.svg"
 KEY = keys.root_key(5)
-STAGES = {"propagate": Propagate(Habit(), GENERIC, generations=2), "radii": PipeRadii(Habit())}
+STAGES = {
+    "propagate": Propagate(Habit(), GENERIC, generations=2),
+    "radii": PipeRadii(Habit()),
+    "sag": Sag(1.0),
+    "shed": Shed(0.3, 1.0),
+    "prune": Prune(("y<1000",)),
+}
 
 
 @pytest.fixture(scope="module")
@@ -53,3 +62,11 @@ def test_the_same_key_gives_the_same_tree(drawn, name):
 def test_an_empty_tree_stays_empty(name):
     empty = TreeSkeleton.from_columns(np.zeros(0, int), np.zeros((0, 3)), np.zeros(0))
     assert len(STAGES[name](empty, key=KEY)) == 0
+
+
+@pytest.mark.parametrize("name", STAGES)
+def test_a_grown_tree_keeps_its_drawing_through_every_stage(drawn, name):
+    grown = PipeRadii(Habit())(Propagate(Habit(), GENERIC, generations=2)(drawn, key=KEY))
+    tree = STAGES[name](grown, key=KEY)
+    kept = {tuple(tip) for tip in tree.tip[tree.kind == Kind.DRAWN]}
+    assert {tuple(tip) for tip in drawn.tip} <= kept

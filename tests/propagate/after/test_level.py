@@ -114,7 +114,7 @@ def test_pipes_pass_from_a_tip_to_what_it_bears():
     np.testing.assert_allclose(cut_back(tree, np.array([0, 0, 1]), 1, 0.25).tip_weight, [0, 0.75, 0.25])
 
 
-@pytest.mark.parametrize("whole", [2, 3])
+@pytest.mark.parametrize("whole", [1, 2])
 def test_wood_thickens_without_a_jump_where_a_generation_begins(whole):
     before, after = grown(whole), grown(whole + 1e-3)
     slim = dataclasses.replace(DEEP, trunk_ratio=0.006)
