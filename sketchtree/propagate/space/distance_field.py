@@ -2,8 +2,8 @@
 
 The surface is given by samples of it. Distances to them are held at the corners of a regular grid, in the plane or in space, negative
 where it is solid, between corners multilinear: every corner reads a sample near it (the Euclidean distance transform of the corners next
-to samples says which: Maurer et al. 2003, as in scipy). Beyond `band` the grid tells nothing apart. Close to the
-surface the samples themselves are asked (a k-d tree).
+to samples says which: Maurer et al. 2003, as in scipy), as a disc one pitch wide to either side, so that what is flat reads as flat. Beyond `band`
+the grid tells nothing apart. Close to the surface the samples themselves are asked (a k-d tree).
 
     F(p)   the distance read off the grid, between corners or at the nearest one
     d(p)   the true one
@@ -46,13 +46,14 @@ class DistanceField:
     def from_samples(
         cls,
         sample: Float[np.ndarray, "sample axis"],
+        normal: Float[np.ndarray, "sample axis"],
         corners: tuple[Float[np.ndarray, " corner"], ...],
         solid: Bool[np.ndarray, "..."],
         band: float,
         apart: float,
     ) -> "DistanceField":
-        """The field on a grid (see `grid`). No point of the surface within it may be farther than `apart` (ρ) from every sample."""
-        distance = np.minimum(_distances(sample, corners), band, dtype=np.float32)
+        """The field on a grid (see `grid`); `normal` are unit, to either side. No point of the surface within it may be farther than `apart` (ρ) from every sample."""
+        distance = np.minimum(_distances(sample, normal, corners), band, dtype=np.float32)
         return cls(corners, np.where(solid, -distance, distance), sample, band, apart)
 
     @property
@@ -151,8 +152,8 @@ def _weight(corner, part):
     return weight
 
 
-def _distances(sample, corners):
-    """The distance of every corner to the sample of the nearest corner that has one."""
+def _distances(sample, normal, corners):
+    """The distance of every corner to the disc about the sample of the nearest corner that has one."""
     shape = tuple(len(along) for along in corners)
     low, pitch = np.array([along[0] for along in corners]), corners[0][1] - corners[0][0]
     corner = np.rint((sample - low) / pitch).astype(np.int64)
@@ -167,8 +168,11 @@ def _distances(sample, corners):
     which.ravel()[flat[best]] = np.arange(len(best))
     nearest = distance_transform_edt(which < 0, return_distances=False, return_indices=True)
     which = which[tuple(nearest)]
-    squares = np.zeros(shape, np.float32)
+    squares, height = np.zeros(shape, np.float32), np.zeros(shape, np.float32)
     for axis, along in enumerate(corners):
         along = along.reshape([-1 if k == axis else 1 for k in range(len(shape))])
-        squares += (along - sample[held][best, axis][which]).astype(np.float32) ** 2
-    return np.sqrt(squares)
+        off = (along - sample[held[best], axis][which]).astype(np.float32)
+        squares += off**2
+        height += off * normal[held[best], axis].astype(np.float32)[which]
+    beside = np.sqrt(np.maximum(squares - height**2, 0.0)) - np.float32(pitch)
+    return np.hypot(height, np.maximum(beside, 0.0))

@@ -19,7 +19,7 @@ _BEYOND = 0.5  # of the height
 _FEELS = 4.0  # spacings of laterals
 _FINE = 1 / 5  # of the spacing of laterals
 _WIDE = 4.0  # pitches
-_ROUNDS = 6  # to a pitch that fits
+_ROUNDS = 20  # to a pitch that fits
 
 
 @dataclass(frozen=True, eq=False)

@@ -7,7 +7,8 @@ What a surface encloses is solid; an open one is a sheet.
     margin m(p) = F(p) − c          how far p is from where wood may not be (F, ρ: `distance_field`)
     clearance c = max(`_KEEPS` · spacing of laterals, 2 ρ)
 
-The free part of a step is found by strides of what the distance is at least, so that no sheet is too thin to be met.
+The free part of a step is found by strides of what the distance is at least, so that no sheet is too thin to be met; where a stride
+ends too near, the step ends so much earlier on it.
 """
 
 from dataclasses import dataclass
@@ -61,12 +62,12 @@ class Obstacle:
         rows = np.flatnonzero((fraction == 0.0) & (stride > self._nearest))
         along, stride = np.zeros(len(rows)), stride[rows]
         while len(rows):
-            along = np.minimum(along + stride / length[rows], 1.0)
-            stride = self._distance(start[rows] + along[:, None] * way[rows])
-            ok = stride > self._nearest
-            fraction[rows[ok]] = along[ok]
-            on = ok & (along < 1.0)
-            rows, along, stride = rows[on], along[on], stride[on]
+            ahead = np.minimum(along + stride / length[rows], 1.0)
+            distance = self._distance(start[rows] + ahead[:, None] * way[rows])
+            ok = distance > self._nearest
+            fraction[rows] = np.where(ok, ahead, along + (stride - self._nearest) / length[rows]).clip(0.0, 1.0)
+            on = ok & (ahead < 1.0)
+            rows, along, stride = rows[on], ahead[on], distance[on]
         return fraction
 
     @property
@@ -104,10 +105,10 @@ def from_mesh(mesh, domain: Domain, most: float) -> Obstacle | None:
     if len(near) == 0:
         return None
     edge = min(pitch, max(_FINE * domain.spacing, pitch * np.sqrt(len(near) / _SAMPLES)))
-    sample = surface_samples(near, low, high, edge)
+    sample, normal = surface_samples(near, low, high, edge)
     corners = grid(low, high, pitch)
     solid = np.zeros([len(along) for along in corners], bool) if _holds(mesh, domain.root) else enclosed(triangle, corners)
-    field = DistanceField.from_samples(sample, corners, solid, band, APART * edge)
+    field = DistanceField.from_samples(sample, normal, corners, solid, band, APART * edge)
     return Obstacle(field, _clearance(field, domain))
 
 
@@ -134,11 +135,11 @@ def from_region(outline, name: str, domain: Domain, most: float) -> Obstacle | N
     if (low >= high).any():
         return None
     edge = _FINE * domain.spacing
-    sample = line_samples(np.asarray(outline, float), edge)
+    sample, normal = line_samples(np.asarray(outline, float), edge)
     corners = grid(low, high, pitch)
     x, y = np.meshgrid(*corners, indexing="ij")
     solid = shapely.contains_xy(area, x.ravel(), y.ravel()).reshape(x.shape)
-    field = DistanceField.from_samples(sample, corners, solid, band, 0.5 * edge)
+    field = DistanceField.from_samples(sample, normal, corners, solid, band, 0.5 * edge)
     return Obstacle(field, _clearance(field, domain))
 
 

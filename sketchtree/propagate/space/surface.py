@@ -25,10 +25,12 @@ _OFF = (0.00137, 0.00271)  # of a pitch: how far beside its corners a way goes, 
 
 def surface_samples(
     triangle: Float[np.ndarray, "triangle 3 3"], low: Float[np.ndarray, " 3"], high: Float[np.ndarray, " 3"], edge: float
-) -> Float[np.ndarray, "sample 3"]:
-    """Points of the triangles (metres) inside the box from `low` to `high`, and some about it; no point of them inside is
+) -> tuple[Float[np.ndarray, "sample 3"], Float[np.ndarray, "sample 3"]]:
+    """(points, unit normals) of the triangles (metres) inside the box from `low` to `high`, and some about it; no point of them inside is
     farther than `APART` · `edge` from all."""
-    return pieces(triangle, low, high, edge).mean(axis=1)
+    piece = pieces(triangle, low, high, edge)
+    normal = np.cross(piece[:, 1] - piece[:, 0], piece[:, 2] - piece[:, 0])
+    return piece.mean(axis=1), normal / np.maximum(np.linalg.norm(normal, axis=1), 1e-300)[:, None]
 
 
 def pieces(
@@ -46,13 +48,16 @@ def pieces(
     return np.concatenate(found)
 
 
-def line_samples(outline: Float[np.ndarray, "point 2"], edge: float) -> Float[np.ndarray, "sample 2"]:
-    """Points of a closed outline (metres), no point of it farther than half an `edge` from all."""
+def line_samples(
+    outline: Float[np.ndarray, "point 2"], edge: float
+) -> tuple[Float[np.ndarray, "sample 2"], Float[np.ndarray, "sample 2"]]:
+    """(points, unit normals) of a closed outline (metres), no point of it farther than half an `edge` from all."""
     way = np.roll(outline, -1, axis=0) - outline
     count = np.maximum(np.ceil(np.linalg.norm(way, axis=1) / edge).astype(np.int64), 1)
     owner = np.repeat(np.arange(len(outline)), count)
     along = (np.arange(len(owner)) - np.repeat(np.cumsum(count) - count, count)) / count[owner]
-    return outline[owner] + along[:, None] * way[owner]
+    normal = way[:, ::-1] * [1.0, -1.0] / np.maximum(np.linalg.norm(way, axis=1), 1e-300)[:, None]
+    return outline[owner] + along[:, None] * way[owner], normal[owner]
 
 
 def enclosed(triangle: Float[np.ndarray, "triangle 3 3"], corners: tuple[Float[np.ndarray, " corner"], ...]) -> Bool[np.ndarray, "x y z"]:

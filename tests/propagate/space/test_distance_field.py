@@ -14,7 +14,7 @@ def field():
     low, high = CENTRE - 3.2, CENTRE + 3.2
     triangle = np.asarray(ball(CENTRE, RADIUS, 4).triangles)
     corners = grid(low, high, 0.2)
-    return DistanceField.from_samples(surface_samples(triangle, low, high, 0.06), corners, enclosed(triangle, corners), BAND, APART * 0.06)
+    return DistanceField.from_samples(*surface_samples(triangle, low, high, 0.06), corners, enclosed(triangle, corners), BAND, APART * 0.06)
 
 
 @pytest.fixture(scope="module")
@@ -65,7 +65,7 @@ def test_beyond_the_grid_nothing_is_near(field):
 
 def test_without_samples_everything_is_far():
     corners = grid(np.zeros(2), np.ones(2), 0.1)
-    empty = DistanceField.from_samples(np.zeros((0, 2)), corners, np.zeros([len(x) for x in corners], bool), 0.5, 0.01)
+    empty = DistanceField.from_samples(np.zeros((0, 2)), np.zeros((0, 2)), corners, np.zeros([len(x) for x in corners], bool), 0.5, 0.01)
     assert (empty.distance == np.float32(0.5)).all()
 
 
@@ -74,7 +74,7 @@ def test_it_works_in_the_plane_too():
     corners = grid(np.full(2, -2.0), np.full(2, 4.0), 0.1)
     x, y = np.meshgrid(*corners, indexing="ij")
     solid = (x > 0) & (x < 2) & (y > 0) & (y < 2)
-    field = DistanceField.from_samples(line_samples(outline, 0.05), corners, solid, 1.0, 0.025)
+    field = DistanceField.from_samples(*line_samples(outline, 0.05), corners, solid, 1.0, 0.025)
     point = np.array([[2.5, 1.0], [1.0, -0.3], [1.0, 1.5], [3.0, 3.0]])
     np.testing.assert_allclose(field.at(point), [0.5, 0.3, -0.5, 1.0], atol=0.02)
     np.testing.assert_allclose(field.away(point[:2]), [[1, 0], [0, -1]], atol=0.05)

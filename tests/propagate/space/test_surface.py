@@ -11,7 +11,8 @@ LOW, HIGH = np.full(3, -3.0), np.full(3, 3.0)
 
 @pytest.mark.parametrize("mesh", [ball((0, 0, 0), 2.0, 1), box((-2, -1, -1), (1, 2, 1)), wall(0.5)])
 def test_no_point_of_the_surface_is_farther_than_apart_from_every_sample(mesh):
-    sample = surface_samples(np.asarray(mesh.triangles), LOW, HIGH, 0.3)
+    sample, normal = surface_samples(np.asarray(mesh.triangles), LOW, HIGH, 0.3)
+    np.testing.assert_allclose(np.linalg.norm(normal, axis=1), 1.0)
     point, _ = trimesh.sample.sample_surface(mesh, 4000, seed=0)
     point = point[((point >= LOW) & (point <= HIGH)).all(axis=1)]
     assert cKDTree(sample).query(point)[0].max() <= APART * 0.3 + 1e-12
@@ -27,12 +28,13 @@ def test_pieces_cover_what_lies_in_the_box_and_little_else():
 
 
 def test_a_surface_outside_the_box_has_no_samples():
-    assert len(surface_samples(np.asarray(ball((50, 0, 0), 2.0).triangles), LOW, HIGH, 0.3)) == 0
+    assert len(surface_samples(np.asarray(ball((50, 0, 0), 2.0).triangles), LOW, HIGH, 0.3)[0]) == 0
 
 
 def test_samples_of_an_outline_are_no_farther_apart_than_asked():
     outline = np.array([[0, 0], [3, 0], [3, 0], [1, 2]], float)
-    sample = line_samples(outline, 0.25)
+    sample, normal = line_samples(outline, 0.25)
+    np.testing.assert_allclose(normal[0], [0, -1])
     ring = np.concatenate([sample, sample[:1]])
     assert np.linalg.norm(np.diff(ring, axis=0), axis=1).max() <= 0.25 + 1e-12
     assert all((np.abs(sample - corner).sum(axis=1) < 1e-12).any() for corner in outline)
