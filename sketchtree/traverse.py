@@ -11,11 +11,12 @@ from sketchtree.axes import NULL
 
 
 def generation(parent: Int[np.ndarray, " segment"]) -> Int[np.ndarray, " segment"]:
-    """How many rows lie between each row and its base (0 at a base)."""
-    depth = np.zeros(len(parent), np.int64)
-    for row, above in enumerate(parent.tolist()):
-        if above != NULL:
-            depth[row] = depth[above] + 1
+    """How many rows lie between each row and its base (0 at a base): by ancestors twice as far away at every step."""
+    depth = (parent != NULL).astype(np.int64)
+    above = np.where(parent == NULL, np.arange(len(parent)), parent)
+    while depth[above].any():
+        depth += depth[above]
+        above = above[above]
     return depth
 
 

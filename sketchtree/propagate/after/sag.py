@@ -96,7 +96,8 @@ def hanging(tree: TreeSkeleton, moves, strength: float, habit: Habit) -> Float[n
     load = np.column_stack([mass[:, None] * (start + 0.5 * vector), mass])
     own = load.copy()
     for rows in reversed(steps[1:]):
-        np.add.at(load, tree.parent[rows], load[rows])
+        for column in range(4):
+            np.add.at(load[:, column], tree.parent[rows], load[rows, column])
     beyond = load - own
     lever = 0.5 * (load[:, :3] - load[:, 3:] * start + beyond[:, :3] - beyond[:, 3:] * tree.tip)
     softness = strength * _GRAVITY * length / stiffness

@@ -14,74 +14,83 @@ from dataclasses import dataclass
 import numpy as np
 from jaxtyping import Bool, Float, Int
 
-_MOST_COLUMNS = 256  # along a side
+_FEWEST_COLUMNS, _MOST_COLUMNS = 16, 256  # along a side
 _PAIRS = 2_000_000  # of a point and a triangle, at once
 
 
 @dataclass(frozen=True, eq=False)
 class Solid:
-    """The inside of closed triangles."""
+    """The inside of closed triangles. Upright triangles count for nothing and are left out."""
 
-    corner: Float[np.ndarray, "triangle 3 3"]  # metres
-    low: Float[np.ndarray, " 2"]  # of the columns, x and z
-    size: Float[np.ndarray, " 2"]  # of one column, metres
+    box: Float[np.ndarray, "2 3"]  # two corners that hold the triangles, metres
+    edge: Float[np.ndarray, "4 triangle 3"]  # of each edge, seen from above: z from, z to, x at the first, dx/dz
+    plane: Float[np.ndarray, "3 triangle"]  # y = plane[0] + plane[1] x + plane[2] z
+    sign: Float[np.ndarray, " triangle"]  # 1 if it faces up, −1 if down
     start: Int[np.ndarray, " column+1"]  # column i holds triangle[start[i]:start[i + 1]]
     triangle: Int[np.ndarray, " entry"]
 
     @classmethod
     def from_triangles(cls, corner: Float[np.ndarray, "triangle 3 3"]) -> "Solid":
-        """Sorted into columns: about one triangle to a column."""
+        """Sorted into columns, about as many as there are triangles."""
         corner = np.asarray(corner, float)
-        flat = corner[:, :, [0, 2]]
-        count = int(np.clip(np.sqrt(len(corner)), 1, _MOST_COLUMNS))
-        low = flat.min(axis=(0, 1))
-        size = np.maximum((flat.max(axis=(0, 1)) - low) / count, 1e-9)
-        first, last = (_column(edge, low, size, count) for edge in (flat.min(axis=1), flat.max(axis=1)))
-        wide = last - first + 1
-        owner = np.repeat(np.arange(len(corner)), wide.prod(axis=1))
-        place = np.arange(len(owner)) - np.repeat(np.cumsum(wide.prod(axis=1)) - wide.prod(axis=1), wide.prod(axis=1))
-        column = (first[owner, 0] + place // wide[owner, 1]) * count + first[owner, 1] + place % wide[owner, 1]
-        start = np.r_[0, np.cumsum(np.bincount(column, minlength=count**2))]
-        return cls(corner, low, size, start, owner[np.argsort(column, kind="stable")])
+        box = np.stack([corner.min(axis=(0, 1)), corner.max(axis=(0, 1))])
+        normal = np.cross(corner[:, 1] - corner[:, 0], corner[:, 2] - corner[:, 0])
+        flat = normal[:, 1] != 0
+        corner, normal = corner[flat], normal[flat]
+        slope = -normal[:, [0, 2]] / normal[:, 1:2]
+        height = corner[:, 0, 1] - np.einsum("ti,ti->t", slope, corner[:, 0][:, [0, 2]])
+        count = int(np.clip(np.sqrt(len(corner)), _FEWEST_COLUMNS, _MOST_COLUMNS))
+        start, triangle = _columns(corner[:, :, [0, 2]], box[:, [0, 2]], count)
+        return cls(box, _edges(corner), np.stack([height, *slope.T]), np.sign(normal[:, 1]), start, triangle)
 
     def inside(self, point: Float[np.ndarray, "point 3"]) -> Bool[np.ndarray, " point"]:
         """Which points lie inside."""
+        rows = np.flatnonzero(((point >= self.box[0]) & (point <= self.box[1])).all(axis=1))
         count = int(round(np.sqrt(len(self.start) - 1)))
-        at = np.floor((point[:, [0, 2]] - self.low) / self.size)
-        rows = np.flatnonzero(((at >= 0) & (at <= count)).all(axis=1))
-        column = np.minimum(at[rows].astype(np.int64), count - 1) @ np.array([count, 1])
+        column = _column(point[rows][:, [0, 2]], self.box[:, [0, 2]], count) @ np.array([count, 1])
         many = np.diff(self.start)[column]
-        winding = np.zeros(len(point), np.int64)
+        winding = np.zeros(len(point))
         for part in np.split(np.arange(len(rows)), np.flatnonzero(np.diff(np.cumsum(many) // _PAIRS)) + 1):
             owner = np.repeat(part, many[part])
             entry = np.arange(len(owner)) - np.repeat(np.cumsum(many[part]) - many[part], many[part]) + self.start[column[owner]]
-            sign = _crossings(point[rows[owner]], self.corner[self.triangle[entry]])
-            winding += np.bincount(rows[owner], sign, minlength=len(point)).astype(np.int64)
+            which, sign = self._above(point, rows[owner], self.triangle[entry])
+            winding += np.bincount(which, sign, minlength=len(point))
         return winding != 0
 
-
-def _crossings(point, corner):
-    """1 or −1 where the line up from a point meets a triangle that faces up or down, else 0."""
-    x, z = point[:, 0], point[:, 2]
-    within = np.zeros(len(point), bool)
-    for k in range(3):
-        within ^= _edge_to_the_right(x, z, corner[:, k], corner[:, (k + 1) % 3])
-    normal = np.cross(corner[:, 1] - corner[:, 0], corner[:, 2] - corner[:, 0])
-    upright = normal[:, 1]
-    within &= upright != 0
-    aside = normal[:, 0] * (x - corner[:, 0, 0]) + normal[:, 2] * (z - corner[:, 0, 2])
-    height = corner[:, 0, 1] - aside / np.where(upright == 0, 1.0, upright)
-    return np.where(within & (height > point[:, 1]), np.sign(upright), 0.0)
+    def _above(self, point, row, triangle):
+        """(point, sign of the triangle) wherever the line up from a point meets its triangle."""
+        x, z = point[row, 0], point[row, 2]
+        within = np.zeros(len(row), bool)
+        for first, last, at, slope in (self.edge[:, triangle, k] for k in range(3)):
+            within ^= (first <= z) & (z < last) & (at + (z - first) * slope > x)
+        row, triangle, x, z = row[within], triangle[within], x[within], z[within]
+        a, b, c = self.plane[:, triangle]
+        above = a + b * x + c * z > point[row, 1]
+        return row[above], self.sign[triangle[above]]
 
 
-def _edge_to_the_right(x, z, a, b):
-    """Whether an edge crosses the line from (x, z) towards +x; the same for the edge from b to a, to the last bit."""
-    lower = (a[:, 2] < b[:, 2]) | ((a[:, 2] == b[:, 2]) & (a[:, 0] < b[:, 0]))
-    first, last = np.where(lower[:, None], a, b), np.where(lower[:, None], b, a)
-    spans = (first[:, 2] <= z) & (z < last[:, 2])
-    along = (z - first[:, 2]) / np.where(spans, last[:, 2] - first[:, 2], 1.0)
-    return spans & (first[:, 0] + along * (last[:, 0] - first[:, 0]) > x)
+def _edges(corner):
+    """Each edge from its end of lesser z to the other: the same numbers for both triangles that share it."""
+    a, b = corner, np.roll(corner, -1, axis=1)
+    lower = (a[:, :, 2] < b[:, :, 2])[:, :, None]
+    first, last = np.where(lower, a, b), np.where(lower, b, a)
+    span = last[:, :, 2] - first[:, :, 2]
+    slope = (last[:, :, 0] - first[:, :, 0]) / np.where(span > 0, span, 1.0)
+    return np.stack([first[:, :, 2], last[:, :, 2], first[:, :, 0], slope])
 
 
-def _column(edge, low, size, count: int):
-    return np.clip(((edge - low) / size).astype(np.int64), 0, count - 1)
+def _columns(flat, box, count: int):
+    """The triangles of every column, as a ragged table (start, triangle)."""
+    first, last = (_column(edge, box, count) for edge in (flat.min(axis=1), flat.max(axis=1)))
+    wide = last - first + 1
+    cells = wide.prod(axis=1)
+    owner = np.repeat(np.arange(len(flat)), cells)
+    place = np.arange(len(owner)) - np.repeat(np.cumsum(cells) - cells, cells)
+    column = (first[owner, 0] + place // wide[owner, 1]) * count + first[owner, 1] + place % wide[owner, 1]
+    start = np.r_[0, np.cumsum(np.bincount(column, minlength=count**2))]
+    return start, owner[np.argsort(column, kind="stable")]
+
+
+def _column(at, box, count: int):
+    size = np.maximum((box[1] - box[0]) / count, 1e-12)
+    return np.clip(((at - box[0]) / size).astype(np.int64), 0, count - 1)
