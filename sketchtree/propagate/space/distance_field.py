@@ -22,7 +22,6 @@ is (sphere tracing, Hart 1996).
 
 from dataclasses import dataclass
 from functools import cached_property
-from itertools import product
 
 import numpy as np
 from jaxtyping import Bool, Float
@@ -79,17 +78,14 @@ class DistanceField:
         """F at these points, metres; negative where it is solid."""
         found = np.full(len(point), self.band)
         rows, cell, part = self._cells(point)
-        total = np.zeros(len(rows))
-        for corner in product((0, 1), repeat=self.axes):
-            total += _weight(corner, part) * self._values(cell, corner)
-        found[rows] = total
+        found[rows] = _between(self._about(cell), part)
         return found
 
     def at_least(self, point: Float[np.ndarray, "point axis"], exact: float) -> Float[np.ndarray, " point"]:
         """What d is at least, metres; 0 in cells that are solid. Where that is less than `exact` by the grid, by the nearest sample."""
         found = self.roughly(point) - self.slack
         close = np.flatnonzero(found < exact)
-        close = close[~self._buried(point[close])]
+        close = close[~self._in_solid(point[close])]
         found[close] = self._tree.query(point[close])[0] - self.apart
         return np.maximum(found, 0.0)
 
@@ -106,35 +102,46 @@ class DistanceField:
     def away(self, point: Float[np.ndarray, "point axis"]) -> Float[np.ndarray, "point axis"]:
         """Unit directions away from what is near, ∇F / |∇F|; 0 where nothing is."""
         rows, cell, part = self._cells(point)
-        slope = np.zeros((len(rows), self.axes))
-        for corner in product((0, 1), repeat=self.axes):
-            value = self._values(cell, corner)
-            for axis in range(self.axes):
-                others = [k for k in range(self.axes) if k != axis]
-                weight = _weight([corner[k] for k in others], part[:, others])
-                slope[:, axis] += (2 * corner[axis] - 1) * weight * value
+        about = self._about(cell)
+        slope = np.stack([_between(np.diff(about, axis=k), part, leave=k) for k in range(self.axes)], axis=1)
         length = np.linalg.norm(slope, axis=1)
         found = np.zeros((len(point), self.axes))
         found[rows] = slope / np.where(length > 1e-6 * self.pitch, length, np.inf)[:, None]
         return found
 
     def _cells(self, point):
-        """(rows inside the grid, the first corner of the cell of each, where in it it lies, 0-1)."""
-        at = (np.asarray(point) - [along[0] for along in self.corners]) / self.pitch
-        held = (at >= 0) & (at < np.array(self.distance.shape) - 1)
-        rows = np.flatnonzero(np.logical_and.reduce(held.T))
-        cell = at[rows].astype(np.int64)
-        return rows, cell, at[rows] - cell
+        """(rows inside the grid, the first corner of the cell of each, where in it it lies, 0-1; both by axis)."""
+        at = [(point[:, k] - along[0]) / self.pitch for k, along in enumerate(self.corners)]
+        held = np.ones(len(point), bool)
+        for axis, along in zip(at, self.corners, strict=True):
+            held &= (axis >= 0) & (axis < len(along) - 1)
+        rows = np.flatnonzero(held)
+        at = [axis[rows] for axis in at]
+        cell = [axis.astype(np.int64) for axis in at]
+        return rows, cell, [axis - first for axis, first in zip(at, cell, strict=True)]
 
-    def _values(self, cell, corner):
-        return self.distance[tuple((cell + np.array(corner)).T)]
+    def _about(self, cell):
+        """F at the corners of the cells: one axis of 2 for each of the grid's, and the cells last."""
+        flat = np.ravel_multi_index(cell, self.distance.shape)
+        apart = np.cumprod([1, *self.distance.shape[:0:-1]])[::-1]
+        step = sum(np.ix_(*[[0, stride] for stride in apart]))
+        return self.distance.ravel()[step[..., None] + flat]
 
-    def _buried(self, point):
+    def _in_solid(self, point):
         """Which points lie in a cell all of whose corners are solid."""
-        rows, cell, _ = self._cells(point)
-        buried = np.zeros(len(point), bool)
-        buried[rows] = np.all([self._values(cell, corner) < 0 for corner in product((0, 1), repeat=self.axes)], axis=0)
-        return buried
+        found = np.zeros(len(point), bool)
+        if self._solid.any():
+            rows, cell, _ = self._cells(point)
+            found[rows] = self._solid[tuple(cell)]
+        return found
+
+    @cached_property
+    def _solid(self) -> Bool[np.ndarray, "..."]:
+        """The cells all of whose corners are solid."""
+        solid = self.distance < 0
+        for axis, count in enumerate(solid.shape):
+            solid = solid.take(np.arange(count - 1), axis) & solid.take(np.arange(1, count), axis)
+        return solid
 
 
 def grid(low: Float[np.ndarray, " axis"], high: Float[np.ndarray, " axis"], pitch: float) -> tuple[Float[np.ndarray, " corner"], ...]:
@@ -144,12 +151,11 @@ def grid(low: Float[np.ndarray, " axis"], high: Float[np.ndarray, " axis"], pitc
     return tuple(first + pitch * np.arange(n) for first, n in zip(low, count, strict=True))
 
 
-def _weight(corner, part):
-    """The share of one corner of a cell in what is read at each place in it."""
-    weight = np.ones(len(part))
-    for k, on in enumerate(corner):
-        weight *= part[:, k] if on else 1.0 - part[:, k]
-    return weight
+def _between(about, part, leave: int | None = None):
+    """What is read between the corners of cells, from axis to axis; the axis to `leave` has one corner only."""
+    for axis, share in enumerate(part):
+        about = about[0] if axis == leave else about[0] + share * (about[1] - about[0])
+    return about
 
 
 def _distances(sample, normal, corners):

@@ -16,7 +16,7 @@ from sketchtree.propagate.space.envelope import Envelope
 from sketchtree.skeleton import TreeSkeleton
 
 _BEYOND = 0.5  # of the height
-_FEELS = 4.0  # spacings of laterals
+_FEELS = 3.0  # spacings of laterals
 _FINE = 1 / 5  # of the spacing of laterals
 _WIDE = 4.0  # pitches
 _ROUNDS = 20  # to a pitch that fits

@@ -57,10 +57,12 @@ class Obstacle:
         """The fraction of each way from `start` to `end` before it comes too near, 0-1."""
         start, way = start[:, : self.field.axes], (end - start)[:, : self.field.axes]
         length = np.maximum(np.linalg.norm(way, axis=1), 1e-300)
-        stride = self._distance(start)
-        fraction = np.where(stride > self._nearest + length, 1.0, 0.0)
-        rows = np.flatnonzero((fraction == 0.0) & (stride > self._nearest))
-        along, stride = np.zeros(len(rows)), stride[rows]
+        fraction = np.ones(len(start))
+        rows = np.flatnonzero(self.field.roughly(start + 0.5 * way) - self.field.slack <= self._nearest + 0.5 * length)
+        stride = self._distance(start[rows])
+        fraction[rows] = 0.0
+        rows, stride = rows[stride > self._nearest], stride[stride > self._nearest]
+        along = np.zeros(len(rows))
         while len(rows):
             ahead = np.minimum(along + stride / length[rows], 1.0)
             distance = self._distance(start[rows] + ahead[:, None] * way[rows])
