@@ -16,6 +16,7 @@ from sketchtree.propagate.after.cutting import Cut, cut, path_length, pieces
 from sketchtree.propagate.after.shears import Shears, shears
 from sketchtree.roots import is_root
 from sketchtree.skeleton import Kind, TreeSkeleton
+from sketchtree.traverse import is_tip
 
 _LIFT = 1e-3  # of the tree's height: a base this far below the lowest point of a shape still stands in it
 
@@ -43,16 +44,25 @@ class Prune:
 
     def run(self, tree: TreeSkeleton) -> Pruned:
         """As the call, with the rows that are left and the strokes that were cut. Raises OptionError if nothing is left."""
+        if not self.shapes or tree.segment_count == 0:
+            return Pruned(tree, np.arange(len(tree)), 0)
         share = np.ones(len(tree))
         for shape in self.shapes:
             share = np.minimum(share, share_inside(tree, shape))
-        left = cut(tree, share)
-        if len(tree) and left.skeleton.segment_count == 0 and tree.segment_count:
+        left = _without_bare_feet(cut(tree, share))
+        if left.skeleton.segment_count == 0:
             raise OptionError(
                 "Pruning cuts the tree off at its foot, so nothing is left.",
                 remedy="Turn the plane's `<` round, or let the mesh reach down to the ground (the trunk's root is at the origin).",
             )
         return Pruned(left.skeleton, left.rows, _strokes_cut(tree, left.rows, share))
+
+
+def _without_bare_feet(left: Cut) -> Cut:
+    """The same without the bases that bear nothing any more."""
+    tree = left.skeleton
+    keep = ~(tree.is_base & is_tip(tree.parent))
+    return left if keep.all() else Cut(tree.select(keep), left.rows[keep])
 
 
 def share_inside(tree: TreeSkeleton, shape: Shears) -> Float[np.ndarray, " segment"]:

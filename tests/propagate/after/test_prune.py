@@ -174,6 +174,15 @@ def test_of_two_stems_one_may_go():
     np.testing.assert_array_equal(Prune(("x<5",)).run(other).rows, np.arange(3))
 
 
+def test_a_foot_that_bears_nothing_any_more_goes_too():
+    """The second stem leans out of the shape right from its foot."""
+    tree = rod([[1, 3, 0]])
+    other = TreeSkeleton.from_columns(
+        np.r_[tree.parent, -1, 3], np.vstack([tree.tip, [[5, 0, 0], [6, 1, 0]]]), np.r_[tree.radius, 0.1, 0.1]
+    )
+    np.testing.assert_array_equal(Prune(("x<5",)).run(other).rows, np.arange(3))
+
+
 def rooted():
     tree = rod([[1, 3, 0]])
     root = {"parent": np.array([0, 3]), "tip": np.array([[0.5, -0.5, 0], [2.0, -1.0, 0]]), "radius": np.array([0.05, 0.03]), "limb": np.array([7, 7]),
