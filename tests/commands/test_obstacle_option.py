@@ -74,6 +74,21 @@ def test_a_region_drawn_in_the_sketch_stays_empty_on_the_page(tmp_path):
     assert any("drawn branch" in warning and "to an obstacle, or into it" in warning for warning in report["warnings"])
 
 
+def test_a_region_around_the_root_is_refused_by_its_number(tmp_path, capfd):
+    sketch = tmp_path / "around.json"
+    strokes = [
+        {"id": "trunk", "kind": "branch", "points": [[0, 0], [0, 60], [2, 100]]},
+        {"id": "limb", "kind": "branch", "points": [[0, 60], [30, 90]]},
+        {"id": "pot", "kind": "obstacle", "closed": True, "points": [[-20, -5], [20, -5], [20, 30], [-20, 30]]},
+    ]
+    sketch.write_text(json.dumps({"sketchtree": 1, "units": "px", "y": "up", "strokes": strokes}))
+    assert run(["build", str(sketch), "-o", str(tmp_path / "t.glb"), *FEW]) == 2
+    assert capfd.readouterr().err == (
+        "sketchtree: The obstacle region 1 of the drawing is drawn around the root of the tree, so nothing could grow. Draw it beside the trunk.\n"
+    )
+    assert list(tmp_path.iterdir()) == [sketch]
+
+
 def file(folder, name, content):
     path = folder / name
     content.export(path) if isinstance(content, trimesh.Trimesh) else path.write_text(content)

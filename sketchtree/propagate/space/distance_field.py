@@ -51,7 +51,9 @@ class DistanceField:
         band: float,
         apart: float,
     ) -> "DistanceField":
-        """The field on a grid (see `grid`); `normal` are unit, to either side. No point of the surface within it may be farther than `apart` (ρ) from every sample."""
+        """The field on a grid (see `grid`); `normal` are unit, to either side.
+
+        No point of the surface within the grid may be farther than `apart` (ρ) from every sample."""
         distance = np.minimum(_distances(sample, normal, corners), band, dtype=np.float32)
         return cls(corners, np.where(solid, -distance, distance), sample, band, apart)
 

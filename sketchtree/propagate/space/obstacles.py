@@ -118,10 +118,10 @@ class Obstacles:
         return path[: met[0] + 1] if len(met) else path
 
     def touched(self, tree: TreeSkeleton) -> int:
-        """How many limbs of a tree go through an obstacle or come too near to it."""
-        rows = ~tree.is_base
-        met = (self.exit_fraction(tree.start[rows], tree.tip[rows]) < 1.0) | ~self.inside(tree.tip[rows])
-        return len(np.unique(tree.limb[rows][met]))
+        """How many limbs of a tree go through an obstacle or come too near to it; not those that only start so, on the ground."""
+        start, tip = tree.start[~tree.is_base], tree.tip[~tree.is_base]
+        met = ~self.inside(tip) | (self.inside(start) & (self.exit_fraction(start, tip) < 1.0))
+        return len(np.unique(tree.limb[~tree.is_base][met]))
 
     def _nearest(self, point):
         """(the least margin at each point, metres, infinite where nothing is near; whose it is)."""

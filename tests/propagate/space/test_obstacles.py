@@ -171,6 +171,7 @@ def test_limbs_that_touch_are_counted():
     assert built((ball((20, 5, 0), 1.0),)).touched(TREE) == 0
     assert 1 <= built((wall(1.0),)).touched(TREE) < len(np.unique(TREE.limb))
     assert built((box((-9, 1, -9), (9, 20, 9)),)).touched(TREE) == len(np.unique(TREE.limb))
+    assert built((box((-50, -2, -50), (50, 0.0, 50)),)).touched(TREE) == 0  # the ground it stands on
 
 
 AROUND = (
