@@ -21,6 +21,7 @@ from benchmarks.completion_metrics import NAMES, compare
 from benchmarks.drawing import Hand, draw
 from benchmarks.families import measured
 from sketchtree import keys
+from sketchtree.axes import NULL
 from sketchtree.choose import choose_template
 from sketchtree.geometry.radii import PipeRadii
 from sketchtree.limb_ids import stroke_limb_id
@@ -30,19 +31,47 @@ from sketchtree.propagate.growing import to_scale
 from sketchtree.skeleton import Kind, TreeSkeleton
 from sketchtree.templates.estimate import estimate
 from sketchtree.templates.store.database import Database
-from sketchtree.traverse import is_tip
+from sketchtree.traverse import is_tip, limb_chains
 
 METHODS = ("ours", "random", "no orders")
 DRAWN_ORDERS = 2
-_DENSITIES = np.geomspace(0.02, 4.0, 9)  # tried first; then halved towards the true number of tips
-_HALVINGS = 4
+_NODE = 0.03  # H between the nodes of a drawn limb that bears no drawn one
+_DENSITIES = np.geomspace(0.05, 6.0, 9)  # tried first; then halved towards the true number of tips
+_HALVINGS = 5
 
 
 def drawn_part(tree: TreeSkeleton) -> TreeSkeleton:
-    """Orders 0 and 1 of a tree, as if each limb had been drawn by one stroke."""
+    """Orders 0 and 1 of a tree, as if each limb had been drawn by one stroke.
+
+    A tree is digitised from lateral to lateral, so the nodes of a limb say where its laterals were. The strokes' nodes do not:
+    along a limb of the last drawn order they lie every `_NODE` H."""
     kept = tree.select(tree.order < DRAWN_ORDERS)
-    stroke = np.array([stroke_limb_id(f"s{limb}") for limb in kept.limb])
-    return kept.replace(limb=stroke, stroke=kept.limb, kind=np.full(len(kept), int(Kind.DRAWN)))
+    parent, tip, radius, order, limb = [], [], [], [], []
+    row = np.zeros(len(kept), int)
+    for rows in limb_chains(kept.parent, kept.limb):
+        last = kept.order[rows[0]] == DRAWN_ORDERS - 1
+        above = kept.parent[rows[0]]
+        line = kept.tip[rows] if above == NULL else np.vstack([kept.tip[above], kept.tip[rows]])
+        points = _evenly(line, _NODE * tree.height)[1:] if last and above != NULL else kept.tip[rows]
+        first = len(parent)
+        parent += [row[above] if above != NULL else NULL, *range(first, first + len(points) - 1)]
+        row[rows] = first + np.minimum(np.arange(len(rows)), len(points) - 1)
+        tip += list(points)
+        radius += [float(kept.radius[rows[0]])] * len(points)
+        order += [int(kept.order[rows[0]])] * len(points)
+        limb += [int(kept.limb[rows[0]])] * len(points)
+    stroke = np.array([stroke_limb_id(f"s{name}") for name in limb])
+    return TreeSkeleton.from_columns(
+        np.array(parent), np.array(tip), np.array(radius), order=np.array(order), limb=stroke, stroke=np.array(limb),
+        kind=np.full(len(parent), int(Kind.DRAWN)),
+    )  # fmt: skip
+
+
+def _evenly(line, step: float):
+    """Points every `step` or so along a polyline, its ends included."""
+    along = np.r_[0.0, np.cumsum(np.linalg.norm(np.diff(line, axis=0), axis=1))]
+    at = np.linspace(0.0, along[-1], max(int(np.ceil(along[-1] / step)), 1) + 1)
+    return np.stack([np.interp(at, along, line[:, axis]) for axis in range(3)], axis=1)
 
 
 def chosen(tree: TreeSkeleton, templates: Database):
@@ -59,7 +88,7 @@ def tips(tree: TreeSkeleton) -> int:
 
 def grown(drawn: TreeSkeleton, exemplar, density: float, seed: int) -> TreeSkeleton:
     """Our growth at one density."""
-    stage = Propagate(exemplar.habit, estimate(drawn), exemplar=exemplar.skeleton, density=density)
+    stage = Propagate(exemplar.habit, estimate(drawn), exemplar=exemplar.skeleton, density=density, thorough=1.0)
     return stage(drawn, key=keys.stage_key(keys.root_key(seed), "propagate"))
 
 

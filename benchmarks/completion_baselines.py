@@ -40,6 +40,8 @@ def replicated(drawn: TreeSkeleton, envelope: Envelope | None, tips: int, *, ran
         fresh = ~made["apical"]
         made["limb"] = np.where(fresh, next_limb + np.cumsum(fresh), made["limb"])
         next_limb += int(fresh.sum()) + 1
+        if len(parts) == 0 and np.sum(fresh) > tips:
+            made = {name: column[:tips] for name, column in made.items()}
         parts.append(made)
         total += len(made["row"])
         ends = _tips(parts)

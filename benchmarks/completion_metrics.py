@@ -8,7 +8,7 @@ With N tips in all, n_b of the true tree and m_b of the grown one in bin b:
     radius     the same over ten bins of distance from the trunk's axis
     rise, way  Wasserstein-1 of the tips' heights and of their distances from the axis
     density    Σ_b |m_b − n_b| / Σ_b n_b over 5 × 4 bins of both: tips per volume, as both trees have the same bins
-    sky        mean IoU of the crown's silhouette from eight sides: branches thickened by `_THICK`, holes closed
+    sky        mean IoU of the crown's silhouette from eight sides: branches thickened by `_THICK`, gaps closed by `_CLOSED`
     gap        largest empty azimuth sector of the whole tree seen from above, degrees
 """
 
@@ -18,13 +18,15 @@ from scipy import ndimage
 
 from benchmarks.metrics import wasserstein
 from sketchtree.skeleton import TreeSkeleton
-from sketchtree.traverse import child_count, generations, is_tip
+from sketchtree.traverse import child_count, generations, is_tip, limb_chains
 
 NAMES = ("length", "angle", "height", "radius", "rise", "way", "density", "sky", "gap")
 _BINS = 10
 _SIDES = 8
 _GRID = 96  # raster cells per H
 _THICK = 0.03  # H
+_CLOSED = 0.06  # H: gaps in the crown that are narrower than twice this are filled
+_CHORD = 0.03  # H
 _COUNTS = 0.5  # of the 90th percentile of reach: what is nearer to the axis closes no gap
 
 
@@ -55,7 +57,7 @@ class Undrawn:
         self.rise = np.clip(tips[:, 1] / height, 0.0, 1.0 - 1e-9)
         self.way = np.hypot(tips[:, 0], tips[:, 2]) / height
         self.pieces = pieces(tree, new) / height
-        self.angles = angles(tree, new)
+        self.angles = angles(tree, new, height)
 
 
 def pieces(tree: TreeSkeleton, new) -> Float[np.ndarray, " piece"]:
@@ -68,12 +70,29 @@ def pieces(tree: TreeSkeleton, new) -> Float[np.ndarray, " piece"]:
     return along[whole & new]
 
 
-def angles(tree: TreeSkeleton, new) -> Float[np.ndarray, " limb"]:
-    """Degrees between the first row of every marked lateral and the row that it grows from."""
-    above = np.maximum(tree.parent, 0)
-    rows = np.flatnonzero(new & (tree.limb != tree.limb[above]) & ~tree.is_base[above] & (tree.length > 0) & (tree.length[above] > 0))
-    cosine = np.einsum("ra,ra->r", tree.vector[rows], tree.vector[above[rows]]) / (tree.length[rows] * tree.length[above[rows]])
-    return np.degrees(np.arccos(np.clip(cosine, -1, 1)))
+def angles(tree: TreeSkeleton, new, height: float) -> Float[np.ndarray, " limb"]:
+    """Degrees between the first `_CHORD` H of every marked lateral and the last `_CHORD` H of the limb that it grows from (or what
+    there is of them): trees are digitised in steps of .5 to 5 % of their height, and the very first step from a limb's axis to
+    its bark says nothing of where the lateral goes."""
+    chord = _CHORD * height
+    rows = {int(chain[0]): chain for chain in limb_chains(tree.parent, tree.limb)}
+    found = []
+    for first, chain in rows.items():
+        above = tree.parent[first]
+        if above < 0 or not new[first] or tree.is_base[above]:
+            continue
+        origin, out, back = tree.tip[above], tree.tip[chain], [tree.tip[above]]
+        row = above
+        while not tree.is_base[row] and tree.limb[row] == tree.limb[above] and np.linalg.norm(back[-1] - origin) < chord:
+            row = tree.parent[row]
+            back.append(tree.tip[row])
+        far = np.linalg.norm(out - origin, axis=1)
+        end = out[np.argmax(far >= chord)] if (far >= chord).any() else out[-1]
+        a, b = end - origin, origin - back[-1]
+        size = np.linalg.norm(a) * np.linalg.norm(b)
+        if size > 0:
+            found.append(np.degrees(np.arccos(np.clip(a @ b / size, -1, 1))))
+    return np.array(found)
 
 
 def silhouettes(a: TreeSkeleton, b: TreeSkeleton, height: float) -> float:
@@ -96,9 +115,14 @@ def _shadow(tree: TreeSkeleton, turn: float, height: float):
     cell = np.clip(cell.astype(int), 0, [int(2.5 * _GRID) - 1, int(1.6 * _GRID) - 1])
     mask = np.zeros((int(2.5 * _GRID), int(1.6 * _GRID)), bool)
     mask[cell[:, 0], cell[:, 1]] = True
-    radius = int(np.ceil(_THICK * _GRID))
-    y, x = np.ogrid[-radius : radius + 1, -radius : radius + 1]
-    return ndimage.binary_fill_holes(ndimage.binary_closing(ndimage.binary_dilation(mask, x * x + y * y <= radius * radius), iterations=2))
+    thick, closed = _disc(_THICK), _disc(_CLOSED)
+    return ndimage.binary_fill_holes(ndimage.binary_closing(ndimage.binary_dilation(mask, thick), closed))
+
+
+def _disc(radius: float):
+    cells = int(np.ceil(radius * _GRID))
+    y, x = np.ogrid[-cells : cells + 1, -cells : cells + 1]
+    return x * x + y * y <= cells * cells
 
 
 def largest_gap(tree: TreeSkeleton) -> float:

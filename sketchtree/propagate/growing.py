@@ -11,7 +11,7 @@ from dataclasses import replace
 from functools import lru_cache
 
 import numpy as np
-from jaxtyping import Int
+from jaxtyping import Float, Int
 
 from sketchtree import keys
 from sketchtree.parameters import Habit
@@ -29,6 +29,7 @@ from sketchtree.propagate.drawn.implied import WEEPING, implied_crown
 from sketchtree.propagate.drawn.laterals import split_long
 from sketchtree.propagate.drawn.leaders import leaders
 from sketchtree.propagate.blocks.library import library
+from sketchtree.propagate.blocks.likened import likened, thoroughness
 from sketchtree.propagate.limb_growth import NODES, grow, plan
 from sketchtree.propagate.blocks.open_branch import OpenBranches, frames, limb_arcs
 from sketchtree.propagate.wanted import Wanted
@@ -47,6 +48,11 @@ _LIKE_BLOCK = 1.5  # times the length its block says, a new limb on the trunk is
 _PRESSES = 1.08  # times its straight way to the crown: a branch that bends still meets the surface
 _GROUND = (0.015, 0.1)  # of the tree's height: undrawn limbs stay this far above the ground, and up to that much more
 _NEARS = (0.6, 1.05)  # of its way to the crown's surface: a leader's lateral is at least as long as between these
+_GOLDEN = 0.5 * (np.sqrt(5.0) - 1.0)  # steps of this part of a circle leave its points as evenly apart as may be, however many
+_SPREAD = 0.35  # κ of `attach`: the share of Θ's spread that is added to what the blocks differ by themselves
+_ANY_RATIO = 0.6  # of lateral to limb, that any tree may have
+_LONG = (0.5, 1.5)  # of the tree's height: on nine measured trees shorter limbs bear fewer laterals a metre, by about this power
+_SHORT = 1.15  # of two spaces: a limb that is shorter has two nodes all the same, and bears on fewer of them
 _LIKE_DRAWN = 1.1  # times the drawn laterals around it, a new one on a drawn limb is no longer
 
 
@@ -59,12 +65,19 @@ class Growing:
         self.key = keys.draw_key(key)
         usual = to_scale(wanted.habit, tree, crown)
         self.envelope = Envelope.from_outlines(crown) if len(crown) else implied_crown(tree, usual, exemplar)
-        self.finer = wanted.density ** (-1.0 / 3.0)
-        self.habit = finer(usual, self.finer)
-        self.library = _library(tree, self.habit, self.theta, exemplar)
+        self.habit = usual
+        self.apart = usual.lateral_spacing / np.sqrt(min(wanted.density, 1.0))
         self.scale = _height(tree, crown)
         self.obstacles = self._in_the_way(tree, wanted)
         self.space = self._space()
+        own = blocks_of(tree)
+        lender, supplement = _supplement(wanted, self.habit)
+        self.thorough = _thorough(wanted, own, supplement, lender)
+        supplement = supplement if wanted.fixed else likened(supplement, own, self.thorough)
+        self.habit = _as_drawn(self.habit, self.thorough)
+        self.library = library(own, supplement, self.theta, self.habit.max_order, lender, likened=not wanted.fixed)
+        bare = self.library.bare + self.thorough * np.minimum(0.1 - self.library.bare, 0.0)
+        self.library = replace(self.library, bare=bare)
         self.ground = float(tree.tip[tree.is_base, 1].min())
         self.order_of = dict(zip(tree.limb.tolist(), tree.order.tolist(), strict=True))
         self.drawn = self._split(tree.replace(order=rank_of_drawn(tree, self.habit)))
@@ -111,7 +124,7 @@ class Growing:
         tree = self.drawn.tree
         led = self.leaders.grown if self.leaders else {}
         tips = open_tips(tree, self.spacing, self.habit, self.envelope, self.key)
-        tips = tips.select(~np.isin(tips.limb, list(led)))
+        tips = tips.select(~np.isin(tips.limb, list(led)) & (self.thorough < 0.5))
         self.drawn_nodes = drawn_nodes(self.drawn, tips, self.library, self.habit, self.envelope, led)
         new = self._laterals(self.drawn_nodes)
         drawn = DrawnLaterals.of(tree)
@@ -121,7 +134,7 @@ class Growing:
         like = np.where(new.order == 1, np.minimum(like, _LIKE_BLOCK * new.length), at_most)
         length = np.where(np.isnan(usual), new.length, like)
         new = replace(new, length=length).select(~drawn.beside(new, self.spacing))
-        if self.habit.max_order > 0:
+        if self.habit.max_order > 0 and self.thorough < 0.5:
             new = new.join(self._free(into_gaps(tree, frames(tree), drawn, new, self.key)))
         if self.leaders:
             new = self._to_surface(new, np.isin(tree.limb[new.row], list(led)))
@@ -142,8 +155,9 @@ class Growing:
         habit = self.habit.lateral_spacing
         wide = np.where((order == 0) & (self.habit.arrangement != "whorled"), _TRUNK_SPACING, 1.0) * habit
         lent = self.library.spacing[np.minimum(order, self.habit.max_order)] * self.scale
-        lent = np.clip(lent * self.finer - _CLOSER * habit, habit, _SPARSEST * habit)
+        lent = np.clip(lent - _CLOSER * habit, habit, _SPARSEST * habit)
         apart = _WEEPS if self.habit.gravitropism > WEEPING else 1.0
+        apart = apart / max(self.wanted.density, 1.0)
         return np.maximum(np.where(np.isnan(lent), wide, lent) * apart, whole / (4 * NODES))
 
     def run(self, limit: int) -> None:
@@ -157,7 +171,7 @@ class Growing:
         if self.envelope is None or self.done >= limit or self.stopped_by == "max_segments":
             return False
         nodes = self._nodes()
-        empty = empty_points(self.envelope, nodes.tip, gap * self.habit.lateral_spacing)
+        empty = empty_points(self.envelope, nodes.tip, gap * self.apart)
         empty = empty[self.space.inside(empty)]
         bears = (nodes.order < self.habit.max_order) & self.envelope.inside(nodes.tip)
         new = towards(empty, nodes.select(bears), self.habit, self.theta, round_, self.key)
@@ -174,7 +188,7 @@ class Growing:
         if self.leaders:
             return True
         wood = np.concatenate([self.drawn.tree.tip] + [part.tip for part, _ in self.parts])
-        return emptiness(self.envelope, wood, HOLLOW_GAP * self.habit.lateral_spacing, self.space) > HOLLOW
+        return emptiness(self.envelope, wood, HOLLOW_GAP * self.apart, self.space) > HOLLOW + (1.0 - HOLLOW) * min(2.0 * self.thorough, 1.0)
 
     def _nodes(self) -> Nodes:
         """All nodes that may bear laterals."""
@@ -217,10 +231,24 @@ class Growing:
         """The branches that the blocks on these nodes open."""
         lib = self.library
         nodes = nodes.select(self._bears(nodes.order, nodes.whole) & (nodes.zone >= 0))
+        lot = (keys.uniform(self.key, nodes.limb, 30) + nodes.number * _GOLDEN) % 1.0
+        nodes = nodes.select(lot < self._share(nodes))
         block = lib.choose(lib.lateral, nodes.order, nodes.zone, keys.uniform(self.key, nodes.id, 10))
-        opened = attach(nodes, block, lib.blocks, self.habit, self.theta, self.key)
+        opened = attach(nodes, block, lib.blocks, self.habit, self.theta, self.key, spread=_SPREAD * (1.0 - self.thorough))
         longest = lib.longest[np.minimum(opened.order, len(lib.longest) - 1)] * self.scale
+        longest = np.where(self.thorough > 0.5, np.inf, longest)
         return self._free(replace(opened, length=np.minimum(opened.length, longest)))
+
+    def _share(self, nodes: Nodes) -> Float[np.ndarray, " node"]:
+        """How likely each node is to bear, 0-1: `density`, where that is below 1; and where the drawing is thorough, so
+        that what it lacks is not there, next to nothing on the trunk, none at a limb's last node, less on limbs that are shorter
+        than two spaces, and on drawn limbs the less the shorter they are (`_LONG`)."""
+        limb = nodes.order > 0
+        spaces = np.minimum(_SHORT * nodes.whole / (2.0 * self._spacing(nodes.order, nodes.whole)), 1.0)
+        drawn = limb & (nodes.row < len(self.drawn.tree))
+        long = np.where(drawn, np.minimum(nodes.whole / (_LONG[0] * self.scale), 1.0) ** _LONG[1], 1.0)
+        as_drawn = np.where(limb, spaces * long * (nodes.position < 1.0), 0.0)
+        return min(self.wanted.density, 1.0) * (1.0 - self.thorough + self.thorough * as_drawn)
 
     def _bears(self, order, whole):
         """Whether limbs of these orders and whole lengths (metres) bear laterals."""
@@ -278,12 +306,27 @@ def _orders(parent, limb, order, drawn: int):
 _lent_blocks = lru_cache(maxsize=32)(blocks_of)  # an exemplar is one frozen object for all the trees it lends to
 
 
-def _library(tree, habit, theta, exemplar):
-    """The tree's own blocks and those of the exemplar; the habit's where there is none to lend."""
-    supplement = None if exemplar is None else _lent_blocks(exemplar)
+def _thorough(wanted: Wanted, own, supplement, lender) -> float:
+    if wanted.thorough is not None:
+        return wanted.thorough
+    return 0.0 if wanted.fixed or lender is None else thoroughness(own, supplement)
+
+
+def _as_drawn(habit: Habit, thorough: float) -> Habit:
+    """The habit, its rules of how long laterals may be loosened as far as a thorough drawing shows that itself."""
+    return replace(
+        habit,
+        apical_control=habit.apical_control * (1.0 - thorough),
+        lateral_ratio=max(habit.lateral_ratio, thorough * _ANY_RATIO),
+    )
+
+
+def _supplement(wanted: Wanted, habit):
+    """(the exemplar, its blocks); none and the habit's blocks where there is no exemplar that branches."""
+    supplement = None if wanted.exemplar is None else _lent_blocks(wanted.exemplar)
     if supplement is None or not (supplement.lateral_count.any() and supplement.has_apical.any()):
-        exemplar, supplement = None, blocks_of_parameters(theta, habit)
-    return library(blocks_of(tree), supplement, theta, habit.max_order, exemplar)
+        return None, blocks_of_parameters(wanted.theta, habit)
+    return wanted.exemplar, supplement
 
 
 def _height(tree: TreeSkeleton, crown) -> float:
@@ -303,7 +346,3 @@ def to_scale(habit: Habit, tree: TreeSkeleton, crown: tuple = ()) -> Habit:
         gravitropism=habit.gravitropism / scale,
     )
 
-
-def finer(habit: Habit, by: float) -> Habit:
-    """The habit with twigs and the spaces between them `by` times as long."""
-    return dataclasses.replace(habit, lateral_spacing=habit.lateral_spacing * by, twig_length=habit.twig_length * by)

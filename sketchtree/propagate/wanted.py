@@ -11,7 +11,7 @@ from sketchtree.skeleton import TreeSkeleton
 GENERATIONS = 5  # without a crown (Chen §6)
 CROWN_GENERATIONS = 12  # with one, or where a hollow one is filled, at most
 MOST_GENERATIONS = 50
-DENSITIES = (0.01, 100.0)
+DENSITIES = (0.01, 10.0)
 
 
 @dataclass(frozen=True)
@@ -27,7 +27,9 @@ class Wanted:
     obstacles: tuple = ()  # what nothing grows through: each a trimesh.Trimesh, world metres; a closed one is solid
     regions: tuple = ()  # the same on the page, through all depths: closed outlines, each (point 2), world metres
     exemplar: TreeSkeleton | None = None  # lends its blocks where the drawing has too few
-    density: float = 1.0  # twigs per volume over the habit's, 0.01-100
+    density: float = 1.0  # laterals a metre of limb, over the habit's, 0.01-10
+    thorough: float | None = None  # 0-1, how completely the drawn orders were drawn; None: judged from the drawing
+    fixed: bool = False  # Θ is held: nothing is made more like what was drawn
 
     def __post_init__(self):
         if self.max_segments < 1:
@@ -39,7 +41,7 @@ class Wanted:
         if not (np.isfinite(self.density) and DENSITIES[0] <= self.density <= DENSITIES[1]):
             raise OptionError(
                 f"density is {self.density:g}, but must lie between {DENSITIES[0]:g} and {DENSITIES[1]:g}.",
-                remedy="1 is the species' own; 2 has twice the twigs.",
+                remedy="1 is the species' own; 2 has twice as many twigs on every limb.",
             )
 
     @property

@@ -239,10 +239,10 @@ def test_twigs_are_shorter_and_thinner_with_every_order(plain):
 
 
 def test_an_exemplar_lends_its_blocks():
-    """Twigs at right angles on the exemplar are at right angles on the tree."""
+    """Twigs at right angles on the exemplar are at right angles on the tree, where Θ is held."""
     exemplar = _comb()
     theta = dataclasses.replace(THETA, sigma_beta=0.01, mu_beta=np.pi / 2)
-    result = propagate(drawn_tree(4), HABIT, theta, exemplar=exemplar, key=KEY)
+    result = propagate(drawn_tree(4), HABIT, theta, exemplar=exemplar, fixed=True, key=KEY)
     tree = result.skeleton
     rows = np.flatnonzero((tree.order == 2) & (tree.order[np.maximum(tree.parent, 0)] == 1))
     above = tree.parent[rows]

@@ -24,7 +24,7 @@ from jaxtyping import Array, Float, Int, Key
 from sketchtree import keys, limb_ids
 from sketchtree.parameters import Habit, TreeParameters
 from sketchtree.propagate.blocks.block import Blocks
-from sketchtree.propagate.blocks.open_branch import Frame, OpenBranches, turn
+from sketchtree.propagate.blocks.open_branch import Frame, OpenBranches, levelled, turn
 
 RANKS = 64  # ranks along a limb are 64 · node + 1 + number of the lateral at that node
 MINIMUM_LENGTH = 0.6  # of the habit's twig length: shorter laterals are not grown
@@ -95,7 +95,7 @@ def attach(
     divergence = blocks.divergence[child] + spread * theta.sigma_beta * keys.normal(key, limb, 1)
     orientation = _orientation(nodes, at, child, block, blocks, habit, key)
     orientation = orientation + spread * theta.sigma_gamma * keys.normal(key, limb, 2)
-    frame = turn(nodes.frame[at], np.abs(divergence), orientation, np.zeros(len(at), bool))
+    frame = turn(levelled(nodes.frame[at], nodes.order[at]), np.abs(divergence), orientation, np.zeros(len(at), bool))
     return OpenBranches(
         row=nodes.row[at],
         origin=nodes.tip[at],

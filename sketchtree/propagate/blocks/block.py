@@ -24,7 +24,7 @@ from jaxtyping import Bool, Float, Int
 from sketchtree.axes import NULL
 from sketchtree.limb_ids import child_limb_id
 from sketchtree.parameters import Habit, TreeParameters
-from sketchtree.propagate.blocks.open_branch import frames, limb_positions, polar
+from sketchtree.propagate.blocks.open_branch import frames, levelled, limb_positions, polar
 from sketchtree.skeleton import TreeSkeleton
 from sketchtree.traverse import children
 
@@ -83,7 +83,7 @@ _CHILD = ("apical", "scale", "divergence", "orientation", "reach", "length", "dr
 
 def blocks_of(tree: TreeSkeleton) -> Blocks:
     """Every replication block of a tree: each segment with children, and those children (Chen §6)."""
-    frame = frames(tree)
+    frame = levelled(frames(tree), tree.order)
     position, limb_length = limb_positions(tree)
     child, _ = children(tree.parent)
     parent, length, vector = tree.parent[child], tree.length, tree.vector

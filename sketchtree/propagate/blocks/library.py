@@ -63,16 +63,18 @@ class Library:
         ]
 
 
-def library(own: Blocks, supplement: Blocks, theta: TreeParameters, max_order: int, lender: TreeSkeleton | None) -> Library:
+def library(
+    own: Blocks, supplement: Blocks, theta: TreeParameters, max_order: int, lender: TreeSkeleton | None, *, likened: bool = False
+) -> Library:
     """The library of one run: the tree's own blocks, and those that fill in for what it lacks.
 
     `supplement` holds at least one block with a lateral and one that goes on; `lender` is the exemplar it was taken
-    from, if any. Orders that the supplement does not know are served by its nearest one.
+    from, if any; `likened` blocks have the tree's angles already, so Θ weighs them no more. Orders that the supplement does not know are served by its nearest one.
     """
     orders = max_order + 1
     typical = np.array([_mean_laterals(supplement, order) for order in range(orders)])
     whole = np.minimum(own.lateral_count / np.maximum(typical[np.minimum(own.order, max_order)], 1.0), 1.0)
-    fit, own_fit = _fit(supplement, theta), _fit(own, theta)
+    fit, own_fit = np.ones(len(supplement)) if likened else _fit(supplement, theta), _fit(own, theta)
     blocks = _concatenate(own, supplement)
     return Library(
         blocks=blocks,
@@ -80,8 +82,8 @@ def library(own: Blocks, supplement: Blocks, theta: TreeParameters, max_order: i
         apical=_table(
             own, own_fit * own.has_apical, supplement, np.where(supplement.has_apical, 1.0, 0.0), orders, "position"
         ),
-        bare=np.array([_first_lateral(supplement, order) for order in range(orders)]),
-        spacing=np.array([_spacing(supplement, lender, order) for order in range(orders)]),
+        bare=np.array([first_lateral(supplement, order) for order in range(orders)]),
+        spacing=np.array([lent_spacing(supplement, lender, order) for order in range(orders)]),
         longest=_longest(lender, orders),
     )
 
@@ -154,19 +156,19 @@ def _mean_laterals(blocks, order):
     return float(count.mean()) if len(count) else 1.0
 
 
-def _first_lateral(blocks, order):
+def first_lateral(blocks, order):
     """Where the first laterals sit on limbs of this order; 15 % of the limb where nothing is known."""
     at = blocks.position[_bearing(blocks, order)]
     return float(np.quantile(at, 0.03)) if len(at) >= 3 else 0.15
 
 
-def _spacing(blocks, lender, order):
+def lent_spacing(blocks, lender, order):
     """Metres of limb per bearing node beyond the bare base, over the lender's height."""
     bearing = np.sum(_bearing(blocks, order))
     if lender is None or bearing < 4:
         return np.nan
     length = lender.length[lender.order == order].sum()
-    return float(length * (1.0 - _first_lateral(blocks, order)) / bearing / lender.height)
+    return float(length * (1.0 - first_lateral(blocks, order)) / bearing / lender.height)
 
 
 def _longest(lender, orders):

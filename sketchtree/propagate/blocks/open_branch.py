@@ -20,6 +20,7 @@ from sketchtree.axes import NULL
 from sketchtree.skeleton import TreeSkeleton
 from sketchtree.traverse import generations
 
+_STEEP = np.sin(np.radians(15.0))  # level part of a unit direction: a limb within 15° of the vertical has no above and below
 Frame = Float[np.ndarray, "branch 3 3"]  # columns are the axes x, y, z
 
 
@@ -99,6 +100,20 @@ def frames(tree: TreeSkeleton) -> Float[np.ndarray, "segment 3 3"]:
         apical = (tree.limb[rows] == tree.limb[above]) | (np.sin(divergence) < 1e-9)
         frame[rows] = turn(frame[above], divergence, orientation, apical)
     return frame
+
+
+def levelled(frame: Frame, order: Int[np.ndarray, " branch"]) -> Frame:
+    """The frames of limbs (order 1 and more), spun about their own direction until x lies level and z below it.
+
+    What grows above a limb, beside and below it is decided by the vertical, however the limb came to where it is; a frame
+    carried along a limb that winds has forgotten where that is. Limbs steeper than `_STEEP` and trunks keep theirs.
+    """
+    y = frame[:, :, 1]
+    level = np.hypot(y[:, 0], y[:, 2])
+    spun = (order > 0) & (level > _STEEP)
+    x = np.stack([-y[:, 2], np.zeros(len(y)), y[:, 0]], axis=1) / np.where(level > _STEEP, level, 1.0)[:, None]
+    fresh = np.stack([-x, y, np.cross(-x, y)], axis=2)
+    return np.where(spun[:, None, None], fresh, frame)
 
 
 def arc_length(tree: TreeSkeleton) -> Float[np.ndarray, " segment"]:

@@ -90,10 +90,19 @@ def test_a_word_serves_as_the_key():
     np.testing.assert_array_equal(attached().length, attached(key=keys.draw_key(KEY)).length)
 
 
-def test_turning_the_nodes_turns_what_is_attached():
-    """A block is oriented in the frame it is attached to."""
+@pytest.mark.parametrize("order, axis", [(0, 2), (0, 1), (2, 1)])
+def test_turning_the_nodes_turns_what_is_attached(order, axis):
+    """A block is oriented in the frame it is attached to: on a trunk however that stands, on a limb turned about the vertical."""
     c, s = np.cos(0.7), np.sin(0.7)
-    turned = np.array([[c, -s, 0], [s, c, 0], [0, 0, 1.0]])
-    plain = attached()
-    moved = attached(frame=np.tile(turned, (40, 1, 1)))
+    turned = np.array([[c, -s, 0], [s, c, 0], [0, 0, 1.0]]) if axis == 2 else np.array([[c, 0, s], [0, 1.0, 0], [-s, 0, c]])
+    plain = attached(order=order)
+    moved = attached(frame=np.tile(turned, (40, 1, 1)) @ nodes(40, order).frame, order=order)
     np.testing.assert_allclose(moved.frame, turned @ plain.frame, atol=1e-12)
+
+
+def test_on_a_limb_above_and_below_are_those_of_the_vertical_however_it_was_spun():
+    lying = np.array([[1.0, 0, 0], [0, 0, -1], [0, 1, 0]])
+    c, s = np.cos(1.1), np.sin(1.1)
+    spun = lying @ np.array([[c, 0, s], [0, 1.0, 0], [-s, 0, c]])
+    one, other = (attached(frame=np.tile(frame, (40, 1, 1)), order=2) for frame in (lying, spun))
+    np.testing.assert_allclose(one.frame, other.frame, atol=1e-12)

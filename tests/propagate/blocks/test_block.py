@@ -8,7 +8,7 @@ from sketchtree import keys
 from sketchtree.parameters import TreeParameters
 from sketchtree.propagate.blocks.attach_block import Nodes, attach
 from sketchtree.propagate.blocks.block import Blocks, blocks_of, blocks_of_parameters, habit_reach, log_likelihood
-from sketchtree.propagate.blocks.open_branch import direction, frames, limb_positions, turn
+from sketchtree.propagate.blocks.open_branch import direction, frames, levelled, limb_positions, turn
 from sketchtree.skeleton import TreeSkeleton
 from sketchtree.traverse import children
 
@@ -33,7 +33,7 @@ def test_the_apical_child_comes_first():
 def test_section4_a_block_attached_to_its_own_parent_reproduces_its_children():
     """v_c = s R_y(ϕ) R_x(φ) v_p in the parent's frame (Chen §4)."""
     tree = drawn_tree(9, seed=3)
-    blocks, frame = blocks_of(tree), frames(tree)
+    blocks, frame = blocks_of(tree), levelled(frames(tree), tree.order)
     child, start = children(tree.parent)
     parents = [row for row in range(1, len(tree)) if start[row + 1] > start[row]]
     for block, row in enumerate(parents):
