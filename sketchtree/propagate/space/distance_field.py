@@ -169,18 +169,15 @@ def _distances(sample, normal, corners):
     if len(held) == 0:
         return np.full(shape, np.inf)
     flat = np.ravel_multi_index(tuple(corner[held].T), shape)
-    off = np.linalg.norm(low + pitch * corner[held] - sample[held], axis=1)
-    best = np.lexsort((off, flat))
-    best = best[np.r_[True, flat[best][1:] != flat[best][:-1]]]
     which = np.full(shape, -1, np.int32)
-    which.ravel()[flat[best]] = np.arange(len(best))
+    which.ravel()[flat] = held
     nearest = distance_transform_edt(which < 0, return_distances=False, return_indices=True)
     which = which[tuple(nearest)]
     squares, height = np.zeros(shape, np.float32), np.zeros(shape, np.float32)
     for axis, along in enumerate(corners):
         along = along.reshape([-1 if k == axis else 1 for k in range(len(shape))])
-        off = (along - sample[held[best], axis][which]).astype(np.float32)
+        off = (along - sample[:, axis][which]).astype(np.float32)
         squares += off**2
-        height += off * normal[held[best], axis].astype(np.float32)[which]
+        height += off * normal[:, axis].astype(np.float32)[which]
     beside = np.sqrt(np.maximum(squares - height**2, 0.0)) - np.float32(pitch)
     return np.hypot(height, np.maximum(beside, 0.0))

@@ -25,6 +25,7 @@ from sketchtree.propagate.space.surface import APART, ENCLOSES, enclosed, line_s
 _KEEPS = 0.2  # of the spacing of laterals
 _FINE = 0.1  # of the spacing of laterals: how far apart samples are
 _SAMPLES = 100_000  # of a mesh, about, at most; then they are farther apart
+_CUT_SMALLER = 4.0  # area of a square on the edge asked for / area of a triangle cut to it, about
 _PROBE = 0.1  # metres above the root: a tree that stands on a surface, or a little in it, is not enclosed
 
 
@@ -53,19 +54,21 @@ class Obstacle:
         found[:, : self.field.axes] = self.field.away(point[:, : self.field.axes])
         return found
 
-    def free(self, start: Float[np.ndarray, "branch 3"], end: Float[np.ndarray, "branch 3"]) -> Float[np.ndarray, " branch"]:
-        """The fraction of each way from `start` to `end` before it comes too near, 0-1."""
+    def free(
+        self, start: Float[np.ndarray, "branch 3"], end: Float[np.ndarray, "branch 3"], closely: bool = True
+    ) -> Float[np.ndarray, " branch"]:
+        """The fraction of each way from `start` to `end` before it comes too near, 0-1; about so, if not `closely`."""
         start, way = start[:, : self.field.axes], (end - start)[:, : self.field.axes]
         length = np.maximum(np.linalg.norm(way, axis=1), 1e-300)
         fraction = np.ones(len(start))
         rows = np.flatnonzero(self.field.roughly(start + 0.5 * way) - self.field.slack <= self._nearest + 0.5 * length)
-        stride = self._distance(start[rows])
+        stride = self._distance(start[rows], closely)
         fraction[rows] = 0.0
         rows, stride = rows[stride > self._nearest], stride[stride > self._nearest]
         along = np.zeros(len(rows))
         while len(rows):
             ahead = np.minimum(along + stride / length[rows], 1.0)
-            distance = self._distance(start[rows] + ahead[:, None] * way[rows])
+            distance = self._distance(start[rows] + ahead[:, None] * way[rows], closely)
             ok = distance > self._nearest
             fraction[rows] = np.where(ok, ahead, along + (stride - self._nearest) / length[rows]).clip(0.0, 1.0)
             on = ok & (ahead < 1.0)
@@ -77,8 +80,8 @@ class Obstacle:
         """What the distance has to be at least, by what it is at least."""
         return self.clearance - self.field.apart
 
-    def _distance(self, point):
-        return self.field.at_least(point, self.clearance)
+    def _distance(self, point, closely=True):
+        return self.field.at_least(point, self.clearance) if closely else self.field.at(point) - self.field.apart
 
 
 def refuse_around(meshes, root: Float[np.ndarray, "root 3"]) -> None:
@@ -103,10 +106,11 @@ def from_mesh(mesh, domain: Domain, most: float) -> Obstacle | None:
     One that is not closed and has the root inside encloses nothing: the tree grows up in it."""
     low, high, pitch, band = domain.grid(*mesh.bounds, most)
     triangle = np.asarray(mesh.triangles)
-    near = pieces(triangle, low, high, pitch)
+    near = pieces(triangle, low, high, 2.0 * pitch)
     if len(near) == 0:
         return None
-    edge = min(pitch, max(_FINE * domain.spacing, pitch * np.sqrt(len(near) / _SAMPLES)))
+    area = 0.5 * np.linalg.norm(np.cross(near[:, 1] - near[:, 0], near[:, 2] - near[:, 0]), axis=1).sum()
+    edge = min(pitch, max(_FINE * domain.spacing, np.sqrt(_CUT_SMALLER * area / _SAMPLES)))
     sample, normal = surface_samples(near, low, high, edge)
     corners = grid(low, high, pitch)
     solid = np.zeros([len(along) for along in corners], bool) if _holds(mesh, domain.root) else enclosed(triangle, corners)

@@ -22,6 +22,7 @@ from sketchtree.propagate.space.obstacle import Obstacle, from_mesh, from_region
 from sketchtree.skeleton import TreeSkeleton
 
 _CORNERS = 250_000  # of all grids together
+_CLOSELY = 16
 _UP, _ASIDE = 1 / 3, 1 / 6  # of a head-on heading: what turns it upwards, and to its limb's own side
 _SIDES = np.uint64(0x6F6273)  # in a key's place: a limb's own side is the same whatever the seed
 _ROUNDS = 8  # of pushing a path aside and evening it
@@ -71,10 +72,10 @@ class Obstacles:
     ) -> Float[np.ndarray, " branch"]:
         """The fraction of each way from `start` to `end` before it comes too near to an obstacle; 0 for what starts there.
 
-        Strides, not `bisections`, find it."""
+        With fewer `bisections` than `_CLOSELY`, where growth is only planned, the grid alone is asked."""
         fraction = np.ones(len(start))
         for one in self.obstacles:
-            fraction = np.minimum(fraction, one.free(start, end))
+            fraction = np.minimum(fraction, one.free(start, end, bisections >= _CLOSELY))
         return np.where(self.domain.holds(end), fraction, 0.0) if self.cut_off else fraction
 
     def turned(

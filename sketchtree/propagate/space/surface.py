@@ -1,7 +1,7 @@
 """Which points stand for a surface, and what does it enclose?
 
-*Samples*: triangles are halved across their longest edge until no edge is longer than s, those outside the box of
-interest dropped on the way; the centroids of what is left are the samples. A point of a triangle is within 2/3 of its
+*Samples*: triangles are halved across their longest edge, those outside the box of interest dropped on the way, and then cut into n²
+like themselves whose edges are no longer than s; the centroids of these are the samples. A point of a triangle is within 2/3 of its
 longest median of the centroid, and no median is longer than √3/2 of the longest edge, so that no point of the surface is
 farther than s / √3 from a sample.
 
@@ -19,6 +19,7 @@ import numpy as np
 from jaxtyping import Bool, Float
 
 APART = 3.0**-0.5  # of the edge length s: how far from every sample a point of the surface may lie
+_CUTS = 8  # n at most
 ENCLOSES = 0.5  # |w| from which a point is inside
 _OFF = (0.00137, 0.00271)  # of a pitch: how far beside its corners a way goes, so as not to meet edges
 
@@ -28,9 +29,17 @@ def surface_samples(
 ) -> tuple[Float[np.ndarray, "sample 3"], Float[np.ndarray, "sample 3"]]:
     """(points, unit normals) of the triangles (metres) inside the box from `low` to `high`, and some about it; no point of them inside is
     farther than `APART` · `edge` from all."""
-    piece = pieces(triangle, low, high, edge)
-    normal = np.cross(piece[:, 1] - piece[:, 0], piece[:, 2] - piece[:, 0])
-    return piece.mean(axis=1), normal / np.maximum(np.linalg.norm(normal, axis=1), 1e-300)[:, None]
+    piece = pieces(triangle, low, high, _CUTS * edge)
+    cross = np.cross(piece[:, 1] - piece[:, 0], piece[:, 2] - piece[:, 0])
+    cross /= np.maximum(np.linalg.norm(cross, axis=1), 1e-300)[:, None]
+    longest = np.sqrt(np.max([_squared(piece[:, k] - piece[:, k - 1]) for k in range(3)], axis=0))
+    cuts = np.clip(np.ceil(longest / edge), 1, _CUTS).astype(np.int64)
+    point, normal = [np.zeros((0, 3))], [np.zeros((0, 3))]
+    for n in np.unique(cuts):
+        share = _centroids(int(n))
+        point.append((share @ piece[cuts == n]).reshape(-1, 3))
+        normal.append(np.repeat(cross[cuts == n], len(share), axis=0))
+    return np.concatenate(point), np.concatenate(normal)
 
 
 def pieces(
@@ -88,6 +97,15 @@ def _in_box(triangle, low, high):
     held = (np.minimum(np.minimum(a, b), c) <= high) & (np.maximum(np.maximum(a, b), c) >= low)
     held = held[:, 0] & held[:, 1] & held[:, 2]
     return triangle if held.all() else triangle[held]
+
+
+def _centroids(n: int):
+    """Barycentric coordinates of the centroids of the n² triangles that lines along the sides cut a triangle into."""
+    i, j = (axis.ravel() for axis in np.meshgrid(np.arange(n), np.arange(n), indexing="ij"))
+    upright, turned = i + j <= n - 1, i + j <= n - 2
+    first = np.concatenate([i[upright] + 1 / 3, i[turned] + 2 / 3]) / n
+    second = np.concatenate([j[upright] + 1 / 3, j[turned] + 2 / 3]) / n
+    return np.stack([first, second, 1.0 - first - second], axis=1)
 
 
 def _squared(vector):
