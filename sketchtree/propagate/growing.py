@@ -51,7 +51,7 @@ _NEARS = (0.6, 1.05)  # of its way to the crown's surface: a leader's lateral is
 _GOLDEN = 0.5 * (np.sqrt(5.0) - 1.0)  # steps of this part of a circle leave its points as evenly apart as may be, however many
 _SPREAD = 0.35  # κ of `attach`: the share of Θ's spread that is added to what the blocks differ by themselves
 _ANY_RATIO = 0.6  # of lateral to limb, that any tree may have
-_LONG = (0.5, 1.5)  # of the tree's height: on nine measured trees shorter limbs bear fewer laterals a metre, by about this power
+_LONG = (0.5, 2.0)  # of the tree's height: on nine measured trees shorter limbs bear fewer laterals a metre, by about this power
 _SHORT = 1.15  # of two spaces: a limb that is shorter has two nodes all the same, and bears on fewer of them
 _LIKE_DRAWN = 1.1  # times the drawn laterals around it, a new one on a drawn limb is no longer
 

@@ -25,10 +25,10 @@ from scipy.special import ndtri
 
 from sketchtree.propagate.blocks.block import Blocks
 
-EVIDENCE = 12.0  # laterals that the exemplar counts for, or all measured trees
+EVIDENCE = 20.0  # laterals that the exemplar counts for, or all measured trees
 STEP = np.radians(6.0)  # a drawing that is not thorough moves divergences by whole steps: a stroke more seldom moves the rest
 DIVERGENCE = (np.radians(57.0), np.radians(26.0))  # mean and spread of the laterals of order 2 and more of nine measured trees
-DEEPER = np.radians(-6.0)  # how much closer they stand than the order-1 laterals of the same tree
+DEEPER = np.radians(-5.0)  # how much closer they stand than the order-1 laterals of the same tree
 LOG_REACH = (np.log(0.14), 0.95)  # the same for the log of a limb's length over its parent limb's
 BEHIND = (1.1, 0.12)  # of the way to its limb's tip, and of the limb: a reach is moved no farther than both together
 _ANGLES = (np.radians(8.0), np.radians(130.0))
