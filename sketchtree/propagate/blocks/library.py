@@ -94,21 +94,20 @@ def _table(own, own_fit, supplement, fit, orders, place):
     known = np.unique(supplement.order[fit > 0])
     own_rows = np.flatnonzero(own_fit > 0)
     claim = _hash_uniform(own.id[own_rows], SLOTS)
+    at = (np.arange(POSITION_BINS)[:, None] + 0.5) / POSITION_BINS
+    own_near = _near(getattr(own, place)[own_rows] - at, _OWN_POSITION_SD)
     for order in range(orders):
         nearest = known[np.argmin(np.abs(known - order))]
         rows = np.flatnonzero((supplement.order == nearest) & (fit > 0))
         if len(rows) < _ENOUGH:
             rows = np.flatnonzero((np.abs(supplement.order - nearest) <= 1) & (fit > 0))
         base = fit[rows] * _near(supplement.order[rows] - nearest, ORDER_SD)
-        placed, own_placed = getattr(supplement, place)[rows], getattr(own, place)[own_rows]
-        own_base = own_fit[own_rows] * _near(own.order[own_rows] - order, ORDER_SD)
+        weight = base * _near(getattr(supplement, place)[rows] - at, POSITION_SD)
+        slots = len(own) + rows[_systematic(weight, order * POSITION_BINS)]
+        near = own_fit[own_rows] * _near(own.order[own_rows] - order, ORDER_SD) * own_near
         for cell in range(POSITION_BINS):
-            at = (cell + 0.5) / POSITION_BINS
-            weight = base * _near(placed - at, POSITION_SD)
-            slots = len(own) + rows[_systematic(weight, order * POSITION_BINS + cell)]
-            near = own_base * _near(own_placed - at, _OWN_POSITION_SD)
-            fits = near >= _LEAST
-            table[order, cell] = _claimed(slots, own_rows[fits], claim[fits], near[fits] * OWN_SHARE)
+            fits = near[cell] >= _LEAST
+            table[order, cell] = _claimed(slots[cell], own_rows[fits], claim[fits], near[cell, fits] * OWN_SHARE)
     return table
 
 
@@ -121,11 +120,12 @@ def _claimed(slots, rows, claim, share):
     return np.where(np.isfinite(bid[best, np.arange(SLOTS)]), rows[best], slots)
 
 
-def _systematic(weight, cell):
-    """Blocks in proportion to their weights, spread over the slots by a fixed shuffle."""
-    total = np.cumsum(np.maximum(weight, 1e-12))
-    shuffle = _shuffle(cell)
-    return np.searchsorted(total, (shuffle + 0.5) / SLOTS * total[-1]).clip(0, len(weight) - 1)
+def _systematic(weight, first_cell):
+    """Blocks in proportion to their weights (cell, block), spread over each cell's slots by a fixed shuffle."""
+    total = np.cumsum(np.maximum(weight, 1e-12), axis=1)
+    want = [(_shuffle(first_cell + cell) + 0.5) / SLOTS * total[cell, -1] for cell in range(len(weight))]
+    found = np.array([np.searchsorted(total[cell], wanted) for cell, wanted in enumerate(want)])
+    return found.clip(0, weight.shape[1] - 1)
 
 
 @lru_cache(maxsize=1024)

@@ -12,6 +12,7 @@ spray stay flat wherever round the trunk they are attached.
 """
 
 from dataclasses import dataclass, fields
+from functools import lru_cache
 
 import numpy as np
 from jaxtyping import Bool, Float, Int
@@ -86,6 +87,7 @@ def turn(
     return np.einsum("bij,bjk->bik", frame, local)
 
 
+@lru_cache(maxsize=4)  # a skeleton is one frozen object for all that ask; what they get is read-only
 def frames(tree: TreeSkeleton) -> Float[np.ndarray, "segment 3 3"]:
     """The frame of every row. A base stands upright: y up, z to the viewer. A row of zero length
     keeps its parent's frame."""
@@ -99,6 +101,7 @@ def frames(tree: TreeSkeleton) -> Float[np.ndarray, "segment 3 3"]:
         divergence = np.where(still[rows], 0.0, divergence)
         apical = (tree.limb[rows] == tree.limb[above]) | (np.sin(divergence) < 1e-9)
         frame[rows] = turn(frame[above], divergence, orientation, apical)
+    frame.flags.writeable = False
     return frame
 
 
@@ -133,6 +136,7 @@ def arc_length(tree: TreeSkeleton) -> Float[np.ndarray, " segment"]:
     return length
 
 
+@lru_cache(maxsize=4)
 def limb_arcs(tree: TreeSkeleton) -> tuple[Float[np.ndarray, " segment"], Float[np.ndarray, " segment"]]:
     """(arc from the limb's insertion to each row's tip, length of the row's whole limb), metres."""
     step = arc_length(tree)
@@ -144,7 +148,9 @@ def limb_arcs(tree: TreeSkeleton) -> tuple[Float[np.ndarray, " segment"], Float[
     _, limb = np.unique(tree.limb, return_inverse=True)
     whole = np.zeros(limb.max() + 1 if len(limb) else 0)
     np.maximum.at(whole, limb, arc)
-    return arc, whole[limb]
+    whole = whole[limb]
+    arc.flags.writeable = whole.flags.writeable = False
+    return arc, whole
 
 
 def limb_positions(tree: TreeSkeleton) -> tuple[Float[np.ndarray, " segment"], Float[np.ndarray, " segment"]]:
