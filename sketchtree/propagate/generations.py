@@ -15,11 +15,11 @@ from jaxtyping import Array, Float, Int, Key
 
 from sketchtree.parameters import Habit, TreeParameters
 from sketchtree.propagate.after.level import cut_back
-from sketchtree.propagate.fill import COARSE_GAP, GAP, HOLLOW_ROUNDS, LED_GAP, ROUNDS
 from sketchtree.propagate.growing import Growing
 from sketchtree.propagate.space.obstacles import Obstacles
 from sketchtree.propagate.space.space import Space
-from sketchtree.propagate.wanted import CROWN_GENERATIONS, Wanted
+from sketchtree.propagate.together import Member, Together
+from sketchtree.propagate.wanted import Wanted
 from sketchtree.roots import is_root, with_roots, without_roots
 from sketchtree.skeleton import TreeSkeleton
 
@@ -60,15 +60,7 @@ def _complete(whole: TreeSkeleton, wanted: Wanted, key) -> Propagation:
     tree, above = without_roots(whole)
     if len(tree) == 0 or limit == 0:
         return Propagation(whole, np.zeros(len(whole), int), np.arange(len(whole)), 0, "generations", ())
-    growing = Growing(tree, wanted, key)
-    growing.run(limit)
-    limit = CROWN_GENERATIONS if wanted.generations is None else limit
-    gaps = HOLLOW_ROUNDS * [LED_GAP if growing.leaders else COARSE_GAP] if growing.is_hollow() else []
-    gaps = gaps[: 1 if wanted.fill else None] + (ROUNDS * [GAP] if wanted.fill else [])
-    for round_, gap in enumerate(gaps):
-        growing.fill(round_, limit, gap)
-    if gaps:
-        growing.run(limit)
+    growing = Together([Member(tree, wanted, key)]).complete()[0]
     ended = "habit" if growing.stopped_by == "generations" and len(growing.open) == 0 else growing.stopped_by
     grown, row = growing.skeleton(), np.zeros(len(whole), np.int64)
     row[above] = growing.drawn.row

@@ -175,7 +175,7 @@ class Growing:
         empty = empty[self.space.inside(empty)]
         bears = (nodes.order < self.habit.max_order) & self.envelope.inside(nodes.tip)
         new = towards(empty, nodes.select(bears), self.habit, self.theta, round_, self.key)
-        self.open = self.open.join(self._free(new) if self.obstacles else new)
+        self.open = self.open.join(self._free(new) if self.space.guides else new)
         before = self.rows
         self.run(min(limit, self.done + _ROUND))
         return self.rows > before
@@ -253,6 +253,11 @@ class Growing:
     def _bears(self, order, whole):
         """Whether limbs of these orders and whole lengths (metres) bear laterals."""
         return (order < self.habit.max_order) & (whole >= BEARING * self.habit.twig_length)
+
+    def enter(self, space: Space) -> None:
+        """Grow on in this space: what is open is planned no longer than its barriers say."""
+        self.space = space
+        self.open = self._free(self.open)
 
     def _free(self, opened: OpenBranches) -> OpenBranches:
         """The same, each no longer than its way to a barrier; those left too short are not opened."""

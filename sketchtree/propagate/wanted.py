@@ -6,6 +6,7 @@ import numpy as np
 
 from sketchtree.errors import OptionError
 from sketchtree.parameters import Habit, TreeParameters
+from sketchtree.propagate.space.light import check_strength
 from sketchtree.skeleton import TreeSkeleton
 
 GENERATIONS = 5  # without a crown (Chen §6)
@@ -30,6 +31,7 @@ class Wanted:
     density: float = 1.0  # laterals a metre of limb, over the habit's, 0.01-10
     thorough: float | None = None  # 0-1, how completely the drawn orders were drawn; None: judged from the drawing
     fixed: bool = False  # Θ is held: nothing is made more like what was drawn
+    light: float = 0.0  # 0-1, how much growth turns to the light and how few buds open in the shade; 0: not at all
 
     def __post_init__(self):
         if self.max_segments < 1:
@@ -38,6 +40,7 @@ class Wanted:
             raise OptionError(
                 f"generations is {self.generations:g}, but must lie between 0 and {MOST_GENERATIONS}.", remedy="5 to 12 make a full tree."
             )
+        check_strength(self.light)
         if not (np.isfinite(self.density) and DENSITIES[0] <= self.density <= DENSITIES[1]):
             raise OptionError(
                 f"density is {self.density:g}, but must lie between {DENSITIES[0]:g} and {DENSITIES[1]:g}.",
