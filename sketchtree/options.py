@@ -46,6 +46,7 @@ class TreeOptions:
     generations: float | None = None  # 0-50; 3.5: three and half of the fourth; None: 5, or up to 12 inside a crown; 0: only what was drawn
     fill: bool = False  # keep on until the crown is evenly filled
     max_segments: int = 200_000
+    density: float = 1.0  # laterals a metre of limb, over the species', 0.01-10
     sag: float = 0.0  # 0-5 times the weight that bends undrawn branches; 0: none, 1: as physics says
     shed: float = 0.0  # 0-1: undrawn branches that get less than this share of the light are dropped; 0: none
     shed_twigs: float = 0.0  # 0-20 twig lengths: shorter undrawn branches that bear nothing are dropped; 0: none
@@ -61,6 +62,8 @@ class TreeOptions:
             value = getattr(self, name)
             if value is not None and not 0 <= value <= most:
                 raise OptionError(f"`--{name.replace('_', '-')} {value:g}` is out of range.", remedy=f"Give 0 to {most}.")
+        if not 0.01 <= self.density <= 10:
+            raise OptionError(f"`--density {self.density:g}` is out of range.", remedy="Give 0.01 to 10; 1 is the species' own, 2 bears twice as densely.")
         for shape in self.prune:
             shears.plane(shape)  # refuse a misspelt one before the work
 

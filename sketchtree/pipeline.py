@@ -61,6 +61,7 @@ class DrawnTree:
     skeleton: TreeSkeleton  # metres; rows are those of the graph
     radius: Float[np.ndarray, " segment"]  # as drawn, metres; NaN where the lines' widths say nothing
     habit: Habit
+    held: bool  # Θ is the template's, whatever was drawn
     theta: TreeParameters  # by which the rest grows: measured on these branches, or the template's where Θ is fixed
 
     @property
@@ -130,8 +131,9 @@ def draw_out(
         radius[~graph.root] = drawn_radius(sketch, above, similarity, habit)
         skeleton = lift(graph, fit.depth, similarity, depth_sd=fit.depth_sd)
         skeleton = PipeRadii(habit, radius)(skeleton, key=stage_key(key, "radii"))
-    theta = fit.theta_before if options.theta == "fixed" else fit.theta
-    return DrawnTree(graph, matches, exemplar, fit, similarity, skeleton, radius, habit, theta)
+    held = options.theta == "fixed"
+    theta = fit.theta_before if held else fit.theta
+    return DrawnTree(graph, matches, exemplar, fit, similarity, skeleton, radius, habit, held, theta)
 
 
 def _with_roots(fit: Fit, graph: SketchGraph) -> Fit:
@@ -198,6 +200,8 @@ def _propagated(drawn: DrawnTree, options: TreeOptions, obstacles: tuple, key) -
         generations=options.generations,
         fill=options.fill,
         max_segments=options.max_segments,
+        density=options.density,
+        fixed=drawn.held,
         exemplar=drawn.exemplar.skeleton if drawn.exemplar else None,
     )
     grown = stage.run(drawn.skeleton, key=key)  # roots keep their rows, after all others

@@ -21,6 +21,7 @@ _LATER = {
 @options.reading
 @click.option("--generations", type=float, metavar="N", help="Generations of undrawn branches, 0-50 (default 5; up to 12 inside a crown; 0: none; 3.5: half of the fourth).")
 @click.option("--fill", is_flag=True, help="Grow on until the crown is evenly filled.")
+@click.option("--density", type=float, default=1.0, show_default=True, metavar="TIMES", help="Laterals a metre of limb, over the species': 0.01 to 10.")
 @click.option("--max-segments", type=click.IntRange(1), default=200_000, show_default=True)
 @click.option("--obstacle", multiple=True, metavar="MESH", help="Nothing grows through it: .glb .obj .ply .stl, metres, root at the origin; may be repeated.")
 @click.option("--sag", type=float, default=0.0, metavar="0-5", help="Bend undrawn branches under their own weight (1: as physics says).")
