@@ -5,16 +5,19 @@ length at once, node by node along replication blocks; the laterals of those blo
 next. Each generation is one set of array operations, linear in the segments it makes.
 
 A crown that is still hollow then is filled by a few rounds more (`fill`). Growth ends with the generations asked for, at the habit's deepest order, at branches as short as its twigs,
-at the crown's surface, or at `max_segments`.
+at the crown's surface, at what a neighbour holds, or at `max_segments`.
 """
 
-from dataclasses import dataclass, replace
+from collections.abc import Sequence
+from dataclasses import dataclass, field, replace
 
 import numpy as np
 from jaxtyping import Array, Float, Int, Key
 
 from sketchtree.parameters import Habit, TreeParameters
 from sketchtree.propagate.after.level import cut_back
+from sketchtree.propagate.assembled import assembled
+from sketchtree.propagate.drawn.whose_crown import outlines_of_trees
 from sketchtree.propagate.growing import Growing
 from sketchtree.propagate.space.obstacles import Obstacles
 from sketchtree.propagate.space.space import Space
@@ -22,6 +25,8 @@ from sketchtree.propagate.together import Member, Together
 from sketchtree.propagate.wanted import Wanted
 from sketchtree.roots import is_root, with_roots, without_roots
 from sketchtree.skeleton import TreeSkeleton
+
+_ENDS = ("max_segments", "generations", "habit")
 
 
 @dataclass(frozen=True, eq=False)
@@ -35,7 +40,8 @@ class Propagation:
     stopped_by: str  # generations | habit | max_segments
     warnings: tuple[str, ...]
     tip_weight: Float[np.ndarray, " segment"] | None = None  # pipes that start in each row; None: one in every tip
-    space: Space = Space()  # where it grew
+    space: Space = Space()  # where it grew; of several trees, the first
+    spaces: dict[int, Space] = field(default_factory=dict)  # the same of every tree, by its number in the column `tree`
 
 
 @dataclass(frozen=True)
@@ -47,7 +53,7 @@ class Propagate(Wanted):
 
     def run(self, tree: TreeSkeleton, *, key: Key[Array, ""]) -> Propagation:
         """As the call, with the generations, warnings and what ended the growth."""
-        return _complete(tree, self, key)
+        return propagate_together([Planted(tree, self, key)])[0]
 
 
 def propagate(tree: TreeSkeleton, habit: Habit, theta: TreeParameters, *, key: Key[Array, ""], **wanted) -> Propagation:
@@ -55,26 +61,65 @@ def propagate(tree: TreeSkeleton, habit: Habit, theta: TreeParameters, *, key: K
     return Propagate(habit, theta, **wanted).run(tree, key=key)
 
 
-def _complete(whole: TreeSkeleton, wanted: Wanted, key) -> Propagation:
-    limit = wanted.limit
-    tree, above = without_roots(whole)
-    if len(tree) == 0 or limit == 0:
+@dataclass(frozen=True, eq=False)
+class Planted:
+    """A drawing and where it stands among others."""
+
+    tree: TreeSkeleton  # in the drawing's own frame, metres; roots and several trees allowed
+    wanted: Wanted
+    key: Key[Array, ""]
+    place: Float[np.ndarray, " 3"] = field(default_factory=lambda: np.zeros(3))  # of its frame in the world, metres
+
+
+def propagate_together(planted: Sequence[Planted]) -> list[Propagation]:
+    """Grow what several drawings left out, in lockstep, competing for space and light (`together`); each in its own frame.
+
+    The trees of one drawing compete likewise. The order of the drawings changes nothing."""
+    trees = [_trees(one) for one in planted]
+    growing = iter(Together([member for members, _ in trees for member in members]).complete())
+    return [_found(one, [next(growing) for _ in members], rows) for one, (members, rows) in zip(planted, trees, strict=True)]
+
+
+def _trees(planted: Planted) -> tuple[list[Member], list]:
+    """(the trees of a drawing, the rows above the ground that each is made of); none where nothing is to grow."""
+    tree, _ = without_roots(planted.tree)
+    if len(tree) == 0 or planted.wanted.limit == 0:
+        return [], []
+    names = np.unique(tree.tree)
+    rows = [np.flatnonzero(tree.tree == name) for name in names]
+    parts = [tree] if len(names) == 1 else [tree.select(tree.tree == name) for name in names]
+    crowns = outlines_of_trees(parts, planted.wanted.crown)
+    most = max(planted.wanted.max_segments // len(parts), 1)
+    wanted = [replace(planted.wanted, crown=crown, max_segments=most) for crown in crowns]
+    return [Member(part, its, planted.key, planted.place) for part, its in zip(parts, wanted, strict=True)], rows
+
+
+def _found(planted: Planted, growing: list[Growing], rows: list) -> Propagation:
+    """What became of one drawing."""
+    whole, wanted = planted.tree, planted.wanted
+    if not growing:
         return Propagation(whole, np.zeros(len(whole), int), np.arange(len(whole)), 0, "generations", ())
-    growing = Together([Member(tree, wanted, key)]).complete()[0]
-    ended = "habit" if growing.stopped_by == "generations" and len(growing.open) == 0 else growing.stopped_by
-    grown, row = growing.skeleton(), np.zeros(len(whole), np.int64)
-    row[above] = growing.drawn.row
+    _, above = without_roots(whole)
+    grown, generation, drawn = assembled(growing, rows)
+    row = np.zeros(len(whole), np.int64)
+    row[above] = drawn
     row[is_root(whole)] = len(grown) + np.arange(len(whole) - len(above))
     found = Propagation(
         skeleton=with_roots(grown, whole, row),
-        generation=np.r_[growing.generation_of_rows(), np.zeros(len(whole) - len(above), int)],
+        generation=np.r_[generation, np.zeros(len(whole) - len(above), int)],
         drawn_row=row,
-        generations_done=growing.done,
-        stopped_by=ended,
-        warnings=_warnings(growing),
-        space=growing.space,
+        generations_done=max(one.done for one in growing),
+        stopped_by=min(map(_ended, growing), key=_ENDS.index),
+        warnings=tuple(dict.fromkeys(warning for one in growing for warning in _warnings(one))),
+        space=growing[0].space,
+        spaces={int(one.drawn.tree.tree[0]): one.space for one in growing},
     )
-    return found if wanted.generations in (None, limit) else _at_level(found, wanted.generations)
+    return found if wanted.generations in (None, wanted.limit) else _at_level(found, wanted.generations)
+
+
+def _ended(growing: Growing) -> str:
+    """What ended the growth of one tree."""
+    return "habit" if growing.stopped_by == "generations" and len(growing.open) == 0 else growing.stopped_by
 
 
 def _at_level(found: Propagation, level: float) -> Propagation:
