@@ -47,6 +47,7 @@ class TreeOptions:
     fill: bool = False  # keep on until the crown is evenly filled
     max_segments: int = 200_000
     density: float = 1.0  # laterals a metre of limb, over the species', 0.01-10
+    light: float = 0.0  # 0-1, how much twigs turn to the light and buds in the shade stay shut; 0: not at all
     sag: float = 0.0  # 0-5 times the weight that bends undrawn branches; 0: none, 1: as physics says
     shed: float = 0.0  # 0-1: undrawn branches that get less than this share of the light are dropped; 0: none
     shed_twigs: float = 0.0  # 0-20 twig lengths: shorter undrawn branches that bear nothing are dropped; 0: none
@@ -58,7 +59,7 @@ class TreeOptions:
 
     def __post_init__(self):
         _whole(self, "generations")
-        for name, most in (("generations", 50), ("sag", 5), ("shed", 1), ("shed_twigs", 20)):
+        for name, most in (("generations", 50), ("light", 1), ("sag", 5), ("shed", 1), ("shed_twigs", 20)):
             value = getattr(self, name)
             if value is not None and not 0 <= value <= most:
                 raise OptionError(f"`--{name.replace('_', '-')} {value:g}` is out of range.", remedy=f"Give 0 to {most}.")

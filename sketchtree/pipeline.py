@@ -29,15 +29,16 @@ from sketchtree.mrf.solver import RESULTS
 from sketchtree.options import ReadingOptions, TreeOptions
 from sketchtree.page import drawn_radius, page_to_world
 from sketchtree.parameters import GENERIC, Habit, TreeParameters
+from sketchtree.propagate.after.each_tree import sagged
 from sketchtree.propagate.after.level import kept_weight
 from sketchtree.propagate.after.prune import Prune
-from sketchtree.propagate.after.sag import Sag
 from sketchtree.propagate.after.shed import Shed
 from sketchtree.propagate.generations import Propagate, Propagation
 from sketchtree.propagate.growing import to_scale
 from sketchtree.roots import root_depth
 from sketchtree.similarity import Similarity
 from sketchtree.skeleton import TreeSkeleton
+from sketchtree.skeleton_joined import moved
 from sketchtree.sketch.graph import SketchGraph
 from sketchtree.sketch.strokes import Sketch
 from sketchtree.templates.store.database import Database
@@ -95,7 +96,7 @@ def sketch_to_tree(
     watch = watch or Watch()
     leaf_model(tree.leaf, Habit(), templates), bark_model(tree.bark, Habit())  # refuse a wrong name before the work
     Prune(tree.prune)  # and a mesh that can't be used
-    obstacles = _read_obstacles(tree)
+    obstacles = read_obstacles(tree)
     drawn = draw_out(sketch, templates, key=key, options=reading, watch=watch)
     return complete(drawn, templates, key=key, options=tree, obstacles=obstacles, watch=watch)
 
@@ -159,12 +160,31 @@ def complete(
 
     `obstacles` are the meshes of `options.obstacle` (trimesh.Trimesh, world metres), if they have been read."""
     watch = watch or Watch()
+    with watch("propagate"):
+        obstacles = read_obstacles(options) if obstacles is None else obstacles
+        grown = propagation(drawn, options, obstacles).run(drawn.skeleton, key=stage_key(key, "propagate"))
+    return finish(drawn, grown, templates, key=key, options=options, watch=watch)
+
+
+def finish(
+    drawn: DrawnTree,
+    grown: Propagation,
+    templates: Database | None = None,
+    *,
+    key: Key[Array, ""],
+    options: TreeOptions = TreeOptions(),
+    place: Float[np.ndarray, " 3"] | None = None,
+    watch: Watch | None = None,
+) -> TreeModel:
+    """Radii, sag, shedding, pruning, leaves and meshes of a tree that has grown; at another place (metres) than it was drawn, if asked."""
+    watch = watch or Watch()
     habit = drawn.habit
     leaf = leaf_model(options.leaf, habit, templates)
     bark = bark_model(options.bark, habit)
     with watch("propagate"):
-        obstacles = _read_obstacles(options) if obstacles is None else obstacles
-        skeleton, warnings = _propagated(drawn, options, obstacles, stage_key(key, "propagate"))
+        left = _weathered(drawn, grown, options)
+        skeleton, told = _pruned(left if place is None else moved(left, place), options)
+        warnings = grown.warnings + told
     with watch("foliage"):
         season = "bare" if leaf is None else options.season
         leaves = populate(skeleton, habit, key=stage_key(key, "foliage"), model=leaf or habit.leaf, season=season)
@@ -177,7 +197,7 @@ def complete(
     return TreeModel(drawn, skeleton, leaves, tuple(meshes), drawn.warnings + warnings)
 
 
-def _read_obstacles(options: TreeOptions) -> tuple:
+def read_obstacles(options: TreeOptions) -> tuple:
     """The meshes of the files named; refused here, before the work, if one is around the root, which is the world's origin."""
     if not options.obstacle:
         return ()
@@ -189,9 +209,9 @@ def _read_obstacles(options: TreeOptions) -> tuple:
     return meshes
 
 
-def _propagated(drawn: DrawnTree, options: TreeOptions, obstacles: tuple, key) -> tuple[TreeSkeleton, tuple[str, ...]]:
-    """The complete skeleton with its final radii, and what the user should know about it."""
-    stage = Propagate(
+def propagation(drawn: DrawnTree, options: TreeOptions, obstacles: tuple = ()) -> Propagate:
+    """How this tree is to grow."""
+    return Propagate(
         drawn.habit,
         drawn.theta,
         crown=tuple(drawn.similarity.to_world(outline) for outline in drawn.graph.crown),
@@ -201,15 +221,17 @@ def _propagated(drawn: DrawnTree, options: TreeOptions, obstacles: tuple, key) -
         fill=options.fill,
         max_segments=options.max_segments,
         density=options.density,
+        light=options.light,
         fixed=drawn.held,
         exemplar=drawn.exemplar.skeleton if drawn.exemplar else None,
     )
-    grown = stage.run(drawn.skeleton, key=key)  # roots keep their rows, after all others
-    left = _weathered(drawn, grown, options)
-    pruned = Prune(options.prune).run(left)
+
+
+def _pruned(tree: TreeSkeleton, options: TreeOptions) -> tuple[TreeSkeleton, tuple[str, ...]]:
+    """What the shears leave, and what the user should know about it."""
+    pruned = Prune(options.prune).run(tree)
     cut = pruned.strokes_cut
-    told = (f"Pruning cut {cut} drawn stroke{'s' if cut > 1 else ''}.",) if cut else ()
-    return pruned.skeleton, grown.warnings + told
+    return pruned.skeleton, (f"Pruning cut {cut} drawn stroke{'s' if cut > 1 else ''}.",) if cut else ()
 
 
 def _weathered(drawn: DrawnTree, grown: Propagation, options: TreeOptions) -> TreeSkeleton:
@@ -220,8 +242,8 @@ def _weathered(drawn: DrawnTree, grown: Propagation, options: TreeOptions) -> Tr
     tree = PipeRadii(drawn.habit, radius, weight)(tree)
     crown = tuple(drawn.similarity.to_world(outline) for outline in drawn.graph.crown)
     shed = Shed(options.shed, options.shed_twigs, to_scale(drawn.habit, drawn.skeleton, crown))
-    for stage in (Sag(options.sag, drawn.habit, grown.space), shed):
-        cut = stage.run(tree)
+    for run in (lambda whole: sagged(whole, options.sag, drawn.habit, grown.spaces), shed.run):
+        cut = run(tree)
         radius, weight = radius[cut.rows], None if weight is None else kept_weight(tree, cut, weight)
         tree = cut.skeleton
     return PipeRadii(drawn.habit, radius, weight)(tree) if options.sag or options.shed or options.shed_twigs else tree

@@ -4,16 +4,12 @@ First all rows that were drawn, in the order of the drawing, each after the piec
 in each tree after tree.
 """
 
-import dataclasses
-
 import numpy as np
 from jaxtyping import Int
 
-from sketchtree.axes import NULL
 from sketchtree.propagate.growing import Growing
 from sketchtree.skeleton import TreeSkeleton
-
-_COLUMNS = tuple(field.name for field in dataclasses.fields(TreeSkeleton) if not field.name.startswith("curve_"))
+from sketchtree.skeleton_joined import joined, reordered
 
 
 def assembled(
@@ -35,28 +31,6 @@ def assembled(
     for begins, one, its in zip(first, growing, rows, strict=False):
         drawn[its] = place[begins + one.drawn.row]
     return reordered(tree, order), generation[order], drawn
-
-
-def joined(trees: list[TreeSkeleton]) -> TreeSkeleton:
-    """All trees' rows, one tree after the other, with their numbers of trees, strokes and limbs as they are."""
-    first = np.cumsum([0, *map(len, trees)])
-    columns = {name: np.concatenate([getattr(tree, name) for tree in trees]) for name in _COLUMNS}
-    columns["parent"] = np.concatenate([np.where(t.parent == NULL, NULL, t.parent + k) for t, k in zip(trees, first, strict=False)])
-    points = np.concatenate([tree.curve_points for tree in trees])
-    count = np.concatenate([np.diff(tree.curve_start) for tree in trees])
-    return TreeSkeleton(**columns, curve_points=points, curve_start=np.r_[0, np.cumsum(count)])
-
-
-def reordered(tree: TreeSkeleton, order: Int[np.ndarray, " segment"]) -> TreeSkeleton:
-    """The same rows in another order, in which parents still precede their children."""
-    place = np.empty(len(order), np.int64)
-    place[order] = np.arange(len(order))
-    columns = {name: getattr(tree, name)[order] for name in _COLUMNS}
-    columns["parent"] = np.where(columns["parent"] == NULL, NULL, place[columns["parent"]])
-    count = np.diff(tree.curve_start)[order]
-    start = np.r_[0, np.cumsum(count)]
-    point = np.repeat(tree.curve_start[:-1][order] - start[:-1], count) + np.arange(start[-1])
-    return TreeSkeleton(**columns, curve_points=tree.curve_points[point], curve_start=start)
 
 
 def _place(number: int, growing: Growing, rows) -> Int[np.ndarray, " segment"]:
