@@ -32,7 +32,13 @@ def build_report(
     """The report of one run; `model` is None where only the drawn branches were asked for."""
     seen = drawn.warnings if model is None else model.warnings
     total = drawn.graph.segment_count if model is None else model.skeleton.segment_count
-    found = {
+    found = of_tree(drawn, model)
+    return plain(frame(command, seed, seconds, options, (*seen, *warnings)) | reading(drawn.graph, total) | found)
+
+
+def of_tree(drawn: DrawnTree, model: TreeModel | None) -> dict:
+    """What is reported of one tree, its reading aside."""
+    return {
         "template": [_match(match) for match in drawn.matches],
         "template_used": drawn.exemplar.name if drawn.exemplar else None,
         "theta": {"before": _theta(drawn.fit.theta_before), "after": _theta(drawn.fit.theta)},
@@ -42,7 +48,6 @@ def build_report(
         "transform": {"scale": drawn.similarity.scale, "translate": list(drawn.similarity.translate)},
         "infer": _inference(drawn),
     }
-    return plain(frame(command, seed, seconds, options, (*seen, *warnings)) | reading(drawn.graph, total) | found)
 
 
 def _match(match) -> dict:

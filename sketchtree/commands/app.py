@@ -16,6 +16,7 @@ from sketchtree.version import __version__
 
 COMMANDS = {
     "build": "A sketch in, a complete textured 3D tree out.",
+    "forest": "Several sketches in, a forest out: the trees compete for space and light.",
     "infer": "Only the drawn branches, in 3D.",
     "inspect": "How a drawing is read, as a picture: strokes, junctions, root, crown, doubts.",
     "templates": "The exemplars a sketch is matched with.",

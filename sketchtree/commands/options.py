@@ -28,6 +28,22 @@ _READING = (
     click.option("--planar", is_flag=True, help="An espalier or a fan: hold the depths small."),
     *_DRAWING,
 )  # fmt: skip
+_TREE = (
+    click.option("--generations", type=float, metavar="N", help="Generations of undrawn branches, 0-50 (default 5; up to 12 inside a crown; 0: none; 3.5: half of the fourth)."),
+    click.option("--fill", is_flag=True, help="Grow on until the crown is evenly filled."),
+    click.option("--density", type=float, default=1.0, show_default=True, metavar="TIMES", help="Laterals a metre of limb, over the species': 0.01 to 10."),
+    click.option("--light", type=float, default=0.0, metavar="0-1", help="Turn twigs towards the light and open fewer buds in the shade."),
+    click.option("--obstacle", multiple=True, metavar="MESH", help="Nothing grows through it: .glb .obj .ply .stl, metres, root at the origin; may be repeated."),
+    click.option("--sag", type=float, default=0.0, metavar="0-5", help="Bend undrawn branches under their own weight (1: as physics says)."),
+    click.option("--shed", type=float, default=0.0, metavar="0-1", help="Drop undrawn branches that get less than this share of the light."),
+    click.option("--shed-twigs", type=float, default=0.0, metavar="0-20", help="Drop undrawn branches that bear none and are shorter than this many twigs."),
+    click.option("--prune", multiple=True, metavar="SHAPE", help="Cut the tree to a mesh (FILE; outside:FILE) or a plane (y<4.5, 1,1,0<3; metres). Repeatable."),
+    click.option("--leaf", metavar="MODEL|EXEMPLAR|none", help="Leaf model (default: the template's)."),
+    click.option("--season", type=click.Choice(SEASONS), default="summer", show_default=True),
+    click.option("--bark", metavar="NAME", help="Bark (default: the template's)."),
+    click.option("--skeleton", type=click.Path(path_type=Path), metavar="T.swc", help="Write the complete skeleton too."),
+    click.option("--preview", type=click.Path(path_type=Path), metavar="P.png", help="Write a picture of the result too."),
+)  # fmt: skip
 
 
 def common(command):
@@ -43,6 +59,12 @@ def drawing(command):
 def reading(command):
     """Options of every command that turns a sketch into branches."""
     return _apply(_READING, command)
+
+
+def tree(max_segments: int, of_what: str):
+    """Options of every command that makes complete trees; `max_segments` is the default, and counts `of_what`."""
+    most = click.option("--max-segments", type=click.IntRange(1), default=max_segments, show_default=True, help=f"Segments of {of_what} at most.")
+    return lambda command: _apply((*_TREE, most), command)
 
 
 def _apply(options, command):

@@ -26,11 +26,11 @@ class Run:
 
 
 def check_outputs(
-    sketch: Path, output: Path, report: Path | None = None, skeleton: Path | None = None, preview: Path | None = None,
+    sketch: Path | tuple[Path, ...], output: Path, report: Path | None = None, skeleton: Path | None = None, preview: Path | None = None,
     *, posterior: Path | None = None, others: tuple[Path, ...] = (), kinds: tuple[str, ...] = MESHES + SKELETONS + PICTURES,
 ) -> None:
     """Refuse, before any work, an output that can't be written. Raises ExportError."""
-    taken = {sketch.resolve(): "the sketch itself"}
+    taken = {path.resolve(): "the sketch itself" for path in ((sketch,) if isinstance(sketch, Path) else sketch)}
     wanted = (("-o", output, kinds), ("--report", report, None), ("--skeleton", skeleton, SKELETONS), ("--preview", preview, PICTURES),
               ("--posterior", posterior, POSTERIORS), *(("--alternatives", other, None) for other in others))  # fmt: skip
     for option, path, allowed in wanted:
@@ -130,9 +130,20 @@ def record(run: Run, drawn, model=None, *, extra_warnings: tuple[str, ...] = ())
     """The report of a run that has just written its files."""
     from sketchtree.report import build_report
 
+    return build_report(drawn, model, **_of_run(run), warnings=extra_warnings)
+
+
+def record_forest(run: Run, forest, *, extra_warnings: tuple[str, ...] = ()) -> dict:
+    """The same of a forest."""
+    from sketchtree.forest_report import forest_report
+
+    return forest_report(forest, **_of_run(run), warnings=extra_warnings)
+
+
+def _of_run(run: Run) -> dict:
     seconds = {"import": run.imported} | run.watch.seconds | {"total": time.perf_counter() - run.began}
     seconds = {name: round(value, 4) for name, value in seconds.items()}
-    return build_report(drawn, model, command=run.command, seed=run.seed, seconds=seconds, options=run.options, warnings=extra_warnings)
+    return {"command": run.command, "seed": run.seed, "seconds": seconds, "options": run.options}
 
 
 def write_report(path: Path | None, record: dict) -> None:
@@ -155,5 +166,9 @@ def summary(record: dict, output: Path) -> str:
     parts = [f"{output}: {drawn} drawn segments"]
     if record["triangles"]:
         parts.append(f"{total} in all, {record['leaves']} leaves, {sum(record['triangles'].values())} triangles")
+    trees = record.get("trees")
+    if trees is not None:
+        parts[0] = f"{output}: {len(trees)} sketch{'es' if len(trees) > 1 else ''}, {drawn} drawn segments"
+        return ", ".join([*parts, f"up to {record['height']:.1f} m high, {record['seconds']['total']:.1f} s"])
     parts.append(f"template {record['template_used'] or 'none'}, {record['height']:.1f} m high, {record['seconds']['total']:.1f} s")
     return ", ".join(parts)
