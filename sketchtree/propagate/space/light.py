@@ -10,8 +10,9 @@ buds in the shade stay shut. Once a generation the field is made of all nodes th
     light   0-1, the user's strength: 0 is off        ℓ   length of the step, metres
     R       reach of a shadow, `_REACH` of the least side of the crown
 
-Many short steps turn as far as one long one, so twigs of many nodes follow the light and a limb's long steps are bounded. A tree's leaves
-are as many as in `after.shed`: `LEAF_AREA` m² over every m² amid an evenly filled crown, however few its nodes are yet.
+Many short steps turn as far as one long one, so twigs of many nodes follow the light and a limb's long steps are bounded. However few
+nodes a tree has yet, its leaves are so many that in a crown evenly filled with them R holds `_LEAF_AREA` m² over every m²: a crown is but
+a few R thick and its rim is light, so that amid it s is 1 to 2.
 """
 
 from dataclasses import dataclass
@@ -22,17 +23,17 @@ from scipy.ndimage import map_coordinates
 
 from sketchtree import keys
 from sketchtree.errors import OptionError
-from sketchtree.propagate.after.shed import LEAF_AREA
 from sketchtree.propagate.space.domain import Domain
 from sketchtree.propagate.space.envelope import Envelope
 from sketchtree.propagate.space.shadow import ShadowField
 
-_TURN = 0.14  # radians a spacing of laterals, where the light is most uneven
+_TURN = 0.12  # radians a spacing of laterals, where the light is most uneven
 _MOST = 0.35  # radians a step
-_ENOUGH = 0.45  # light in which every bud opens
-_STRICT = 2.0
+_ENOUGH = 0.3  # light in which every bud opens
+_STRICT = 1.5
 _REACH = 0.25  # of the least side of the crown
 _NARROWEST = 0.3  # of the height: a crown nobody drew is at least so wide
+_LEAF_AREA = 9.0  # m² a m²
 _VOXELS = 120_000  # of the field, at most
 _LOT = 40  # draw of a limb's bud
 
@@ -50,7 +51,7 @@ class Canopy:
         if len(point) == 0:
             return cls(point, 0.0)
         volume = 4 / 3 * np.pi * 5**1.5 * np.prod(np.maximum(np.std(point, axis=0), least))
-        return cls(point, float(LEAF_AREA * volume / reach / len(point)))
+        return cls(point, float(_LEAF_AREA * volume / reach / len(point)))
 
     def moved(self, by: Float[np.ndarray, " 3"]) -> "Canopy":
         """The same elsewhere, metres."""
@@ -70,7 +71,7 @@ class Light:
     def under(cls, canopies: list[Canopy], domain: Domain, reach: float, strength: float) -> "Light":
         """The light that these trees leave in a tree's box. Raises OptionError for a strength outside 0-1."""
         check_strength(strength)
-        field = ShadowField.empty(domain.low, domain.high, pitch=0.5 * reach, reach=reach, most=_VOXELS)
+        field = ShadowField.empty(domain.low, domain.high, pitch=0.25 * reach, reach=reach, most=_VOXELS)
         near = [one.point[domain.holds(one.point)] for one in canopies]
         area = np.repeat([one.area for one in canopies], [len(point) for point in near])
         field = field.with_leaves(np.concatenate(near), area)
