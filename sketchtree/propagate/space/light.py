@@ -8,7 +8,7 @@ buds in the shade stay shut. Once a generation the field is made of all nodes th
     bud         opens with probability min(1, e^(−s) / `_ENOUGH`)^(`_STRICT` · light)
 
     light   0-1, the user's strength: 0 is off        ℓ   length of the step, metres
-    R       reach of a shadow, `_REACH` of the least side of the crown
+    R       reach of a shadow, `_REACH` of the crown's size, the mean of its three sides (geometric)
 
 Many short steps turn as far as one long one, so twigs of many nodes follow the light and a limb's long steps are bounded. However few
 nodes a tree has yet, its leaves are so many that in a crown evenly filled with them R holds `_LEAF_AREA` m² over every m²: a crown is but
@@ -31,9 +31,9 @@ _TURN = 0.12  # radians a spacing of laterals, where the light is most uneven
 _MOST = 0.35  # radians a step
 _ENOUGH = 0.3  # light in which every bud opens
 _STRICT = 1.5
-_REACH = 0.25  # of the least side of the crown
-_NARROWEST = 0.3  # of the height: a crown nobody drew is at least so wide
-_LEAF_AREA = 9.0  # m² a m²
+_REACH = 0.17  # of the size of the crown
+_SIZE = 0.7  # of the height: that of a crown nobody drew
+_LEAF_AREA = 10.0  # m² a m²
 _VOXELS = 120_000  # of the field, at most
 _LOT = 40  # draw of a limb's bud
 
@@ -114,8 +114,7 @@ def check_strength(strength: float) -> None:
 
 def shadow_reach(envelope: Envelope | None, height: float) -> float:
     """R of a tree with this crown, or of this height (metres) without one; metres."""
-    least = _NARROWEST * height
-    if envelope is not None:
-        low, high = envelope.bounds
-        least = max(float(np.min(high - low)), 1e-3 * height)
-    return _REACH * least
+    if envelope is None:
+        return _REACH * _SIZE * height
+    low, high = envelope.bounds
+    return _REACH * float(np.prod(np.maximum(high - low, 1e-3 * height)) ** (1 / 3))
