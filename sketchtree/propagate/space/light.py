@@ -30,7 +30,7 @@ from sketchtree.propagate.space.shadow import ShadowField
 _TURN = 0.12  # radians a spacing of laterals, where the light is most uneven
 _MOST = 0.35  # radians a step
 _ENOUGH = 0.3  # light in which every bud opens
-_STRICT = 1.5
+_STRICT = 1.2
 _REACH = 0.17  # of the size of the crown
 _SIZE = 0.7  # of the height: that of a crown nobody drew
 _LEAF_AREA = 10.0  # m² a m²
