@@ -51,6 +51,7 @@ class TreeOptions:
     sag: float = 0.0  # 0-5 times the weight that bends undrawn branches; 0: none, 1: as physics says
     shed: float = 0.0  # 0-1: undrawn branches that get less than this share of the light are dropped; 0: none
     shed_twigs: float = 0.0  # 0-20 twig lengths: shorter undrawn branches that bear nothing are dropped; 0: none
+    untangle: bool = True  # undrawn branches that run through others are turned a little, or cut where that doesn't help
     prune: tuple[str, ...] = ()  # planes and mesh files that cut the tree, drawn wood too (`propagate.after.shears`)
     obstacle: tuple[str, ...] = ()  # mesh files that nothing grows through: metres, y up, the trunk's root at the origin
     leaf: str | None = None  # leaf model, exemplar whose leaf to take, or "none"; None: the template's

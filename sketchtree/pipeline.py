@@ -1,6 +1,6 @@
 """A sketch in, a complete tree out: every stage in order.
 
-    strokes → sketch graph → template → depths → skeleton → propagation → radii → sag, shedding, pruning → leaves → meshes
+    strokes → sketch graph → template → depths → skeleton → propagation → radii → sag, shedding, untangling, pruning → leaves → meshes
 """
 
 import dataclasses
@@ -33,6 +33,7 @@ from sketchtree.propagate.after.each_tree import sagged
 from sketchtree.propagate.after.level import kept_weight
 from sketchtree.propagate.after.prune import Prune
 from sketchtree.propagate.after.shed import Shed
+from sketchtree.propagate.after.untangle import Untangle
 from sketchtree.propagate.generations import Propagate, Propagation
 from sketchtree.propagate.growing import to_scale
 from sketchtree.roots import root_depth
@@ -182,9 +183,9 @@ def finish(
     leaf = leaf_model(options.leaf, habit, templates)
     bark = bark_model(options.bark, habit)
     with watch("propagate"):
-        left = _weathered(drawn, grown, options)
+        left, tangled = _weathered(drawn, grown, options)
         skeleton, told = _pruned(left if place is None else moved(left, place), options)
-        warnings = grown.warnings + told
+        warnings = grown.warnings + tangled + told
     with watch("foliage"):
         season = "bare" if leaf is None else options.season
         leaves = populate(skeleton, habit, key=stage_key(key, "foliage"), model=leaf or habit.leaf, season=season)
@@ -234,19 +235,28 @@ def _pruned(tree: TreeSkeleton, options: TreeOptions) -> tuple[TreeSkeleton, tup
     return pruned.skeleton, (f"Pruning cut {cut} drawn stroke{'s' if cut > 1 else ''}.",) if cut else ()
 
 
-def _weathered(drawn: DrawnTree, grown: Propagation, options: TreeOptions) -> TreeSkeleton:
-    """What weight and shade leave of a grown tree, with the radii of what is left."""
+def _weathered(drawn: DrawnTree, grown: Propagation, options: TreeOptions) -> tuple[TreeSkeleton, tuple[str, ...]]:
+    """What weight, shade and others in the way leave of a grown tree, with the radii of what is left; and what the user should know."""
     radius = np.full(len(grown.skeleton), np.nan)
     radius[grown.drawn_row] = drawn.radius
     tree, weight = grown.skeleton, grown.tip_weight
     tree = PipeRadii(drawn.habit, radius, weight)(tree)
     crown = tuple(drawn.similarity.to_world(outline) for outline in drawn.graph.crown)
-    shed = Shed(options.shed, options.shed_twigs, to_scale(drawn.habit, drawn.skeleton, crown))
+    habit = to_scale(drawn.habit, drawn.skeleton, crown)
+    shed = Shed(options.shed, options.shed_twigs, habit)
     for run in (lambda whole: sagged(whole, options.sag, drawn.habit, grown.spaces), shed.run):
         cut = run(tree)
         radius, weight = radius[cut.rows], None if weight is None else kept_weight(tree, cut, weight)
         tree = cut.skeleton
-    return PipeRadii(drawn.habit, radius, weight)(tree) if options.sag or options.shed or options.shed_twigs else tree
+    if options.sag or options.shed or options.shed_twigs:
+        tree = PipeRadii(drawn.habit, radius, weight)(tree)
+    if not options.untangle:
+        return tree, ()
+    freed = Untangle(habit, grown.spaces).run(tree)
+    if len(freed.rows) < len(tree):
+        weight = None if weight is None else kept_weight(tree, freed, weight)
+        return PipeRadii(drawn.habit, radius[freed.rows], weight)(freed.skeleton), freed.warnings
+    return freed.skeleton, freed.warnings
 
 
 @dataclass(frozen=True)

@@ -13,6 +13,7 @@ from sketchtree.pipeline import SketchSource
 from sketchtree.propagate.after.prune import Prune
 from sketchtree.propagate.after.sag import Sag
 from sketchtree.propagate.after.shed import Shed
+from sketchtree.propagate.after.untangle import Untangle
 from sketchtree.propagate.generations import Propagate
 from sketchtree.skeleton import Kind, TreeSkeleton
 
@@ -23,6 +24,7 @@ STAGES = {
     "radii": PipeRadii(Habit()),
     "sag": Sag(1.0),
     "shed": Shed(0.3, 1.0),
+    "untangle": Untangle(),
     "prune": Prune(("y<1000",)),
 }
 

@@ -37,6 +37,7 @@ _TREE = (
     click.option("--sag", type=float, default=0.0, metavar="0-5", help="Bend undrawn branches under their own weight (1: as physics says)."),
     click.option("--shed", type=float, default=0.0, metavar="0-1", help="Drop undrawn branches that get less than this share of the light."),
     click.option("--shed-twigs", type=float, default=0.0, metavar="0-20", help="Drop undrawn branches that bear none and are shorter than this many twigs."),
+    click.option("--untangle/--no-untangle", default=True, show_default=True, help="Part undrawn branches that run through others."),
     click.option("--prune", multiple=True, metavar="SHAPE", help="Cut the tree to a mesh (FILE; outside:FILE) or a plane (y<4.5, 1,1,0<3; metres). Repeatable."),
     click.option("--leaf", metavar="MODEL|EXEMPLAR|none", help="Leaf model (default: the template's)."),
     click.option("--season", type=click.Choice(SEASONS), default="summer", show_default=True),

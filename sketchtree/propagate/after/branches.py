@@ -22,7 +22,7 @@ from sketchtree.propagate.after.overlaps import first_rows, goes_on, is_undrawn
 from sketchtree.skeleton import TreeSkeleton
 from sketchtree.traverse import children, generations
 
-_GRAIN = 1e-6  # metres
+GRAIN = 1e-6  # metres
 _LIGHTEST = 32  # class of a branch of no wood
 
 
@@ -47,7 +47,7 @@ class Branches:
         steps = generations(tree.parent)
         stays = tree.is_base | ~is_undrawn(tree) | (np.diff(tree.curve_start) > 0)
         moves = ~bears(tree.parent, stays)
-        wood, size = np.rint(tree.length / _GRAIN), np.ones(len(tree), np.int64)
+        wood, size = np.rint(tree.length / GRAIN), np.ones(len(tree), np.int64)
         for rows in reversed(steps[1:]):
             np.add.at(wood, tree.parent[rows], wood[rows])
             np.add.at(size, tree.parent[rows], size[rows])

@@ -106,8 +106,12 @@ class Balls:
     def _of_class(self, others: "Balls", a: int, its_classes) -> Iterator[Pairs]:
         asking = self.classes[a][self.trees[a].indices]  # neighbours stand together
         for begin in range(0, len(asking) if its_classes else 0, _CHUNK):
-            chunk = asking[begin : begin + _CHUNK]
-            near, widest = cKDTree(self.middle[chunk]), self.reach[chunk].max()
+            chunk, near = asking[begin : begin + _CHUNK], self.trees[a]
+            if len(chunk) < len(asking):
+                near = cKDTree(self.middle[chunk])
+            else:
+                chunk = self.classes[a]
+            widest = self.reach[chunk].max()
             for b in its_classes:
                 members = others.classes[b]
                 met = near.sparse_distance_matrix(others.trees[b], widest + others.reach[members].max(), output_type="ndarray")

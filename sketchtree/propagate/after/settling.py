@@ -1,10 +1,12 @@
 """A tree while its branches find their places: where everything is, what has its place, and what is left."""
 
+from dataclasses import dataclass
+
 import numpy as np
 from jaxtyping import Float, Int
 
 from sketchtree.axes import NULL
-from sketchtree.propagate.after.branches import Branches
+from sketchtree.propagate.after.branches import GRAIN, Branches
 from sketchtree.propagate.after.capsules import Balls, Capsules
 from sketchtree.propagate.after.cutting import pieces
 from sketchtree.propagate.after.nearest import nearest
@@ -14,15 +16,32 @@ from sketchtree.skeleton import TreeSkeleton
 from sketchtree.traverse import sum_from_root
 
 _BISECTIONS = 12  # to 2e-4 of a row
+_STUMP = 0.05  # of a row: what is cut shorter at a barrier is left out
+
+
+@dataclass(frozen=True, eq=False)
+class Wood:
+    """Pieces, and the balls that find them."""
+
+    pieces: Capsules
+    balls: Balls
+
+    @classmethod
+    def of(cls, pieces: Capsules) -> "Wood":
+        """These pieces."""
+        return cls(pieces, Balls.of(pieces))
 
 
 class Settling:
     """The rows' places, changed in place: ranks of branches are taken up, turned and cut in turn."""
 
-    def __init__(self, tree: TreeSkeleton, space: Space, swell: float, crotch: float):
-        self.tree, self.space = tree, space
+    def __init__(self, tree: TreeSkeleton, spaces: dict[int, Space], swell: float, crotch: float):
+        """`swell` times the radii count; a limb may take `crotch` radii of the one that bears it to leave that.
+        `spaces` by the column `tree`."""
+        self.tree, self.spaces = tree, {name: _binding(space) for name, space in spaces.items()}
         self.branches, self.kin = Branches.of(tree), Kinship.of(tree, crotch)
         self.radius, self.usual = swell * capsule_radius(tree), usual_length(tree)
+        self.start = tree.start  # as it grew
         self.tip = np.array(tree.tip)
         self.end = np.array(tree.tip)  # of what is left of each row
         self.share = np.ones(len(tree))
@@ -30,12 +49,12 @@ class Settling:
         self.turned = np.broadcast_to(np.eye(3), (len(self.branches.first), 3, 3)).copy()  # by itself
         self.carried = self.turned.copy()  # by what bears it
         self.moved = np.zeros(len(self.branches.first), bool)
-        self.run = sum_from_root(tree.parent, tree.length)
+        self.length = tree.length
+        self.run = sum_from_root(tree.parent, self.length)
         row, start, end, _ = pieces(tree)
         self.axis = np.searchsorted(row, np.arange(len(tree) + 1)), start, end - start
         fixed = ~self.branches.moves[row]
-        self.wood = Capsules.cut(row[fixed], start[fixed], end[fixed], self.radius[row[fixed]], self.usual)
-        self.settled = Balls.of(self.wood)
+        self.settled = Wood.of(Capsules.cut(row[fixed], start[fixed], end[fixed], self.radius[row[fixed]], self.usual))
         self.ground = float(tree.tip[tree.is_base, 1].min())
 
     def take_up(self, rank: int) -> Int[np.ndarray, " row"]:
@@ -51,8 +70,10 @@ class Settling:
         return rows
 
     def turn(self, branch: Int[np.ndarray, " branch"], turns: Float[np.ndarray, "branch 3 3"]) -> None:
-        """Turn branches of the rank taken up, from the way they grew."""
+        """Turn branches of the rank taken up, from the way they grew; what thereby leaves the space is cut there."""
+        out, share, _ = self.outside(branch, turns)
         self.turned[branch], self.moved[branch] = turns, True
+        self.cut(out, share)
         self._put(self.rows_of(branch))
 
     def posed(self, row, of, turns: Float[np.ndarray, "branch 3 3"], branch) -> tuple[np.ndarray, np.ndarray]:
@@ -60,12 +81,13 @@ class Settling:
         node = self.branches.node[branch]
         whole = (turns @ self.carried[branch])[of]
         pivot, grew = self.tip[node][of], self.tree.tip[node][of]
-        place = [pivot + np.einsum("bij,bj->bi", whole, at - grew) for at in (self.tree.start[row], self.tree.tip[row])]
+        place = [pivot + np.einsum("bij,bj->bi", whole, at - grew) for at in (self.start[row], self.tree.tip[row])]
         return place[0], place[1]
 
     def _put(self, rows) -> None:
         branch, of = np.unique(self.branches.of_row[rows], return_inverse=True)
-        self.tip[rows] = self.end[rows] = self.posed(rows, of, self.turned[branch], branch)[1]
+        start, self.tip[rows] = self.posed(rows, of, self.turned[branch], branch)
+        self.end[rows] = start + self.share[rows, None] * (self.tip[rows] - start)
 
     def rows_of(self, branch):
         """The rows of branches that are there, by branch."""
@@ -85,34 +107,46 @@ class Settling:
         """What is left of rows that move, where it is."""
         return Capsules.cut(row, self.tip[self.tree.parent[row]], self.end[row], self.radius[row], self.usual)
 
-    def overlaps(self, wood: Capsules, *others: tuple[Capsules, Balls]) -> Overlaps:
-        """Where pieces overlap with these others, the deepest of each owner and rows."""
-        asks = Balls.of(wood)
-        found = [touching(self.kin, self.tip, wood, i, its, j) for its, balls in others for i, j in asks.meeting(balls)]
+    def overlaps(self, wood: Wood, peers: Wood) -> Overlaps:
+        """Where pieces overlap with what has its place and with their peers, the deepest of each owner and rows."""
+        others = (self.settled, peers)
+        found = [touching(self.kin, self.tip, wood.pieces, i, its.pieces, j) for its in others for i, j in wood.balls.meeting(its.balls)]
         return Overlaps.join(found).deepest()
 
-    def stays_free(self, branch: Int[np.ndarray, " branch"], turns: Float[np.ndarray, "branch 3 3"]) -> np.ndarray:
-        """Bool[branch]: which branches, turned so, stay in the space and above the ground with all they bear, as far as they were."""
+    def outside(self, branch: Int[np.ndarray, " branch"], turns: Float[np.ndarray, "branch 3 3"]) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
+        """(rows, shares up to where they do, wood lost thereby a branch, micrometres) of what would leave the space or sink into the
+        ground, were branches turned so. What did so as it grew is left out."""
         of, row = self.branches.borne(self.branches.first[branch])
-        start, tip = self.posed(row, of, turns, branch)
-        out = np.flatnonzero((tip[:, 1] < np.minimum(self.ground, self.tree.tip[row, 1])) | ~self._free(start, tip))
-        was_out = ~self._free(self.tree.start[row[out]], self.tree.tip[row[out]])
-        out = out[~was_out | (tip[out, 1] < np.minimum(self.ground, self.tree.tip[row[out], 1]))]
-        free = np.ones(len(branch), bool)
-        free[of[out]] = False
-        return free
+        share = np.where(self.there[row], self._held(row, *self.posed(row, of, turns, branch)), 1.0)
+        out = np.flatnonzero(share < 1.0)
+        out = out[self._held(row[out], self.start[row[out]], self.tree.tip[row[out]]) == 1.0]
+        share[out] = np.where(share[out] > _STUMP, share[out], 0.0)
+        ends = np.zeros(len(row) + 1, np.int64)
+        np.add.at(ends, out + 1, 1)
+        np.add.at(ends, out + self.branches.size[row[out]], -1)
+        kept = np.where(np.cumsum(ends)[:-1] > 0, 0.0, 1.0)
+        kept[out] *= share[out]
+        lost = np.bincount(of, np.rint((1.0 - kept) * self.length[row] / GRAIN), minlength=len(branch))
+        return row[out], share[out], lost
 
-    def _free(self, start, tip):
-        binding = tuple(barrier for barrier in self.space.barriers if getattr(barrier, "binding", True))
-        return Space(binding).exit_fraction(start, tip) >= 1.0
+    def _held(self, row, start, tip) -> Float[np.ndarray, " row"]:
+        """The share of rows that lead from start to tip up to a barrier or the ground, 0-1."""
+        share, name = np.ones(len(row)), self.tree.tree[row]
+        for one in np.unique(name):
+            if one in self.spaces:
+                its = np.flatnonzero(name == one)
+                share[its] = self.spaces[one].exit_fraction(start[its], tip[its])
+        sinks = np.flatnonzero((tip[:, 1] < self.ground) & (tip[:, 1] < start[:, 1]))
+        above = np.maximum(start[sinks, 1] - self.ground, 0.0)
+        share[sinks] = np.minimum(share[sinks], above / (start[sinks, 1] - tip[sinks, 1]))
+        return share
 
     def settle(self, rows: Int[np.ndarray, " row"]) -> None:
         """Rows have their places."""
-        rows = rows[self.there[rows]]
-        whole = self.there[self.wood.row] & (self.share[self.wood.row] == 1.0)
-        short = np.unique(self.wood.row[self.there[self.wood.row] & ~whole])
-        self.wood = self.wood.select(whole).join(self.wood_of(np.concatenate([rows, short])))
-        self.settled = Balls.of(self.wood)
+        rows, wood = rows[self.there[rows]], self.settled.pieces
+        short = self.there[wood.row] & (self.share[wood.row] < 1.0)
+        again = np.unique(np.concatenate([rows, wood.row[short]]))
+        self.settled = Wood.of(wood.select(self.there[wood.row] & ~short).join(self.wood_of(again)))
 
     def cut(self, row: Int[np.ndarray, " row"], share: Float[np.ndarray, " row"]) -> None:
         """Rows end at a share of what they were; what they bore goes, and so do those of which nothing is left."""
@@ -147,3 +181,8 @@ class Settling:
         share = np.ones(len(row))
         np.minimum.at(share, of, low)
         return share
+
+
+def _binding(space: Space) -> Space:
+    """The barriers that bind; an implied crown does not."""
+    return Space(tuple(barrier for barrier in space.barriers if getattr(barrier, "binding", True)))

@@ -1,13 +1,12 @@
 """Which way could a branch turn, to get out of another's?
 
-    clears   the least turn that parts its deepest overlap: by θ = (depth + δ) / |l × n| about the axis l × n
-             l  from where the branch starts to its nearest point,  n  away from the other branch's
-    a star   each of `_ANGLES` towards `_SIDES` sides, evenly spread about the branch
-    none     as it grew
     stay     as it is
+    clears   the least turn that parts its deepest overlap: by θ = (depth + δ) / |l × n| about the axis l × n
+             l  from where the branch starts to its nearest point,  n  away from the other branch's;  δ  a hair more than needed
+    none     as it grew
+    a star   each of `_ANGLES` towards `_SIDES` sides, evenly spread about the branch
 
-All are measured from the way it grew and turn it by `MOST` at most; what `clears` adds to a turn taken before may come to more
-and then is no choice.
+All turns are measured from the way it grew. One that parts nothing since it would be too large is no choice.
 """
 
 import numpy as np

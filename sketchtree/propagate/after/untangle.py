@@ -2,37 +2,37 @@
 
 Rank after rank (`branches`) they find their places among those that have theirs: what is drawn first, then the heavy and what bears,
 then the light. A branch that overlaps (`overlaps`) with wood that has its place, or with a heavier one of its rank, turns about where it
-starts, rigidly, with all it bears. It tries
-
-    clears   the least turn by which its deepest overlap parts: about the axis l × n by
-             θ = (depth + δ) / |l × n|          l  from where it starts to the nearest point,  n  away from the other
-    a star   `_ANGLES` towards `_SIDES` sides
-
-keeps the one that costs least, then the smallest, and turns by `MOST` in all at most. A turn costs the wood that would be lost if all
-that still overlaps were cut. What leaves the space or sinks into the ground, with anything it bears, is no choice. Radii, lengths and
-the angles of all that it bears stay.
+starts, rigidly, with all it bears (`turning`). Of its choices it takes the one that costs least, then the smallest; a turn costs
+the wood that would be lost if all that still overlaps were cut, and what would leave the space or sink into the ground: that is
+cut there. Else radii, lengths and the angles of all that it bears stay. Small turns are tried first (`_ROUNDS`), so that only what
+would else be cut turns by more than 12°.
 
 What no turn parts is cut: whichever of the two bears less wood from there on ends just before the other, or goes altogether where the
-rest would be shorter than `_TWIG` twigs. What is drawn is never moved or cut. By then all heavier branches have their places,
-so that none is cut for the sake of one that goes itself.
+rest would be shorter than `_TWIG` twigs. By then all heavier branches have their places, so that none is cut for the sake of
+one that goes itself. What is drawn is never moved or cut. A limb may take `_CROTCH` radii of the limb that bears it to leave that:
+a sharp fork is no knot.
 """
 
-from dataclasses import dataclass
+from dataclasses import dataclass, field, replace
 
 import numpy as np
 from jaxtyping import Array, Float, Key
 
 from sketchtree.parameters import Habit
-from sketchtree.propagate.after.capsules import Balls, Capsules
+from sketchtree.propagate.after.capsules import Capsules
 from sketchtree.propagate.after.cutting import Cut, cut
-from sketchtree.propagate.after.overlaps import Overlaps
-from sketchtree.propagate.after.settling import Settling
+from sketchtree.propagate.after.overlaps import Overlaps, is_undrawn
+from sketchtree.propagate.after.settling import Settling, Wood
 from sketchtree.propagate.after.turning import angle_of, choices
 from sketchtree.propagate.space.space import Space
 from sketchtree.skeleton import TreeSkeleton
 
-LARGEST = 300_000  # rows: a larger tree is left as it is, since it would take too long
+LARGEST = 250_000  # rows: a larger tree is left as it is, since it would take longer than ten seconds or so
 _ROUNDS = ((12.0, False), (12.0, True), (20.0, True), (30.0, True), (45.0, True))  # of a rank: degrees at most, and whether with the star
+_TOO_LARGE = (
+    "With {:,} rows the tree is too large to look for branches that run through each other (at most {:,}), so some may. "
+    "Ask for fewer with --max-segments."
+)
 _SWELL = 1.01  # times the radii count: those of what is left grow a little once branches are cut
 _HAIR = 0.03  # of what both are thick, more than that `clears` moves apart
 _TWIG = 0.5  # twig lengths, what is left of a cut branch is at least
@@ -45,7 +45,7 @@ class Untangled(Cut):
     """What is left, and what it took."""
 
     turned: Float[np.ndarray, " branch"]  # radians, by which branches turned; those that stayed left out
-    too_large: bool  # whether the tree has more rows than are looked through, and is as it was
+    warnings: tuple[str, ...] = ()
 
 
 @dataclass(frozen=True)
@@ -53,7 +53,7 @@ class Untangle:
     """A stage: undrawn branches that run through others give way. The tree needs its final radii (`PipeRadii`)."""
 
     habit: Habit = Habit()  # to the tree's scale (`growing.to_scale`): what counts as a twig
-    space: Space = Space()  # no branch is turned out of it
+    spaces: dict[int, Space] = field(default_factory=dict)  # of every tree, by the column `tree`; no branch is turned out of its own
 
     def __call__(self, tree: TreeSkeleton, *, key: Key[Array, ""] | None = None) -> TreeSkeleton:
         """The tree without knots. `key` is part of the stage's door; nothing here is random."""
@@ -61,28 +61,31 @@ class Untangle:
 
     def run(self, tree: TreeSkeleton) -> Untangled:
         """As the call, with the rows that are left and the turns."""
-        if len(tree) > LARGEST or tree.segment_count == 0:
-            return Untangled(tree, np.arange(len(tree)), np.zeros(0), len(tree) > LARGEST)
-        now = Settling(tree, self.space, _SWELL, _CROTCH)
+        as_it_was = Untangled(tree, np.arange(len(tree)), np.zeros(0))
+        if not is_undrawn(tree).any():
+            return as_it_was
+        if len(tree) > LARGEST:
+            return replace(as_it_was, warnings=(_TOO_LARGE.format(len(tree), LARGEST),))
+        now = Settling(tree, self.spaces, _SWELL, _CROTCH)
         for rank in np.unique(now.branches.rank):
             rows = now.take_up(rank)
             self._part(now, rows)
             now.settle(rows)
-        turned = angle_of(now.turned)
-        if not now.moved.any() and now.share.all():
-            return Untangled(tree, np.arange(len(tree)), np.zeros(0), False)
-        left = cut(tree.replace(tip=now.tip), now.share)
-        return Untangled(left.skeleton, left.rows, turned[turned > 0], False)
+        if not now.moved.any() and (now.share == 1.0).all():
+            return as_it_was
+        left, turned = cut(tree.replace(tip=now.tip), now.share), angle_of(now.turned)
+        return Untangled(left.skeleton, left.rows, turned[turned > 0])
 
     def _part(self, now: Settling, rows) -> None:
         """Turn, then cut what overlaps among these rows and with what has its place."""
-        asking = rows
+        asking = peers = Wood.of(now.wood_of(rows))
         for most, star in _ROUNDS:
-            found = _yielding(now, asking, rows)
+            found = _yielding(now, asking, peers)
             if len(found) == 0:
                 return
-            asking = _turn(now, found, rows, np.radians(most), star)
-        found = _yielding(now, asking, rows)
+            turned = _turn(now, found, peers, np.radians(most), star)
+            asking, peers = Wood.of(now.wood_of(turned)), Wood.of(now.wood_of(rows))
+        found = _yielding(now, asking, peers)
         if len(found):
             self._cut(now, found)
 
@@ -94,16 +97,15 @@ class Untangle:
         share = now.clear_share(row, other, 1.0 + _HAIR)
         first = its.first[its.of_row[row]]
         node = its.node[its.of_row[row]]
-        left = now.run[row] - now.run[node] - (1.0 - share) * now.tree.length[row]
+        left = now.run[row] - now.run[node] - (1.0 - share) * now.length[row]
         short = left < _TWIG * self.habit.twig_length
         now.cut(np.where(short, first, row), np.where(short, 0.0, share))
 
 
-def _yielding(now: Settling, asking, rows) -> Overlaps:
-    """Overlaps of the `asking` rows with what has its place and with their peers, `rows`; `one` is the one that gives way."""
-    peers = now.wood_of(rows)
-    found = now.overlaps(now.wood_of(asking), (now.wood, now.settled), (peers, Balls.of(peers)))
-    return found.swapped(np.isin(found.other, rows) & _lesser(now, found.other, found.one))
+def _yielding(now: Settling, asking: Wood, peers: Wood) -> Overlaps:
+    """Overlaps of what is `asking` with what has its place and with its peers; `one` is the one that gives way."""
+    found = now.overlaps(asking, peers)
+    return found.swapped(np.isin(found.other, peers.pieces.row) & _lesser(now, found.other, found.one))
 
 
 def _lesser(now: Settling, row, other):
@@ -113,12 +115,12 @@ def _lesser(now: Settling, row, other):
     return (mine < its_own) | ((mine == its_own) & (limb[row] > limb[other]))
 
 
-def _turn(now: Settling, found: Overlaps, rows, most: float, star: bool):
+def _turn(now: Settling, found: Overlaps, peers: Wood, most: float, star: bool):
     """Turn the branches of `found.one` to where they cost least; their rows."""
     branch, worst = _worst(now, found)
     mine = now.rows_of(branch)
     turns, angle = choices(now.turned[branch], _way(now, branch, mine), *_push(now, branch, worst), most, star)
-    cost = np.where(np.isfinite(angle), _costs(now, branch, mine, turns, rows), np.inf)
+    cost = np.where(np.isfinite(angle), _costs(now, branch, mine, turns, peers), np.inf)
     best = _best(now, branch, turns, cost, angle)
     change = best > 0
     now.turn(branch[change], turns[change, best[change]])
@@ -152,29 +154,29 @@ def _way(now: Settling, branch, mine):
     return tip - now.tip[now.branches.node[branch]]
 
 
-def _costs(now: Settling, branch, mine, turns, rows) -> Float[np.ndarray, "branch choice"]:
+def _costs(now: Settling, branch, mine, turns, peers: Wood) -> Float[np.ndarray, "branch choice"]:
     """The wood that is lost if all that overlaps is cut, micrometres, were the branches turned so."""
     of, many = np.searchsorted(branch, now.branches.of_row[mine]), turns.shape[1]
     choice = np.tile(np.arange(many), len(mine))
     row, of = np.repeat(mine, many), np.repeat(of, many)
     start, tip = now.posed(row, of * many + choice, turns.reshape(-1, 3, 3), np.repeat(branch, many))
-    wood, peers = Capsules.cut(row, start, tip, now.radius[row], now.usual), now.wood_of(rows)
-    found = now.overlaps(wood, (now.wood, now.settled), (peers, Balls.of(peers)))
+    found = now.overlaps(Wood.of(Capsules.cut(row, start, tip, now.radius[row], now.usual)), peers)
     lost = np.minimum(now.branches.wood[found.one], now.branches.wood[found.other])
     return np.bincount((of * many + choice)[found.owner], lost, minlength=len(branch) * many).reshape(-1, many)
 
 
 def _best(now: Settling, branch, turns, cost, angle):
-    """The choice of each branch that costs least, the smaller turn where two cost the same; 0, to stay, where none is better."""
+    """The choice of each branch that costs least, with the wood that would leave the space, and of those the smallest turn; 0, to stay,
+    where none costs less."""
     order = np.lexsort((angle, cost), axis=1)
-    best, open_ = np.zeros(len(branch), np.int64), np.arange(len(branch))
+    best, least, open_ = np.zeros(len(branch), np.int64), cost[:, 0].copy(), np.arange(len(branch))
     for place in range(cost.shape[1]):
-        choice = order[open_, place]
-        better = cost[open_, choice] < cost[open_, 0]
-        open_, choice = open_[better], choice[better]
+        open_ = open_[cost[open_, order[open_, place]] < least[open_]]
         if len(open_) == 0:
             break
-        free = now.stays_free(branch[open_], turns[open_, choice])
-        best[open_[free]] = choice[free]
-        open_ = open_[~free]
+        choice = order[open_, place]
+        _, _, lost = now.outside(branch[open_], turns[open_, choice])
+        whole = cost[open_, choice] + lost
+        better = whole < least[open_]
+        best[open_[better]], least[open_[better]] = choice[better], whole[better]
     return best

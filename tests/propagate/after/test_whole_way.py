@@ -9,6 +9,7 @@ from sketchtree.geometry.radii import PipeRadii
 from sketchtree.keys import root_key, stage_key
 from sketchtree.options import ReadingOptions, TreeOptions, options_as_dict
 from sketchtree.pipeline import complete, draw_out
+from sketchtree.propagate.after.overlaps import share_overlapping
 from sketchtree.propagate.generations import Propagate
 from sketchtree.skeleton import Kind
 from sketchtree.traverse import is_tip
@@ -31,16 +32,16 @@ def same(one, two):
     return all(np.array_equal(getattr(one, name), getattr(two, name)) for name in COLUMNS)
 
 
-def test_with_all_at_their_defaults_the_tree_is_what_grew_to_the_last_bit(drawn):
+def test_without_untangling_and_all_else_at_its_default_the_tree_is_what_grew_to_the_last_bit(drawn):
     outline = tuple(drawn.similarity.to_world(line) for line in drawn.graph.crown)
     stage = Propagate(drawn.habit, drawn.theta, crown=outline, generations=3, exemplar=drawn.exemplar.skeleton)
     grown = stage.run(drawn.skeleton, key=stage_key(KEY, "propagate"))
     radius = np.full(len(grown.skeleton), np.nan)
     radius[grown.drawn_row] = drawn.radius
-    assert same(PipeRadii(drawn.habit, radius)(grown.skeleton), build(drawn).skeleton)
+    assert same(PipeRadii(drawn.habit, radius)(grown.skeleton), build(drawn, untangle=False).skeleton)
 
 
-@pytest.mark.parametrize("options", [{"sag": 2.0}, {"shed": 0.4}, {"shed_twigs": 1.5}, {"prune": ("y<2.5",)}, {"generations": 2.5}])
+@pytest.mark.parametrize("options", [{"untangle": False}, {"sag": 2.0}, {"shed": 0.4}, {"shed_twigs": 1.5}, {"prune": ("y<2.5",)}, {"generations": 2.5}])
 def test_every_option_changes_the_tree_and_the_same_one_gives_the_same_tree(drawn, options):
     one, two = build(drawn, **options).skeleton, build(drawn, **options).skeleton
     assert same(one, two) and not same(one, build(drawn).skeleton)
@@ -51,6 +52,12 @@ def test_only_pruning_touches_what_was_drawn(drawn, options):
     tree = build(drawn, **options).skeleton
     kept = {tuple(tip) for tip in tree.tip[tree.kind == Kind.DRAWN]}
     assert {tuple(tip) for tip in drawn.skeleton.tip} <= kept
+
+
+@pytest.mark.parametrize("options", [{}, {"sag": 1.0, "shed": 0.3}, {"generations": 2.5}])
+def test_less_than_1_percent_of_the_undrawn_segments_run_through_others_in_the_end(drawn, options):
+    before, after = (share_overlapping(build(drawn, leaf="none", untangle=on, **options).skeleton) for on in (False, True))
+    assert before[1] > 0.01 and max(after) < 0.01
 
 
 def test_pruning_tells_how_many_strokes_it_cut(drawn):
