@@ -28,7 +28,7 @@ from sketchtree.axes import NULL
 from sketchtree.propagate.space.domain import Domain
 
 MOST_VOXELS = 12_000_000  # of the whole grid
-_MOST_OF_ONE = 250_000  # of one tree's box, about
+_MOST_OF_ONE = 120_000  # of one tree's box, about
 _BLUR = 2.0  # voxels
 _FAINT = 1e-3  # ε, metres of wood
 _FEELS = 2.5  # D, in spacings of laterals
