@@ -11,6 +11,8 @@ way there; its laterals and theirs follow by blocks as everywhere. Rounds of thi
 The lateral leaves its limb at an angle the species has, μ_β ± `SPREADS` σ_β: of the near nodes one is chosen from which the way lies so,
 and where there is none the angle is brought to the nearer end, the side kept. A poplar fills its crown from below, an oak from beside.
 
+Where drawn limbs stand out of a crown that nobody drew, the room around them, `HALO` of their length wide, is filled with it.
+
 A crown of which more than `HOLLOW` is farther than `HOLLOW_GAP` spacings from all wood is *hollow*: a sketch of a trunk in an
 outline, or of limbs that lie far apart in depth. It is filled unasked, less densely, unless the user drew both the
 crown and the limbs in it.
@@ -32,6 +34,7 @@ GAP = 1.6  # spacings of laterals
 HOLLOW, HOLLOW_GAP = 0.15, 2.5
 HOLLOW_ROUNDS, COARSE_GAP = 4, 2.0  # rounds in a hollow crown, and its gap in spacings of laterals
 LED_GAP = 1.3  # the same where leaders alone make the crown
+HALO = (0.2, 5.0)  # of a drawn limb's length, and spacings of laterals, at most
 _POINTS = 30_000  # at most, over the crown's bounding box
 _NEAR = 16  # nodes of which one grows towards a point
 SPREADS = 1.5  # σ_β to either side of μ_β that a filling lateral may diverge
@@ -43,6 +46,20 @@ def empty_points(
 ) -> Float[np.ndarray, "point 3"]:
     """Points inside the envelope that are farther than `gap` metres from every tip."""
     point = _spread(envelope, gap)
+    return point[_empty(point, tips, gap)]
+
+
+def empty_around(
+    nodes: Nodes, reach: Float[np.ndarray, " node"], tips: Float[np.ndarray, "tip 3"], gap: float
+) -> Float[np.ndarray, "point 3"]:
+    """Points within `reach` metres of each node that are farther than `gap` metres from every tip: where a drawn limb
+    stands out of an implied crown, that is the room it fills."""
+    if len(nodes) == 0:
+        return np.zeros((0, 3))
+    count = int(np.clip(np.median(4.0 * (2.0 * reach / gap) ** 3), 8, max(_POINTS // len(nodes), 8)))
+    ball = 2.0 * halton(count) - 1.0
+    ball = ball[np.linalg.norm(ball, axis=1) <= 1.0]
+    point = (nodes.tip[:, None] + reach[:, None, None] * ball).reshape(-1, 3)
     return point[_empty(point, tips, gap)]
 
 

@@ -23,7 +23,7 @@ from sketchtree.propagate.space.domain import Domain
 from sketchtree.propagate.space.envelope import Envelope
 from sketchtree.propagate.space.obstacles import Obstacles
 from sketchtree.propagate.space.space import Space
-from sketchtree.propagate.fill import GAP, HOLLOW, HOLLOW_GAP, emptiness, empty_points, towards
+from sketchtree.propagate.fill import GAP, HALO, HOLLOW, HOLLOW_GAP, emptiness, empty_around, empty_points, towards
 from sketchtree.propagate.drawn.gaps import into_gaps
 from sketchtree.propagate.drawn.implied import WEEPING, implied_crown
 from sketchtree.propagate.drawn.laterals import split_long
@@ -172,8 +172,13 @@ class Growing:
             return False
         nodes = self._nodes()
         empty = empty_points(self.envelope, nodes.tip, gap * self.apart)
+        outside = ~self.envelope.inside(nodes.tip)
+        if not self.envelope.binding:
+            drawn = nodes.select(outside & (nodes.order > 0) & (nodes.row < len(self.drawn.tree)))
+            reach = np.minimum(HALO[0] * drawn.whole, HALO[1] * self.apart)
+            empty = np.concatenate([empty, empty_around(drawn, reach, nodes.tip, gap * self.apart)])
         empty = empty[self.space.inside(empty)]
-        bears = (nodes.order < self.habit.max_order) & self.envelope.inside(nodes.tip)
+        bears = (nodes.order < self.habit.max_order) & ~(outside & self.envelope.binding)
         new = towards(empty, nodes.select(bears), self.habit, self.theta, round_, self.key)
         self.open = self.open.join(self._free(new) if self.space.guides else new)
         before = self.rows
