@@ -46,7 +46,7 @@ class Shed:
 
     shade: float = 0.0  # 0-1: branches that get less than this share of the open sky's light go; 0: none
     twigs: float = 0.0  # 0-20 twig lengths: shorter branches that bear nothing go; 0: none
-    habit: Habit = Habit()  # to the tree's scale (`growing.to_scale`)
+    habit: Habit = Habit()  # to the tree's scale (`scale.to_scale`)
 
     def __post_init__(self):
         if not 0 <= self.shade <= 1:

@@ -33,8 +33,8 @@ _TOO_LARGE = (
     "With {:,} rows the tree is too large to look for branches that run through each other (at most {:,}), so some may. "
     "Ask for fewer with --max-segments."
 )
-_SWELL = 1.01  # times the radii count: those of what is left grow a little once branches are cut
-_HAIR = 0.03  # of what both are thick, more than that `clears` moves apart
+_SWELL = 1.1  # times the radii count: limbs become smooth curves that leave their rows a little, and radii change once others are cut
+_HAIR = 0.15  # of what both are thick, `clears` moves them farther apart than that, and a cut ends before it
 _TWIG = 0.5  # twig lengths, what is left of a cut branch is at least
 _CROTCH = 3.0  # radii of the limb that bears it, a branch may take to leave that: sharp forks are no knots
 _TOUCHES = 1e-9  # metres between two axes, at most, that cross
@@ -52,7 +52,7 @@ class Untangled(Cut):
 class Untangle:
     """A stage: undrawn branches that run through others give way. The tree needs its final radii (`PipeRadii`)."""
 
-    habit: Habit = Habit()  # to the tree's scale (`growing.to_scale`): what counts as a twig
+    habit: Habit = Habit()  # to the tree's scale (`scale.to_scale`): what counts as a twig
     spaces: dict[int, Space] = field(default_factory=dict)  # of every tree, by the column `tree`; no branch is turned out of its own
 
     def __call__(self, tree: TreeSkeleton, *, key: Key[Array, ""] | None = None) -> TreeSkeleton:
