@@ -27,7 +27,7 @@ from sketchtree.geometry.radii import PipeRadii
 from sketchtree.limb_ids import stroke_limb_id
 from sketchtree.propagate.drawn.implied import implied_crown
 from sketchtree.propagate.generations import Propagate
-from sketchtree.propagate.growing import to_scale
+from sketchtree.propagate.scale import to_scale
 from sketchtree.skeleton import Kind, TreeSkeleton
 from sketchtree.templates.estimate import estimate
 from sketchtree.templates.store.database import Database

@@ -35,7 +35,7 @@ from sketchtree.propagate.after.prune import Prune
 from sketchtree.propagate.after.shed import Shed
 from sketchtree.propagate.after.untangle import Untangle
 from sketchtree.propagate.generations import Propagate, Propagation
-from sketchtree.propagate.growing import to_scale
+from sketchtree.propagate.scale import to_scale
 from sketchtree.roots import root_depth
 from sketchtree.similarity import Similarity
 from sketchtree.skeleton import TreeSkeleton
