@@ -315,7 +315,7 @@ def test_limbs_that_hang_stand_farther_apart():
         Growing(drawn_tree(3), Wanted(dataclasses.replace(HABIT, gravitropism=pull), THETA), KEY) for pull in (0.0, 60.0)
     )
     order, whole = np.array([1, 2]), np.array([3.0, 2.0])
-    assert (hanging.manner.spacing(order, whole) > 1.1 * upright._spacing(order, whole)).all()
+    assert (hanging.manner.spacing(order, whole) > 1.1 * upright.manner.spacing(order, whole)).all()
 
 
 def test_orders_of_what_grows_follow_its_parent_limbs():
