@@ -145,6 +145,11 @@ def _warnings(growing: Growing) -> tuple[str, ...]:
             "All drawn branches lie outside the crown, so nothing grew. "
             "Draw the crown around the tips, or use --crown off."
         )
+    elif aside := growing.limbs_aside():
+        found.append(
+            f"None of the {aside} drawn limbs ends inside the crown, so none of them bears anything new. "
+            "Draw the crown around their tips, or use --crown off."
+        )
     if growing.obstacles is not None:
         found += _warnings_of(growing.obstacles, growing.drawn.tree)
     if growing.stopped_by == "max_segments":

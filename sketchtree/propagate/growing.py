@@ -31,7 +31,7 @@ from sketchtree.propagate.space.obstacles import Obstacles
 from sketchtree.propagate.space.space import Space
 from sketchtree.propagate.wanted import Wanted
 from sketchtree.skeleton import Kind, TreeSkeleton
-from sketchtree.traverse import generations
+from sketchtree.traverse import generations, is_tip
 
 _BARE_NODES = 4  # about, of a limb that bears none: enough for its curve
 _ROUND = 2  # generations of one round of filling; what is then still open grows on in the next
@@ -69,6 +69,14 @@ class Growing:
     def scale(self) -> float:
         """The tree's height, metres."""
         return self.manner.scale
+
+    def limbs_aside(self) -> int:
+        """How many drawn limbs there are, if the user's crown holds the tips of none of them; else 0. A lone one may lead to it."""
+        if not len(self.wanted.crown):
+            return 0
+        tree = self.drawn.tree
+        tips = tree.tip[is_tip(tree.parent) & (tree.order > 0)]
+        return 0 if len(tips) < 2 or self.envelope.inside(tips).any() else len(tips)
 
     def _in_the_way(self, tree, wanted) -> Obstacles | None:
         """The obstacles in the tree's reach, if any were given."""

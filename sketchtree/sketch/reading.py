@@ -23,6 +23,7 @@ from sketchtree.sketch.joining.lines import Line, extent
 from sketchtree.sketch.joining.segments import Rows, columns
 from sketchtree.sketch.joining.underground import with_roots
 from sketchtree.sketch.roles.sorting import Part, Sorted, sort_strokes
+from sketchtree.sketch.roles.table import NOTHING
 from sketchtree.sketch.strokes import Sketch
 
 Progress = Callable[[float], None]  # told how much is done, 0 to 1
@@ -71,7 +72,7 @@ def _graph(sketch: Sketch, crown: str, progress: Progress | None) -> SketchGraph
         roles=roles,
         ground=parts.ground,
         cuts=parts.cuts,
-        warnings=(*sketch.warnings, *parts.warnings, *doubts),
+        warnings=(*sketch.warnings, *parts.warnings, *_left_out(parts.roles), *doubts),
     )
 
 
@@ -140,6 +141,12 @@ def _check(sketch: Sketch, parts: Sorted) -> None:
     kinds = sorted({role.role for role in parts.roles})
     what = f": only {' and '.join(kinds)}" if kinds else ": only dots or round shapes" if sketch.strokes else ""
     raise SketchError(f"{sketch.name} has no branch strokes{what}.", remedy="Draw at least a trunk, as a line.")
+
+
+def _left_out(roles: tuple[Role, ...]) -> tuple[str, ...]:
+    """A line for each crown or obstacle that encloses nothing."""
+    empty = [role for role in roles if role.reason.endswith(NOTHING)]
+    return tuple(f"Stroke {role.stroke} is {role.reason}. Draw it as a closed curve." for role in empty)
 
 
 def _with_dots(sketch: Sketch, roles: tuple[Role, ...], attachments: tuple[Attachment, ...]) -> tuple[Role, ...]:

@@ -67,6 +67,10 @@ class Table:
         return sorted(row for row, one in self.found.items() if one.role == role)
 
 
+NOTHING = "but it encloses nothing: left out"
+"""How the reason ends for a crown or an obstacle without area."""
+
+
 def named_table(sketch: Sketch) -> Table:
     """The strokes, those known by name taken."""
     strokes = sketch.strokes
@@ -77,7 +81,7 @@ def named_table(sketch: Sketch) -> Table:
         if not branch[row]:
             known = has_area(stroke)
             reason = f"named a{'n' if stroke.kind == StrokeKind.OBSTACLE else ''} {stroke.kind}" if stroke.labelled else f"drawn as a {stroke.kind}"
-            table.take([Found(row, str(stroke.kind), reason if known else f"{reason}, but it encloses nothing: left out")])
+            table.take([Found(row, str(stroke.kind), reason if known else f"{reason}, {NOTHING}")])
             if known and stroke.kind == StrokeKind.CROWN:
                 table.outlines.append(outline(stroke.points))
         elif (role := role_in_names(stroke)) == "root":
