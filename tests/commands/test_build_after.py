@@ -39,10 +39,10 @@ def test_a_bad_value_gets_one_paragraph_and_status_2_and_no_file(options, tmp_pa
 
 def test_all_options_at_once_are_recorded_in_the_report(tmp_path):
     report = tmp_path / "r.json"
-    options = ["--generations", "2.5", "--sag", "1", "--shed", ".3", "--shed-twigs", "1", "--prune", "y<3.5", "--prune", "x>-2"]
+    options = ["--generations", "2.5", "--sag", "1", "--shed", ".3", "--shed-twigs", "1", "--no-untangle", "--prune", "y<3.5", "--prune", "x>-2"]
     assert build(tmp_path, *options, "--report", str(report)) == 0
     record = json.loads(report.read_text())
-    wanted = {"generations": 2.5, "sag": 1.0, "shed": 0.3, "shed_twigs": 1.0, "prune": ["y<3.5", "x>-2"]}
+    wanted = {"generations": 2.5, "sag": 1.0, "shed": 0.3, "shed_twigs": 1.0, "untangle": False, "prune": ["y<3.5", "x>-2"]}
     assert {name: record["options"][name] for name in wanted} == wanted
     assert record["height"] <= 3.5 + 1e-6
 

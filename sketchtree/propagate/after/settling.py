@@ -105,6 +105,7 @@ class Settling:
 
     def wood_of(self, row) -> Capsules:
         """What is left of rows that move, where it is."""
+        row = row[self.there[row]]
         return Capsules.cut(row, self.tip[self.tree.parent[row]], self.end[row], self.radius[row], self.usual)
 
     def overlaps(self, wood: Wood, peers: Wood) -> Overlaps:

@@ -14,8 +14,8 @@ from jaxtyping import Float
 
 from sketchtree.propagate.after.sag import rotation
 
-_ANGLES = np.array([1 / 3, 2 / 3, 1.0])  # of the most
-_SIDES = 8
+_ANGLES = np.array([0.5, 1.0])  # of the most
+_SIDES = 6
 _ROUNDING = 1e-9
 
 

@@ -27,7 +27,7 @@ from sketchtree.propagate.after.turning import angle_of, choices
 from sketchtree.propagate.space.space import Space
 from sketchtree.skeleton import TreeSkeleton
 
-LARGEST = 250_000  # rows: a larger tree is left as it is, since it would take longer than ten seconds or so
+LARGEST = 250_000  # rows: a larger tree is left as it is, since it would take longer than twenty seconds or so
 _ROUNDS = ((12.0, False), (12.0, True), (20.0, True), (30.0, True), (45.0, True))  # of a rank: degrees at most, and whether with the star
 _TOO_LARGE = (
     "With {:,} rows the tree is too large to look for branches that run through each other (at most {:,}), so some may. "
