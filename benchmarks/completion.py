@@ -141,12 +141,17 @@ def main(argv=None) -> None:
         for name in METHODS:
             print(f"{'':22s}{name:11s}{run[name]['tips']:6d}" + "".join(f"{run[name][figure]:9.3f}" for figure in NAMES))
     print("means")
-    mean = {name: {figure: float(np.mean([run[name][figure] for run in runs])) for figure in NAMES} for name in METHODS}
+    mean = mean_of(runs)
     for name in METHODS:
         print(f"{'':22s}{name:17s}" + "".join(f"{mean[name][figure]:9.3f}" for figure in NAMES))
     print(verdict(mean))
     if options.json:
         options.json.write_text(json.dumps({"runs": runs, "mean": mean}, indent=1) + "\n")
+
+
+def mean_of(runs: list[dict]) -> dict:
+    """{method: {figure: mean over the runs}}."""
+    return {name: {figure: float(np.mean([run[name][figure] for run in runs])) for figure in NAMES} for name in METHODS}
 
 
 def verdict(mean: dict) -> str:
