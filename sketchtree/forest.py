@@ -80,7 +80,8 @@ def sketches_to_forest(
     Prune(tree.prune)  # and a mesh that can't be used
     obstacles = read_obstacles(tree)
     names = [_name(sketch) for sketch in sketches]
-    drawn, digests = _drawn(sketches, names, templates, key, reading, watch)
+    drawn = _drawn(sketches, names, templates, key, reading, watch)
+    digests = [planting.digest(one.graph) for one in drawn]
     copies, place = planting.copy_numbers(digests), planting.places(drawn, spacing)
     keys = [planting.tree_key(key, copy) for copy in copies]
     with watch("propagate"):
@@ -94,8 +95,8 @@ def sketches_to_forest(
     return Forest(tuple(names), tuple(copies), tuple(digests), place, tuple(trees), _warnings(names, place, trees))
 
 
-def _drawn(sketches, names, templates, key, reading, watch) -> tuple[list[DrawnTree], list[str]]:
-    """(every sketch in 3D, its digest); a file that is named again is read once."""
+def _drawn(sketches, names, templates, key, reading, watch) -> list[DrawnTree]:
+    """Every sketch in 3D; a file that is named again is read once."""
     known: dict = {}
     found, lap = [], Watch(seconds=watch.seconds)
     watch.on_stage("read")
@@ -103,10 +104,10 @@ def _drawn(sketches, names, templates, key, reading, watch) -> tuple[list[DrawnT
         source = id(sketch) if isinstance(sketch, Sketch) else Path(sketch).resolve()
         if source not in known:
             with _named(name):
-                known[source] = draw_out(sketch, templates, key=key, options=reading, watch=lap), planting.digest(sketch)
+                known[source] = draw_out(sketch, templates, key=key, options=reading, watch=lap)
         found.append(known[source])
         watch.on_part(len(found) / len(sketches))
-    return [drawn for drawn, _ in found], [digest for _, digest in found]
+    return found
 
 
 def _grown(drawn, place, keys, obstacles, options: TreeOptions) -> list[Propagation]:
@@ -133,7 +134,9 @@ class _named:
 
     def __exit__(self, kind, error, trace) -> None:
         if isinstance(error, SketchTreeError) and self.name not in error.message:
-            raise type(error)(f"{self.name}: {error.message}", remedy=error.remedy) from error
+            named = type(error)(f"{self.name}: {error.message}", remedy=error.remedy)
+            named.__dict__.update({at: value for at, value in error.__dict__.items() if at != "message"})
+            raise named from error
 
 
 def _warnings(names, place, trees) -> tuple[str, ...]:

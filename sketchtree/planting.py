@@ -10,19 +10,18 @@ what was drawn. From foot to foot it is `spacing` metres, or without one
 so that neighbouring drawings just touch. What grows beyond the drawing, and out of the page, then meets.
 
 The same drawing given again is another tree: it grows by the key of its stage `copy 1`, `copy 2`, … The first grows as it would alone.
-Drawings are the same if their files are, byte for byte, or their strokes.
+Drawings are the same if what was read of them is, to the last bit.
 """
 
 import hashlib
 from collections.abc import Sequence
-from pathlib import Path
 
 import numpy as np
 from jaxtyping import Array, Float, Key
 
 from sketchtree.errors import OptionError
 from sketchtree.keys import stage_key
-from sketchtree.sketch.strokes import Sketch
+from sketchtree.sketch.graph import SketchGraph
 
 MOST_TREES = 1000
 LEAST = 0.08  # of a tree's height
@@ -38,14 +37,12 @@ def check_stand(count: int, spacing: float | None) -> None:
         raise OptionError(f"`--spacing {spacing:g}` is no distance between trees.", remedy="Give metres above 0, from trunk to trunk.")
 
 
-def digest(source: Sketch | str | Path) -> str:
-    """What drawings that are the same have in common: a hash of the file, or of the strokes."""
-    made = hashlib.blake2b(digest_size=8)
-    if not isinstance(source, Sketch):
-        made.update(Path(source).read_bytes())
-    else:
-        for stroke in source.strokes:
-            made.update(f"{stroke.id} {stroke.kind} {stroke.width}".encode() + stroke.points.tobytes())
+def digest(graph: SketchGraph) -> str:
+    """What drawings that are the same have in common: a hash of strokes, branches, widths and outlines."""
+    columns = (graph.parent, graph.stroke, graph.xy, graph.curve_points, graph.curve_start, graph.width, *graph.crown, *graph.obstacles)
+    made = hashlib.blake2b("\n".join(graph.stroke_ids).encode(), digest_size=8)
+    for column in columns:
+        made.update(np.ascontiguousarray(column).tobytes())
     return made.hexdigest()
 
 

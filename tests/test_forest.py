@@ -1,5 +1,6 @@
 """Several sketches to one forest: each tree is its own, and all are in one table."""
 
+import json
 from pathlib import Path
 
 import numpy as np
@@ -116,8 +117,17 @@ def test_a_sketch_that_fails_is_named(templates, tmp_path):
     (tmp_path / "empty.svg").write_text("")
     with pytest.raises(SketchError, match="empty.svg"):
         forest([APPLE, tmp_path / "empty.svg"], templates)
+    with pytest.raises(SketchError, match="nowhere.svg"):
+        forest([APPLE, tmp_path / "nowhere.svg"], templates)
     with pytest.raises(OptionError, match="apple.json: Pruning cuts the tree off at its foot"):
         forest([APPLE, APPLE], templates, 6.0, prune=("x<3",))
+
+
+def test_a_drawing_of_a_file_that_holds_several_can_be_planted(templates, tmp_path):
+    lines = [json.dumps({"drawing": [[[128, 128], [250, 20]], [[128, x], [120, 60]]]}) for x in (60, 200)]
+    (tmp_path / "two.ndjson").write_text("\n".join(lines))
+    made = forest([f"{tmp_path}/two.ndjson#1", f"{tmp_path}/two.ndjson#2", f"{tmp_path}/two.ndjson#1"], templates)
+    assert made.copies == (0, 0, 1)
 
 
 def test_trunks_in_each_other_and_segments_that_run_out_are_told(templates):
