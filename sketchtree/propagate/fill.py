@@ -1,7 +1,7 @@
 """Where is the crown still empty, and what grows there?
 
 Growth by blocks leaves gaps where nothing drawn is near. To fill a crown evenly, points are spread over its
-volume (the Halton sequence, so that they are the same in every run); those farther than
+volume (one in every cell of a grid, in a place of its own that is the same in every run); those farther than
 
     gap = GAP · spacing of laterals
 
@@ -83,9 +83,17 @@ def halton(count: int) -> Float[np.ndarray, "point 3"]:
 
 
 def _spread(envelope, gap):
+    """Points all over the envelope, four to a cube of side `gap`: one somewhere in every cell of a grid that is fixed in the
+    world, so that a crown that grows on one side keeps its points on the other."""
     low, high = envelope.bounds
-    count = int(np.clip(4.0 * np.prod(high - low) / gap**3, 64, _POINTS))
-    point = low + halton(count) * (high - low)
+    cell = gap / 4.0 ** (1.0 / 3.0)
+    while np.prod(np.ceil((high - low) / cell) + 1.0) > _POINTS:
+        cell *= 2.0
+    first, last = np.floor(low / cell).astype(np.int64), np.floor(high / cell).astype(np.int64)
+    i, j, k = (axis.ravel() for axis in np.meshgrid(*(np.arange(a, b + 1) for a, b in zip(first, last, strict=True)), indexing="ij"))
+    name = limb_ids.child_limb_id(limb_ids.child_limb_id(i, j), k)
+    inner = np.stack([limb_ids.child_limb_id(name, np.full(len(name), axis)) / 2.0**63 for axis in range(3)], axis=1)
+    point = (np.stack([i, j, k], axis=1) + inner) * cell
     return point[envelope.inside(point)]
 
 
