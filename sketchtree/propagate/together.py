@@ -115,14 +115,14 @@ class _Grown:
         tree = growing.drawn.tree
         self.growing, self.taken = growing, 0
         self.tip, self.limbs = tree.tip, [tree.tip[tree.order > 0]]
-        self.fresh = [Wood.along(tree.start, tree.tip)]
+        self.fresh = [(tree.start, tree.tip)]
 
     def take(self) -> None:
         """Take up the generations grown since."""
         for nodes, parent in self.growing.parts[self.taken :]:
             self.tip = np.concatenate([self.tip, nodes.tip])
             self.limbs.append(nodes.tip)
-            self.fresh.append(Wood.along(self.tip[parent], nodes.tip))
+            self.fresh.append((self.tip[parent], nodes.tip))
         self.taken = len(self.growing.parts)
 
     def leafy(self) -> Float[np.ndarray, "node 3"]:
@@ -133,9 +133,8 @@ class _Grown:
     def new_wood(self) -> Wood:
         """What has grown since this was last asked; at first what was drawn."""
         self.take()
-        found, self.fresh = self.fresh, []
-        points = np.concatenate([np.zeros((0, 3)), *(wood.point for wood in found)])
-        return Wood(points, np.concatenate([np.zeros(0), *(wood.length for wood in found)]))
+        found, self.fresh = self.fresh, [(np.zeros((0, 3)), np.zeros((0, 3)))]
+        return Wood.along(*(np.concatenate(ends) for ends in zip(*found, strict=True)))
 
 
 def _claim(open_) -> Wood:
