@@ -1,9 +1,10 @@
 """How long does propagation take, and does it stay linear?
 
-    python -m benchmarks.propagate [--repeat N]
+    python -m benchmarks.propagate [--repeat N] [--plot PICTURE.png]
 
 A drawn tree of a trunk and 14 limbs is propagated to 4,291 segments (the tree for which Chen et al. 2008
-report 50 s), to 100,000 and to 1,000,000, without and with a crown. Warm: the best of `repeat` runs after one.
+report 50 s), to 100,000 and to 1,000,000, without and with a crown. Warm: the best of `repeat` runs after one. With `--plot` also sizes
+in between, and the line that is as steep as strictly linear time.
 """
 
 import argparse
@@ -11,6 +12,7 @@ import dataclasses
 import resource
 import sys
 import time
+from pathlib import Path
 
 import numpy as np
 
@@ -21,6 +23,8 @@ from sketchtree.propagate.generations import propagate
 from sketchtree.skeleton import Kind, TreeSkeleton
 
 SEGMENTS = (4_291, 100_000, 1_000_000)
+BETWEEN = (1_500, 4_291, 12_000, 35_000, 100_000, 300_000, 1_000_000)  # of the plot
+BARS = {4_291: 0.05, 100_000: 0.5, 1_000_000: 5.0}  # seconds
 LIMBS = 14
 HEIGHT = 12.0  # metres
 
@@ -71,18 +75,42 @@ def seconds(segments: int, outlines: tuple, repeat: int) -> tuple[int, float, fl
     return result.skeleton.segment_count, laps[0], min(laps[1:])
 
 
+def plot(rows: list[tuple[str, int, float]], path: Path) -> None:
+    """Seconds over segments, both logarithmic, without and with a crown, and the bars."""
+    import matplotlib
+
+    matplotlib.use("Agg")
+    import matplotlib.pyplot as plt
+
+    figure, axes = plt.subplots(figsize=(6, 4.2), layout="constrained")
+    for name in dict.fromkeys(name for name, _, _ in rows):
+        made, laps = np.array([(made, lap) for which, made, lap in rows if which == name]).T
+        axes.loglog(made, laps, "o-", label=name)
+    made, laps = np.array([(made, lap) for which, made, lap in rows if which == rows[0][0]]).T
+    axes.loglog(made, laps[-1] * made / made[-1], ":", color="grey", label="linear")
+    axes.loglog(list(BARS), list(BARS.values()), "x", color="black", label="bars")
+    axes.set(xlabel="segments", ylabel="seconds, warm")
+    axes.legend()
+    figure.savefig(path, dpi=110)
+
+
 def main(argv=None) -> None:
     """Prints one line a size."""
     parser = argparse.ArgumentParser(description=__doc__.splitlines()[0])
     parser.add_argument("--repeat", type=int, default=3, help="warm runs (default 3)")
-    repeat = max(1, parser.parse_args(argv).repeat)
+    parser.add_argument("--plot", type=Path, help="draw seconds over segments")
+    options = parser.parse_args(argv)
+    rows = []
     print(f"{'asked':>10} {'crown':>6} {'segments':>10} {'cold s':>8} {'warm s':>8} {'µs a segment':>13}")
-    for outlines in ((), (crown(),)):
-        for segments in SEGMENTS:
-            made, cold, warm = seconds(segments, outlines, repeat)
+    for name, outlines in (("no crown", ()), ("crown", (crown(),))):
+        for segments in BETWEEN if options.plot else SEGMENTS:
+            made, cold, warm = seconds(segments, outlines, max(1, options.repeat))
+            rows.append((name, made, warm))
             print(f"{segments:>10,} {'yes' if outlines else 'no':>6} {made:>10,} {cold:>8.3f} {warm:>8.3f} {1e6 * warm / made:>13.2f}")
     peak = resource.getrusage(resource.RUSAGE_SELF).ru_maxrss / (1024 if sys.platform != "darwin" else 1024**2)
     print(f"peak memory {peak:,.0f} MB")
+    if options.plot:
+        plot(rows, options.plot)
 
 
 if __name__ == "__main__":
