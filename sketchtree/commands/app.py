@@ -1,7 +1,7 @@
 """All commands under one program, and how every one of them ends.
 
-Exit status: 0 done; 2 the user's input (one paragraph on stderr); 130 Ctrl-C. Anything else is a
-fault of ours and shows its traceback.
+Exit status: 0 done; 1 done with failures (`batch`); 2 the user's input (one paragraph on stderr); 130 Ctrl-C.
+Anything else is a fault of ours and shows its traceback.
 """
 
 import importlib
@@ -17,6 +17,7 @@ from sketchtree.version import __version__
 COMMANDS = {
     "build": "A sketch in, a complete textured 3D tree out.",
     "forest": "Several sketches in, a forest out: the trees compete for space and light.",
+    "batch": "Many drawings in, a tree and a report of each out.",
     "infer": "Only the drawn branches, in 3D.",
     "inspect": "How a drawing is read, as a picture: strokes, junctions, root, crown, doubts.",
     "templates": "The exemplars a sketch is matched with.",

@@ -42,6 +42,8 @@ _TREE = (
     click.option("--leaf", metavar="MODEL|EXEMPLAR|none", help="Leaf model (default: the template's)."),
     click.option("--season", type=click.Choice(SEASONS), default="summer", show_default=True),
     click.option("--bark", metavar="NAME", help="Bark (default: the template's)."),
+)  # fmt: skip
+_BESIDE = (
     click.option("--skeleton", type=click.Path(path_type=Path), metavar="T.swc", help="Write the complete skeleton too."),
     click.option("--preview", type=click.Path(path_type=Path), metavar="P.png", help="Write a picture of the result too."),
 )  # fmt: skip
@@ -62,10 +64,11 @@ def reading(command):
     return _apply(_READING, command)
 
 
-def tree(max_segments: int, of_what: str):
-    """Options of every command that makes complete trees; `max_segments` is the default, and counts `of_what`."""
+def tree(max_segments: int, of_what: str, *, beside: bool = True):
+    """Options of every command that makes complete trees; `max_segments` is the default, and counts `of_what`. With those of
+    what to write `beside` the one output, unless left out."""
     most = click.option("--max-segments", type=click.IntRange(1), default=max_segments, show_default=True, help=f"Segments of {of_what} at most.")
-    return lambda command: _apply((*_TREE, most), command)
+    return lambda command: _apply((*_TREE, *(_BESIDE if beside else ()), most), command)
 
 
 def _apply(options, command):

@@ -9,7 +9,6 @@ COMMANDS = {
     "grow": "A trunk from scribbles, and a tree that grows",
     "views": "Many photos, or a point cloud",
     "cloud": "Many photos, or a point cloud",
-    "batch": "What the sketch left out",
     "studio": "The studio",
     "view": "Files that drop into real tools",
     "convert": "Files that drop into real tools",

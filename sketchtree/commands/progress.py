@@ -44,10 +44,10 @@ class Progress:
             else:
                 sys.stderr.write(f"{self._stage} … {done:.0%}\n")
 
-    def say(self, text: str, *, event: str = "note") -> None:
-        """A sentence for the user: a warning, or what was written."""
+    def say(self, text: str, *, event: str = "note", **facts) -> None:
+        """A sentence for the user: a warning, or what was written; `facts` go into the JSON beside it."""
         if self._json:
-            _line(event=event, text=text)
+            _line(event=event, text=text, **facts)
         elif self._plain:
             sys.stderr.write(f"{text}\n")
         elif self._bar is not None:

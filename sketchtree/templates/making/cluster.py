@@ -7,12 +7,12 @@ from two versions. The journal stays with the client.
 
 import logging
 import time
-from collections.abc import Iterator
+from collections.abc import Callable, Iterator
 from concurrent.futures import CancelledError
 from contextlib import contextmanager
 
 from sketchtree.errors import OptionError, TemplateError
-from sketchtree.templates.making.crew import AHEAD, Crew
+from sketchtree.templates.making.crew import AHEAD, KEPT, Crew
 from sketchtree.templates.making.fingerprint import fingerprint, same_program
 from sketchtree.templates.making.order import Block, Order, Refusal, make_block
 
@@ -22,8 +22,8 @@ LOOK = 10.0  # seconds between two looks at how many workers there are
 
 
 @contextmanager
-def cluster(address: str) -> Iterator[Crew]:
-    """A crew of all workers of the scheduler at `address`."""
+def cluster(address: str, work: Callable = make_block, kept: str = KEPT) -> Iterator[Crew]:
+    """A crew of all workers of the scheduler at `address`. `work` is called with the order and this program's fingerprint."""
     try:
         from distributed import Client, KilledWorker
     except ImportError as error:
@@ -39,7 +39,7 @@ def cluster(address: str) -> Iterator[Crew]:
             remedy="Give the address that `dask scheduler` prints, such as tcp://10.0.0.1:8786.",
         ) from error
     with _hushed(), client:
-        crew = _Workers(client, address, (OSError, CancelledError, TimeoutError, KilledWorker))
+        crew = _Workers(client, address, (OSError, CancelledError, TimeoutError, KilledWorker), work, kept)
         crew.greet()
         yield crew
 
@@ -61,8 +61,8 @@ def _hushed():
 class _Workers:
     """All workers of a scheduler."""
 
-    def __init__(self, client, address: str, lost: tuple[type, ...]):
-        self._client, self._address, self._lost = client, address, lost
+    def __init__(self, client, address: str, lost: tuple[type, ...], work: Callable, kept: str):
+        self._client, self._address, self._lost, self._work, self._kept = client, address, lost, work, kept
         self._program, self._window, self._looked = fingerprint(), AHEAD, 0.0
 
     @property
@@ -92,7 +92,7 @@ class _Workers:
             )
 
     def submit(self, order: Order):
-        return self._client.submit(make_block, order, self._program, pure=False, key=f"exemplar-{order.name}-{time.monotonic_ns()}")
+        return self._client.submit(self._work, order, self._program, pure=False, key=f"tree-{order.name}-{time.monotonic_ns()}")
 
     def result(self, future) -> Block | Refusal:
         try:
@@ -100,7 +100,7 @@ class _Workers:
         except self._lost as error:
             raise TemplateError(
                 f"--scheduler {self._address}: the cluster was lost on the way ({type(error).__name__}).",
-                remedy="Run the command again when it is back; finished exemplars are kept.",
+                remedy=f"Run the command again when it is back; {self._kept}.",
             ) from error
 
     def settle(self, future) -> Block | Refusal | None:

@@ -1,6 +1,6 @@
-"""Who makes the exemplars? One process, several, or (`cluster`) other machines.
+"""Who makes the exemplars, or the trees of a batch? One process, several, or (`cluster`) other machines.
 
-A crew takes orders and gives futures. At most `window` orders are out at a time, so neither the client nor a scheduler
+A crew takes orders, does its `work` on each, which is a function of an order, and gives futures. At most `window` orders are out at a time, so neither the client nor a scheduler
 is flooded however many there are; blocks come back in the order in which they were asked for.
 """
 
@@ -8,7 +8,7 @@ import os
 import signal
 import threading
 from collections import deque
-from collections.abc import Iterable, Iterator
+from collections.abc import Callable, Iterable, Iterator
 from concurrent.futures import Future, ProcessPoolExecutor
 from concurrent.futures.process import BrokenProcessPool
 from contextlib import contextmanager
@@ -21,6 +21,11 @@ from sketchtree.templates.making.journal import Journal
 from sketchtree.templates.making.order import Block, Order, Refusal, make_block
 
 AHEAD = 4  # orders out for each worker
+KEPT = "finished exemplars are kept"
+
+
+class WorkerLost(TemplateError):
+    """A process was ended from outside."""
 
 
 class Crew(Protocol):
@@ -43,11 +48,14 @@ class Alone:
 
     window = 1
 
+    def __init__(self, work: Callable):
+        self._work = work
+
     def submit(self, order: Order) -> Order:
         return order
 
     def result(self, future: Order) -> Block | Refusal:
-        return make_block(future)
+        return self._work(future)
 
     def settle(self, future: Order) -> None:
         return None
@@ -56,33 +64,33 @@ class Alone:
 class Processes:
     """Several processes of this machine."""
 
-    def __init__(self, pool: ProcessPoolExecutor, jobs: int):
-        self._pool, self.window = pool, AHEAD * jobs
+    def __init__(self, pool: ProcessPoolExecutor, jobs: int, work: Callable, kept: str):
+        self._pool, self.window, self._work, self._kept = pool, AHEAD * jobs, work, kept
 
     def submit(self, order: Order) -> Future:
         try:
-            return self._pool.submit(make_block, order)
+            return self._pool.submit(self._work, order)
         except BrokenProcessPool as error:
-            raise _died() from error
+            raise _died(self._kept) from error
 
     def result(self, future: Future) -> Block | Refusal:
         try:
             return future.result()
         except BrokenProcessPool as error:
-            raise _died() from error
+            raise _died(self._kept) from error
 
     def settle(self, future: Future) -> Block | Refusal | None:
         return None if future.cancel() or future.exception() is not None else future.result()
 
 
 @contextmanager
-def processes(jobs: int) -> Iterator[Crew]:
-    """A crew of `jobs` processes; of this one alone if it is one."""
-    if jobs <= 1:
-        yield Alone()
+def processes(jobs: int, work: Callable = make_block, kept: str = KEPT, *, apart: bool = False) -> Iterator[Crew]:
+    """A crew of `jobs` processes; of this one alone if it is one, unless that is to be `apart`. `kept` says what a run that breaks off leaves."""
+    if jobs <= 1 and not apart:
+        yield Alone(work)
         return
     with ProcessPoolExecutor(jobs, mp_context=get_context("spawn"), initializer=_begin) as pool:
-        yield Processes(pool, jobs)
+        yield Processes(pool, jobs, work, kept)
 
 
 def _begin() -> None:
@@ -125,8 +133,8 @@ def _accepted(block: Block | Refusal) -> Block:
     return block
 
 
-def _died() -> TemplateError:
-    return TemplateError(
+def _died(kept: str) -> WorkerLost:
+    return WorkerLost(
         "A process of the build was ended from outside, perhaps for want of memory.",
-        remedy="Run the command again with fewer --jobs; finished exemplars are kept.",
+        remedy=f"Run the command again with fewer --jobs; {kept}.",
     )

@@ -31,6 +31,16 @@ class Refusal:
     remedy: str
 
 
+def foreign(program: str) -> Refusal | None:
+    """What a worker answers to a client that is another `program` (its `fingerprint`); None if they are the same."""
+    if program == fingerprint():
+        return None
+    return Refusal(
+        f"A worker runs another SketchTree ({__version__}, or with other sources) than this one.",
+        "Install the same version on the workers, and restart them.",
+    )
+
+
 Block = dict[str, np.ndarray]
 """The columns of one exemplar."""
 
@@ -46,11 +56,8 @@ def make(order: Order) -> tuple[Exemplar, Views]:
 
 def make_block(order: Order, program: str | None = None) -> Block | Refusal:
     """One exemplar as it is stored, about 40 kB: what a worker sends back. Refuses where the worker is another `program`."""
-    if program is not None and program != fingerprint():
-        return Refusal(
-            f"A worker runs another SketchTree ({__version__}, or with other sources) than this one.",
-            "Install the same version on the workers, and restart them.",
-        )
+    if program is not None and (refusal := foreign(program)) is not None:
+        return refusal
     try:
         exemplar, views = make(order)
     except SketchTreeError as error:
