@@ -145,11 +145,8 @@ def _warnings(growing: Growing) -> tuple[str, ...]:
             "All drawn branches lie outside the crown, so nothing grew. "
             "Draw the crown around the tips, or use --crown off."
         )
-    elif aside := growing.limbs_aside():
-        found.append(
-            f"None of the {aside} drawn limbs ends inside the crown, so none of them bears anything new. "
-            "Draw the crown around their tips, or use --crown off."
-        )
+    else:
+        found += _aside(*growing.limbs_aside())
     if growing.obstacles is not None:
         found += _warnings_of(growing.obstacles, growing.drawn.tree)
     if growing.stopped_by == "max_segments":
@@ -158,6 +155,21 @@ def _warnings(growing: Growing) -> tuple[str, ...]:
             "its branches were thinned evenly. Raise --max-segments, or ask for fewer generations."
         )
     return tuple(found)
+
+
+def _aside(limbs: int, shown: bool) -> list[str]:
+    """What is said of a crown that holds the tips of none of so many drawn limbs, though the page may show them in it."""
+    if limbs == 0:
+        return []
+    if shown:
+        return [
+            f"None of the {limbs} drawn limbs ends inside the crown: their tips lie nearer or farther than it is deep there, so they bear little. "
+            "Draw the crown wider around them, or use --crown off."
+        ]
+    return [
+        f"None of the {limbs} drawn limbs ends inside the crown, so none of them bears anything new. "
+        "Draw the crown around their tips, or use --crown off."
+    ]
 
 
 def _warnings_of(obstacles: Obstacles, drawn: TreeSkeleton) -> list[str]:

@@ -70,13 +70,14 @@ class Growing:
         """The tree's height, metres."""
         return self.manner.scale
 
-    def limbs_aside(self) -> int:
-        """How many drawn limbs there are, if the user's crown holds the tips of none of them; else 0. A lone one may lead to it."""
-        if not len(self.wanted.crown):
-            return 0
+    def limbs_aside(self) -> tuple[int, bool]:
+        """How many drawn limbs there are, if the user's crown holds the tips of none of them, else 0 (a lone one may lead to
+        it); and whether the page shows one in it, so that only their depths take them out."""
         tree = self.drawn.tree
         tips = tree.tip[is_tip(tree.parent) & (tree.order > 0)]
-        return 0 if len(tips) < 2 or self.envelope.inside(tips).any() else len(tips)
+        if len(self.wanted.crown) == 0 or len(tips) < 2 or self.envelope.inside(tips).any():
+            return 0, False
+        return len(tips), bool(self.envelope.on_page(tips).any())
 
     def _in_the_way(self, tree, wanted) -> Obstacles | None:
         """The obstacles in the tree's reach, if any were given."""

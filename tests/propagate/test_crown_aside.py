@@ -36,3 +36,13 @@ def test_a_crown_that_crosses_itself_holds_what_grows():
     grown = propagate(drawn_tree(5), HABIT, THETA, crown=(bow,), key=KEY)
     new = grown.skeleton.tip[grown.generation > 0]
     assert len(new) > 100 and (np.abs(new[:, 0]) <= 4.0 + 1e-6).all()
+
+
+def test_limbs_that_only_their_depth_takes_out_of_the_crown_are_told_otherwise():
+    tree = drawn_tree(5)
+    deep = tree.replace(tip=tree.tip * [0.3, 1.0, 1.0] + np.where((tree.order > 0)[:, None], [0.0, 0.0, 6.0], 0.0))
+    (said,) = propagate(deep, HABIT, THETA, crown=(circle(radius=2.5),), key=KEY).warnings
+    assert said == (
+        "None of the 5 drawn limbs ends inside the crown: their tips lie nearer or farther than it is deep there, so they bear little. "
+        "Draw the crown wider around them, or use --crown off."
+    )

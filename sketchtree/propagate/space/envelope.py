@@ -84,6 +84,12 @@ class Lobe:
         quarter = 0.25 * (right - left)
         return left, right, np.minimum(np.maximum(self.axis, left + quarter), right - quarter)
 
+    def on_page(self, point: Float[np.ndarray, "point 3"]) -> Bool[np.ndarray, " point"]:
+        """Which points lie inside the outline as the page shows them, whatever their depth."""
+        y = point[:, 1]
+        left, right, _ = self._span(y)
+        return (y >= self.height[0]) & (y <= self.height[-1]) & (point[:, 0] >= left) & (point[:, 0] <= right)
+
     def margin(self, point: Float[np.ndarray, "point 3"]) -> Float[np.ndarray, " point"]:
         """How far inside the surface each point lies, along its own radius, metres; negative outside."""
         y = point[:, 1]
@@ -121,6 +127,10 @@ class Envelope:
         for lobe in self.lobes:
             within |= lobe.margin(point) >= 0
         return within
+
+    def on_page(self, point: Float[np.ndarray, "point 3"]) -> Bool[np.ndarray, " point"]:
+        """Which points lie inside an outline as the page shows them, whatever their depth."""
+        return np.any([lobe.on_page(point) for lobe in self.lobes], axis=0)
 
     def exit_fraction(
         self, start: Float[np.ndarray, "branch 3"], end: Float[np.ndarray, "branch 3"], bisections: int = _BISECTIONS

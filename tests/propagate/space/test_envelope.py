@@ -125,3 +125,9 @@ def test_a_crown_that_crosses_itself_still_has_an_inside():
     eight = np.array([[-2, 2], [2, 6], [-2, 6], [2, 2]], float)
     envelope = Envelope.from_outlines([eight])
     assert envelope.inside(np.array([[0.0, 2.2, 0.0]]))[0]
+
+
+def test_the_page_shows_a_point_inside_whatever_its_depth():
+    envelope = Envelope.from_outlines([circle(radius=2.0), circle(x=9.0, radius=1.0)])
+    points = np.array([[0.0, 5.5, 40.0], [9.5, 5.5, -40.0], [5.0, 5.5, 0.0], [0.0, 9.0, 0.0]])
+    np.testing.assert_array_equal(envelope.on_page(points), [True, True, False, False])
