@@ -71,10 +71,11 @@ def write_summary(told: dict, *others: Path) -> None:
 
 
 class Journal:
-    """What an earlier run has made, for `crew.in_turn`: the trees themselves, where they are wanted."""
+    """What need not be made, for `crew.in_turn`: trees of an earlier run, if it is to be resumed, and of this one."""
 
     def __init__(self, resume: bool):
-        self._resume, self._made = resume, {}
+        self._resume = resume
+        self.made: dict[str, dict] = {}  # name → row, of all that this run has finished
 
     def has(self, order: TreeOrder) -> bool:
         """Whether the tree is there, made of the same."""
@@ -82,13 +83,13 @@ class Journal:
 
     def take(self, order: TreeOrder) -> dict | None:
         """Its row; None if it has to be made."""
-        if order.name in self._made:
-            return self._made[order.name]
+        if order.name in self.made:
+            return self.made[order.name]
         return self._earlier(order) if self._resume else None
 
     def keep(self, order: TreeOrder, made: dict) -> None:
         """The tree and its report are there already; of this run the row is enough."""
-        self._made[order.name] = made
+        self.made[order.name] = made
 
     def _earlier(self, order: TreeOrder) -> dict | None:
         if not all(order.at(path).is_file() for path in order.files):

@@ -48,17 +48,17 @@ def batch(
     if not resume:
         check_free(to_make)
     _ready(out)
-    rows = {order.name: batch_record.row(order) for order in to_make}
+    rows, journal = {order.name: batch_record.row(order) for order in to_make}, batch_record.Journal(resume)
     progress = Files(tuple(order.name for order in to_make), quiet=quiet, json_log=json_log)
     try:
         with progress.running():
             if passed:
                 progress.say(f"{passed} other file{'s' if passed > 1 else ''} passed over: no drawings by their names, or results in {out}.")
-            for order, row in made(to_make, jobs or 1, scheduler, batch_record.Journal(resume)):
+            for order, row in made(to_make, jobs or 1, scheduler, journal):
                 rows[order.name] = row
                 progress.tell(row)
     finally:
-        told = batch_record.summary([*rows.values()], manner, patterns, time.perf_counter() - began)
+        told = batch_record.summary([*(rows | journal.made).values()], manner, patterns, time.perf_counter() - began)
         batch_record.write_summary(told, *([report] if report else []))
     progress.say(_conclusion(told), event="done", **told["count"])
     return 1 if told["count"][batch_record.FAILED] else 0

@@ -245,6 +245,17 @@ def test_ctrl_c_ends_with_130_and_keeps_what_is_done(at, capfd, monkeypatch):
     assert [row["status"] for row in rows(at / "out").values()] == ["kept", "made"]
 
 
+def test_what_other_processes_finish_after_ctrl_c_is_told_too(at, monkeypatch):
+    def interrupted(self, row):
+        raise KeyboardInterrupt
+
+    monkeypatch.setattr("sketchtree.commands.batch.Files.tell", interrupted)
+    names = [f"{letter}.svg" for letter in "abcdefghijkl"]
+    assert run(["batch", few(at, *names), "--out", "out", "--jobs", "2", *QUICK]) == 130
+    made = {name for name, row in rows(at / "out").items() if row["status"] == "made"}
+    assert {path.name.split(".")[0] for path in (at / "out").glob("*.report.json")} == {Path(name).stem for name in made} != set()
+
+
 BAD = {
     "no match": (["none/*.svg"], "`none/*.svg` matches no file. Put a pattern in quotes, such as 'sketches/**/*.svg', or name a folder of drawings."),
     "empty folder": (["empty"], "`empty` is a folder without a drawing. Put a pattern in quotes, such as 'sketches/**/*.svg', or name a folder of drawings."),

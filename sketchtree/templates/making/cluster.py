@@ -22,7 +22,7 @@ LOOK = 10.0  # seconds between two looks at how many workers there are
 
 
 @contextmanager
-def cluster(address: str, work: Callable = make_block, kept: str = KEPT) -> Iterator[Crew]:
+def cluster(address: str, work: Callable | None = None, kept: str = KEPT) -> Iterator[Crew]:
     """A crew of all workers of the scheduler at `address`. `work` is called with the order and this program's fingerprint."""
     try:
         from distributed import Client, KilledWorker
@@ -39,7 +39,7 @@ def cluster(address: str, work: Callable = make_block, kept: str = KEPT) -> Iter
             remedy="Give the address that `dask scheduler` prints, such as tcp://10.0.0.1:8786.",
         ) from error
     with _hushed(), client:
-        crew = _Workers(client, address, (OSError, CancelledError, TimeoutError, KilledWorker), work, kept)
+        crew = _Workers(client, address, (OSError, CancelledError, TimeoutError, KilledWorker), work or make_block, kept)
         crew.greet()
         yield crew
 

@@ -84,8 +84,11 @@ class Processes:
 
 
 @contextmanager
-def processes(jobs: int, work: Callable = make_block, kept: str = KEPT, *, apart: bool = False) -> Iterator[Crew]:
-    """A crew of `jobs` processes; of this one alone if it is one, unless that is to be `apart`. `kept` says what a run that breaks off leaves."""
+def processes(jobs: int, work: Callable | None = None, kept: str = KEPT, *, apart: bool = False) -> Iterator[Crew]:
+    """A crew of `jobs` processes; of this one alone if it is one, unless that is to be `apart`.
+
+    `work` makes exemplars unless another is given; `kept` says what a run that breaks off leaves."""
+    work = work or make_block
     if jobs <= 1 and not apart:
         yield Alone(work)
         return
