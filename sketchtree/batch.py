@@ -80,7 +80,7 @@ class TreeOrder:
 def orders(patterns: Sequence[str], manner: Manner) -> tuple[list[TreeOrder], int]:
     """An order for every drawing that the patterns match, sorted, and how many other files they match.
 
-    A pattern is a file, a folder, or has wildcards (`*`, `?`, `[…]`; `**` for any folders). Raises OptionError for one without a drawing.
+    A pattern is a file (FILE#N: the N-th drawing in it), a folder, or has wildcards (`*`, `?`, `[…]`; `**` for any folders). Raises OptionError for one without a drawing.
     """
     found, passed, bases = {}, 0, []
     for pattern in map(os.path.expanduser, patterns):
@@ -93,7 +93,7 @@ def orders(patterns: Sequence[str], manner: Manner) -> tuple[list[TreeOrder], in
         passed += len(files) - len(ours)
         bases.append(os.path.abspath(base))
     sketches = sorted(found, key=lambda file: Path(file).parts)
-    names = _distinct([os.path.relpath(os.path.abspath(file), os.path.commonpath(bases)) for file in sketches], manner)
+    names = _distinct([os.path.relpath(os.path.abspath(_page(file)), os.path.commonpath(bases)) for file in sketches], manner)
     return [TreeOrder(sketch, name, manner) for sketch, name in zip(sketches, names, strict=True)], passed
 
 
@@ -118,11 +118,24 @@ def check_free(wanted: Sequence[TreeOrder]) -> None:
     )
 
 
+def drawing_file(sketch: str) -> tuple[str, str]:
+    """The file of a drawing, and which of it: ("tree.ndjson", "3") of "tree.ndjson#3"."""
+    file, mark, number = sketch.rpartition("#")
+    return (file, number) if mark and number.isdecimal() and not os.path.exists(sketch) else (sketch, "")
+
+
+def _page(sketch: str) -> str:
+    """What a drawing of several in a file is named after: tree-3.ndjson."""
+    file, number = drawing_file(sketch)
+    stem, extension = os.path.splitext(file)
+    return f"{stem}-{number}{extension}" if number else file
+
+
 def _matched(pattern: str) -> tuple[list[str], str]:
     """The files of one pattern, and the folder from which their names count."""
     if os.path.isdir(pattern):
         return [str(path) for path in Path(pattern).iterdir() if path.is_file() and not path.name.startswith(".")], pattern
-    if os.path.isfile(pattern):
+    if os.path.isfile(drawing_file(pattern)[0]):
         return [pattern], os.path.dirname(pattern)
     parts = Path(pattern).parts
     fixed = next((k for k, part in enumerate(parts) if glob.has_magic(part)), len(parts) - 1)

@@ -13,7 +13,7 @@ from collections import Counter
 from collections.abc import Sequence
 from pathlib import Path
 
-from sketchtree.batch import SUMMARY, TABLE, Manner, TreeOrder
+from sketchtree.batch import SUMMARY, TABLE, Manner, TreeOrder, drawing_file
 from sketchtree.export.files import write_whole
 from sketchtree.options import TreeOptions, options_as_dict
 from sketchtree.propagate.after.shears import HOLE, plane
@@ -103,7 +103,8 @@ class Journal:
 
 def made_of(order: TreeOrder) -> str:
     """A hash of all that the tree follows from. Raises OSError where the drawing can't be read."""
-    return _hash(order.manner.made_by, _of_file(order.at(order.sketch)))
+    file, number = drawing_file(order.sketch)
+    return _hash(order.manner.made_by, _of_file(order.at(file)), number)
 
 
 def made_by(manner: Manner, database: Path | None) -> str:

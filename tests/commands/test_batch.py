@@ -146,6 +146,17 @@ def test_names_that_would_be_one_file_get_their_extensions_and_then_numbers(at):
     assert len(files(at / "out")) == 2 * 7 + 2
 
 
+def test_one_of_several_drawings_in_a_file_is_named_as_build_names_it(at):
+    (at / "two.ndjson").write_text(2 * '{"word": "tree", "drawing": [[[50, 50], [100, 10]], [[50, 80], [60, 30]]]}\n')
+    assert run(["batch", "two.ndjson#1", "two.ndjson#2", "two.ndjson", "--out", "out", "--format", "swc", *QUICK]) == 1
+    assert [(name, row["status"]) for name, row in rows(at / "out").items()] == [
+        ("two.ndjson", "failed"), ("two.ndjson#1", "made"), ("two.ndjson#2", "made")
+    ]  # fmt: skip
+    assert {"two-1.swc", "two-2.swc"} <= set(files(at / "out"))
+    assert run(["batch", "two.ndjson#2", "--out", "out", "--format", "swc", "--resume", *QUICK]) == 0
+    assert rows(at / "out")["two.ndjson#2"]["status"] == "kept"
+
+
 def test_several_files_and_unquoted_patterns_are_taken_too(at):
     few(at, "a.svg")
     (at / "in" / "b").mkdir()
