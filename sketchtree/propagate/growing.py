@@ -20,7 +20,7 @@ from sketchtree.propagate.drawn.ends import bare_length, drawn_nodes, open_tips,
 from sketchtree.propagate.drawn.gaps import into_gaps
 from sketchtree.propagate.drawn.implied import implied_crown
 from sketchtree.propagate.drawn.laterals import split_long
-from sketchtree.propagate.drawn.leaders import leaders
+from sketchtree.propagate.drawn.leaders import leaders, to_surface
 from sketchtree.propagate.fill import GAP, HALO, HOLLOW, HOLLOW_GAP, emptiness, empty_around, empty_points, towards
 from sketchtree.propagate.limb_growth import grow, plan
 from sketchtree.propagate.manner import Manner
@@ -35,11 +35,8 @@ from sketchtree.traverse import generations, is_tip
 
 _BARE_NODES = 4  # about, of a limb that bears none: enough for its curve
 _ROUND = 2  # generations of one round of filling; what is then still open grows on in the next
-_LIKE_BLOCK = 1.5  # times the length its block says, a new limb on the trunk is no longer than that
 _PRESSES = 1.08  # times its straight way to the crown: a branch that bends still meets the surface
 _GROUND = (0.015, 0.1)  # of the tree's height: undrawn limbs stay this far above the ground, and up to that much more
-_NEARS = (0.6, 1.05)  # of its way to the crown's surface: a leader's lateral is at least as long as between these
-_LIKE_DRAWN = 1.1  # times the drawn laterals around it, a new one on a drawn limb is no longer
 
 
 class Growing:
@@ -116,26 +113,14 @@ class Growing:
         self.drawn_nodes = drawn_nodes(self.drawn, tips, self.manner.library, self.habit, self.envelope, led)
         new = self._laterals(self.drawn_nodes)
         drawn = DrawnLaterals.of(tree)
-        usual = drawn.usual_length(new)
-        at_most = np.minimum(new.length, _LIKE_DRAWN * usual)
-        like = usual * (0.8 + 0.25 * keys.uniform(self.key, new.limb, 12))
-        like = np.where(new.order == 1, np.minimum(like, _LIKE_BLOCK * new.length), at_most)
-        length = np.where(np.isnan(usual), new.length, like)
-        new = replace(new, length=length).select(~drawn.beside(new, self.spacing))
+        new = drawn.fitted(new, self.key).select(~drawn.beside(new, self.spacing))
         if self.habit.max_order > 0 and self.manner.thorough < 0.5:
             new = new.join(self._free(into_gaps(tree, frames(tree), drawn, new, self.key)))
         if self.leaders:
-            new = self._to_surface(new, np.isin(tree.limb[new.row], list(led)))
             beside = self._laterals(self.leaders.nodes)
-            new = new.join(self._to_surface(beside, np.ones(len(beside), bool)))
+            led = np.r_[np.isin(tree.limb[new.row], list(led)), np.ones(len(beside), bool)]
+            new = to_surface(new.join(beside), led, self.envelope, self.space, self.key)
         return tips.join(new)
-
-    def _to_surface(self, opened: OpenBranches, led) -> OpenBranches:
-        """The same, those on `led` limbs as long as it takes to come near the crown's surface, half the crown at most."""
-        widest = 0.5 * max(lobe.reach for lobe in self.envelope.lobes)
-        way = self.space.exit_fraction(opened.origin, opened.origin + widest * opened.frame[:, :, 1], bisections=7) * widest
-        way = way * (_NEARS[0] + (_NEARS[1] - _NEARS[0]) * keys.uniform(self.key, opened.limb, 15))
-        return replace(opened, length=np.where(led, np.maximum(opened.length, way), opened.length))
 
     def run(self, limit: int) -> None:
         """Generation after generation, until `limit` of them are done or nothing is open."""

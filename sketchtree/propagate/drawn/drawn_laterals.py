@@ -1,14 +1,18 @@
 """Where are the laterals that were drawn, and what do they say about new ones beside them?"""
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 import numpy as np
-from jaxtyping import Bool, Float, Int
+from jaxtyping import Array, Bool, Float, Int, Key
 
+from sketchtree import keys
 from sketchtree.axes import NULL
 from sketchtree.propagate.blocks.open_branch import OpenBranches, limb_arcs
 from sketchtree.skeleton import TreeSkeleton
 
+_LIKE_BLOCK = 1.5  # times the length its block says, a new limb on the trunk is no longer than that
+_LIKE_DRAWN = 1.1  # times the drawn laterals around it, a new one on a drawn limb is no longer
+_SHORTER = (0.8, 1.05)  # times the drawn limbs around it, a new one on the trunk is between these
 _APART = np.cos(np.radians(25.0))  # a new lateral this close to a drawn one's direction is not grown
 
 
@@ -54,6 +58,15 @@ class DrawnLaterals:
             near = np.abs(self.place[other] - at) < 1.2 * spacing[new.row]
             clash |= near & (np.einsum("bi,bi->b", self.heading[other], new.frame[:, :, 1]) > _APART)
         return clash
+
+    def fitted(self, new: OpenBranches, key: Key[Array, ""] | np.uint64) -> OpenBranches:
+        """The new branches, about as long as the drawn ones where each starts: on a trunk `_SHORTER` of them, but no longer than
+        `_LIKE_BLOCK` of what their blocks say; elsewhere as their blocks say, but no longer than `_LIKE_DRAWN` of them."""
+        usual = self.usual_length(new)
+        at_most = np.minimum(new.length, _LIKE_DRAWN * usual)
+        like = usual * (_SHORTER[0] + (_SHORTER[1] - _SHORTER[0]) * keys.uniform(key, new.limb, 12))
+        like = np.where(new.order == 1, np.minimum(like, _LIKE_BLOCK * new.length), at_most)
+        return replace(new, length=np.where(np.isnan(usual), new.length, like))
 
     def usual_length(self, new: OpenBranches) -> Float[np.ndarray, " branch"]:
         """How long the drawn laterals are where each new branch starts, interpolated along the limb; NaN

@@ -16,7 +16,7 @@ An outline whose nearest tip already leads another gets a fork of the nearest dr
 the tree is high, and than itself is large, belongs to no limb.
 """
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 import numpy as np
 from jaxtyping import Array, Bool, Float, Int, Key
@@ -27,9 +27,11 @@ from sketchtree.parameters import Habit
 from sketchtree.propagate.blocks.attach_block import Nodes
 from sketchtree.propagate.space.envelope import Envelope, Lobe
 from sketchtree.propagate.space.obstacles import Obstacles
-from sketchtree.propagate.blocks.open_branch import frames, limb_arcs, polar, turn
+from sketchtree.propagate.space.space import Space
+from sketchtree.propagate.blocks.open_branch import OpenBranches, frames, limb_arcs, polar, turn
 from sketchtree.skeleton import TreeSkeleton
 
+_NEARS = (0.6, 1.05)  # of its way to the crown's surface: a leader's lateral is at least as long as between these
 _LED = 0.6  # of its height: with more drawn wood inside, a crown outline needs no leader
 _NEAR = 0.35  # of an outline's size: tips this much farther than the nearest one lead too
 _MOST = 5  # leaders of one outline
@@ -98,6 +100,16 @@ def leaders(
     parent = np.where(starts, nodes.row, first + np.arange(len(nodes)) - 1)
     nodes = Nodes(**{name: getattr(nodes, name) for name in nodes.__dataclass_fields__} | {"row": first + np.arange(len(nodes))})
     return Leaders(nodes.select(slice(0, most)), parent[:most]) if most > 0 else None
+
+
+def to_surface(
+    opened: OpenBranches, led: Bool[np.ndarray, " branch"], envelope: Envelope, space: Space, key: Key[Array, ""] | np.uint64
+) -> OpenBranches:
+    """The same, those on `led` limbs as long as it takes to come near the crown's surface, half the crown at most."""
+    widest = 0.5 * max(lobe.reach for lobe in envelope.lobes)
+    way = space.exit_fraction(opened.origin, opened.origin + widest * opened.frame[:, :, 1], bisections=7) * widest
+    way = way * (_NEARS[0] + (_NEARS[1] - _NEARS[0]) * keys.uniform(key, opened.limb, 15))
+    return replace(opened, length=np.where(led, np.maximum(opened.length, way), opened.length))
 
 
 def unled(tree: TreeSkeleton, lobe: Lobe) -> bool:
