@@ -117,7 +117,8 @@ def test_a_command_that_is_stopped_or_killed_leaves_the_old_file(tmp_path, recip
     regenerate(out, orders(recipes, count=1))
     before, folder = out.read_bytes(), Journal(out).folder
     typed = [sys.executable, "-m", "sketchtree", "templates", "build", "--recipes", recipes, "--count", "3000", "--out", out, "--jobs", "1"]
-    with subprocess.Popen(list(map(str, typed)), stderr=subprocess.PIPE, text=True) as run:
+    listens = lambda: signal.signal(signal.SIGINT, signal.SIG_DFL)  # a shell's background job would have it ignore Ctrl-C
+    with subprocess.Popen(list(map(str, typed)), stderr=subprocess.PIPE, text=True, preexec_fn=listens) as run:
         deadline = time.monotonic() + 60
         while _parts(folder) < 3 and time.monotonic() < deadline and run.poll() is None:
             time.sleep(0.02)
