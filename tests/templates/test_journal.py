@@ -117,8 +117,12 @@ def test_a_command_that_is_stopped_or_killed_leaves_the_old_file(tmp_path, recip
     regenerate(out, orders(recipes, count=1))
     before, folder = out.read_bytes(), Journal(out).folder
     typed = [sys.executable, "-m", "sketchtree", "templates", "build", "--recipes", recipes, "--count", "3000", "--out", out, "--jobs", "1"]
-    listens = lambda: signal.signal(signal.SIGINT, signal.SIG_DFL)  # a shell's background job would have it ignore Ctrl-C
-    with subprocess.Popen(list(map(str, typed)), stderr=subprocess.PIPE, text=True, preexec_fn=listens) as run:
+    ours = signal.signal(signal.SIGINT, signal.default_int_handler)  # a shell's background job would have the command ignore Ctrl-C
+    try:
+        run = subprocess.Popen(list(map(str, typed)), stderr=subprocess.PIPE, text=True)
+    finally:
+        signal.signal(signal.SIGINT, ours)
+    with run:
         deadline = time.monotonic() + 60
         while _parts(folder) < 3 and time.monotonic() < deadline and run.poll() is None:
             time.sleep(0.02)
