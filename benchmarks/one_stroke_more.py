@@ -15,9 +15,9 @@ from pathlib import Path
 import numpy as np
 
 from sketchtree import keys
-from sketchtree.pipeline import draw_out
+from sketchtree.options import TreeOptions
+from sketchtree.pipeline import draw_out, propagation
 from sketchtree.propagate.after.cutting import borne
-from sketchtree.propagate.generations import Propagate
 from sketchtree.skeleton import Kind, TreeSkeleton
 from sketchtree.templates.store.database import Database
 from sketchtree.traverse import is_tip
@@ -40,9 +40,7 @@ def without(tree: TreeSkeleton, limb: int) -> TreeSkeleton:
 
 def shares(drawn, limb: int, key) -> tuple[float, float, float]:
     """(same, near, gone)."""
-    exemplar = drawn.exemplar.skeleton if drawn.exemplar else None
-    crown = tuple(drawn.similarity.to_world(outline) for outline in drawn.graph.crown)
-    stage = Propagate(drawn.habit, drawn.theta, crown=crown, exemplar=exemplar)
+    stage = propagation(drawn, TreeOptions())
     whole, less = stage(drawn.skeleton, key=key), stage(without(drawn.skeleton, limb), key=key)
     on = whole.limb == limb
     on |= borne(whole.parent, on)

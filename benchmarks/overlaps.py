@@ -46,8 +46,7 @@ def grown(sketch: Path, templates: Database, seed: int, dense: float = 1.0, segm
     found = propagation(drawn, options).run(drawn.skeleton, key=stage_key(key, "propagate"))
     radius = np.full(len(found.skeleton), np.nan)
     radius[found.drawn_row] = drawn.radius
-    crown = tuple(drawn.similarity.to_world(outline) for outline in drawn.graph.crown)
-    return found, PipeRadii(habit, radius)(found.skeleton), radius, habit, to_scale(habit, drawn.skeleton, crown)
+    return found, PipeRadii(habit, radius)(found.skeleton), radius, habit, to_scale(habit, drawn.skeleton, drawn.crown)
 
 
 def best_ms(task, repeat: int) -> float:

@@ -67,6 +67,11 @@ class DrawnTree:
     theta: TreeParameters  # by which the rest grows: measured on these branches, or the template's where Θ is fixed
 
     @property
+    def crown(self) -> tuple[Float[np.ndarray, "point 2"], ...]:
+        """The drawn crown's outlines, world metres."""
+        return tuple(self.similarity.to_world(outline) for outline in self.graph.crown)
+
+    @property
     def warnings(self) -> tuple[str, ...]:
         """What the user should know about the reading and the depths."""
         unsettled = () if self.fit.result == RESULTS.converged else (str(RESULTS[self.fit.result]),)
@@ -215,7 +220,7 @@ def propagation(drawn: DrawnTree, options: TreeOptions, obstacles: tuple = ()) -
     return Propagate(
         drawn.habit,
         drawn.theta,
-        crown=tuple(drawn.similarity.to_world(outline) for outline in drawn.graph.crown),
+        crown=drawn.crown,
         obstacles=obstacles,
         regions=tuple(drawn.similarity.to_world(outline) for outline in drawn.graph.obstacles),
         generations=options.generations,
@@ -241,8 +246,7 @@ def _weathered(drawn: DrawnTree, grown: Propagation, options: TreeOptions) -> tu
     radius[grown.drawn_row] = drawn.radius
     tree, weight = grown.skeleton, grown.tip_weight
     tree = PipeRadii(drawn.habit, radius, weight)(tree)
-    crown = tuple(drawn.similarity.to_world(outline) for outline in drawn.graph.crown)
-    habit = to_scale(drawn.habit, drawn.skeleton, crown)
+    habit = to_scale(drawn.habit, drawn.skeleton, drawn.crown)
     shed = Shed(options.shed, options.shed_twigs, habit)
     for run in (lambda whole: sagged(whole, options.sag, drawn.habit, grown.spaces), shed.run):
         cut = run(tree)

@@ -24,7 +24,6 @@ from sketchtree.propagate.drawn.leaders import leaders, to_surface
 from sketchtree.propagate.fill import GAP, HALO, HOLLOW, HOLLOW_GAP, emptiness, empty_around, empty_points, towards
 from sketchtree.propagate.limb_growth import grow, plan
 from sketchtree.propagate.manner import Manner
-from sketchtree.propagate.scale import to_scale
 from sketchtree.propagate.space.domain import Domain
 from sketchtree.propagate.space.envelope import Envelope
 from sketchtree.propagate.space.obstacles import Obstacles
@@ -45,7 +44,7 @@ class Growing:
     def __init__(self, tree, wanted: Wanted, key):
         self.wanted, self.key = wanted, keys.draw_key(key)
         self.manner = Manner.of(tree, wanted)
-        self.envelope = _crown(tree, wanted)
+        self.envelope = _crown(tree, wanted, self.habit)
         self.obstacles = self._in_the_way(tree, wanted)
         self.space = self._space()
         self.ground = float(tree.tip[tree.is_base, 1].min())
@@ -252,8 +251,6 @@ def _orders(parent, limb, order, drawn: int):
     return order
 
 
-def _crown(tree: TreeSkeleton, wanted: Wanted) -> Envelope | None:
+def _crown(tree: TreeSkeleton, wanted: Wanted, habit: Habit) -> Envelope | None:
     """The drawn crown, or the one that the drawing implies."""
-    if len(wanted.crown):
-        return Envelope.from_outlines(wanted.crown)
-    return implied_crown(tree, to_scale(wanted.habit, tree), wanted.exemplar)
+    return Envelope.from_outlines(wanted.crown) if len(wanted.crown) else implied_crown(tree, habit, wanted.exemplar)

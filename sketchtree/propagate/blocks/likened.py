@@ -85,12 +85,12 @@ def _moved(supplement: Blocks, own: Blocks, value, thorough: float, usual, deepe
     if n == 0:
         return x
     mean = {o: x[lateral & (order == o)].mean() for o in orders}
-    off = n / (n + EVIDENCE) * np.mean(y[known] - [mean[o] for o in drawn[known]])
+    w = n / (n + EVIDENCE)
+    off = w * np.mean(y[known] - [mean[o] for o in drawn[known]])
     moved = x + step * np.round(off / step) if step else x.copy()
     for o in orders if thorough > 0 else ():
         rows = np.flatnonzero(lateral & (order == o))
         rank = (np.argsort(np.argsort(x[rows], kind="stable")) + 0.5) / len(rows)
-        w = n / (n + EVIDENCE)
         like = np.quantile(y[known], rank) + deeper * (o > drawn[known].min())
         like = w * like + (1.0 - w) * (usual[0] + usual[1] * ndtri(rank))
         moved[rows] += thorough * (like - moved[rows])
