@@ -46,6 +46,11 @@ class Wanted:
                 f"density is {self.density:g}, but must lie between {DENSITIES[0]:g} and {DENSITIES[1]:g}.",
                 remedy="1 is the species' own; 2 has twice as many twigs on every limb.",
             )
+        if self.thorough is not None and not 0 <= self.thorough <= 1:
+            raise OptionError(
+                f"thorough is {self.thorough:g}, but must lie between 0 and 1.",
+                remedy="1: every limb of the drawn orders is drawn; None: judge by the drawing.",
+            )
 
     @property
     def limit(self) -> int:
