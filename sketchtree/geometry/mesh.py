@@ -1,9 +1,10 @@
 """A textured triangle mesh, as every writer and the preview take it."""
 
-from dataclasses import dataclass
+from collections.abc import Mapping
+from dataclasses import dataclass, field
 
 import numpy as np
-from jaxtyping import Float, Int, UInt8
+from jaxtyping import Float, Int, Shaped, UInt8
 
 
 @dataclass(frozen=True, eq=False)
@@ -18,6 +19,8 @@ class Material:
     roughness: float = 0.9
     alpha_cutoff: float | None = None  # None: opaque; else pixels with less alpha are cut away
     double_sided: bool = False
+    translucency: float = 0.0  # share of the light that passes through and leaves on the other side, 0-1
+    translucency_texture: UInt8[np.ndarray, "row column 3"] | None = None  # its colour, sRGB; placed as the base colour
 
 
 @dataclass(frozen=True, eq=False)
@@ -31,3 +34,10 @@ class Mesh:
     triangle: Int[np.ndarray, "triangle 3"]
     material: Material
     color: Float[np.ndarray, "vertex 4"] | None = None  # linear factor per vertex (tint)
+    extra: Mapping[str, Shaped[np.ndarray, "vertex channel"]] = field(default_factory=dict)
+    # further columns a vertex, by their glTF names: COLOR_1, TEXCOORD_1, JOINTS_0, WEIGHTS_0, or _NAME for one's own
+
+    @property
+    def triangle_count(self) -> int:
+        """How many triangles it draws."""
+        return len(self.triangle)
