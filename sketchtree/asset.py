@@ -1,0 +1,79 @@
+"""What one file for other programs holds: a tree in one or more levels of detail, with what moves and what collides.
+
+Writers (`export`) take an `Asset`; `detail` makes its levels, `rig` its joints and capsules.
+"""
+
+from collections.abc import Sequence
+from dataclasses import dataclass, field
+
+import numpy as np
+from jaxtyping import Float, Int
+
+from sketchtree.geometry.instances import Instances
+from sketchtree.geometry.mesh import Mesh
+from sketchtree.skeleton import TreeSkeleton
+
+
+@dataclass(frozen=True, eq=False)
+class Level:
+    """One level of detail: parts that are drawn together."""
+
+    parts: tuple[Mesh | Instances, ...]  # wood first
+    coverage: float = 0.0  # it serves while the tree fills at least this share of the screen's height; falls from level to level
+
+    @property
+    def triangle_count(self) -> int:
+        """How many triangles it draws."""
+        return sum(part.triangle_count for part in self.parts)
+
+
+@dataclass(frozen=True, eq=False)
+class Armature:
+    """Bones that bend the main limbs; meshes name them in their columns JOINTS_0 and WEIGHTS_0. World frame, at rest.
+
+    Requirements: a joint's parent stands before it; joint 0 is the one root.
+    """
+
+    name: tuple[str, ...]  # of each joint
+    parent: Int[np.ndarray, " joint"]  # NULL for the root
+    position: Float[np.ndarray, "joint 3"]  # metres
+    rotation: Float[np.ndarray, "joint 4"]  # unit quaternion x y z w; the joint's +y runs along its limb
+    length: Float[np.ndarray, " joint"]  # metres to the end of its bone
+
+    def __len__(self) -> int:
+        return len(self.parent)
+
+
+@dataclass(frozen=True, eq=False)
+class Capsules:
+    """Round bars for collision: every point within `radius` of the line from `start` to `end`. Metres, world frame."""
+
+    start: Float[np.ndarray, "capsule 3"]
+    end: Float[np.ndarray, "capsule 3"]
+    radius: Float[np.ndarray, " capsule"]
+    joint: Int[np.ndarray, " capsule"]  # the bone it moves with; NULL: none
+
+    def __len__(self) -> int:
+        return len(self.radius)
+
+
+@dataclass(frozen=True, eq=False)
+class Asset:
+    """One tree (or one forest) as a file holds it."""
+
+    levels: tuple[Level, ...]  # finest first; one at least
+    skeleton: TreeSkeleton | None = None
+    name: str = "tree"  # of the root node
+    armature: Armature | None = None
+    capsules: Capsules | None = None
+    about: dict = field(default_factory=dict)  # JSON: seed, version, template, options …; no date, no path
+
+    @classmethod
+    def of(cls, parts: Sequence[Mesh | Instances], **rest) -> "Asset":
+        """A single level of detail."""
+        return cls((Level(tuple(parts)),), **rest)
+
+    @property
+    def parts(self) -> tuple[Mesh | Instances, ...]:
+        """Those of the finest level."""
+        return self.levels[0].parts
