@@ -13,6 +13,7 @@ from jaxtyping import Array, Float, Key
 from sketchtree.choose import bark_model, choose_template, leaf_model
 from sketchtree.drawing import read_drawing
 from sketchtree.errors import InferenceError
+from sketchtree.foliage.blossom import blossom
 from sketchtree.foliage.cards import leaf_mesh
 from sketchtree.foliage.leaves import Leaves
 from sketchtree.foliage.populate import populate
@@ -65,6 +66,7 @@ class DrawnTree:
     habit: Habit
     held: bool  # Θ is the template's, whatever was drawn
     theta: TreeParameters  # by which the rest grows: measured on these branches, or the template's where Θ is fixed
+    sketch: Sketch  # as read
 
     @property
     def crown(self) -> tuple[Float[np.ndarray, "point 2"], ...]:
@@ -85,8 +87,9 @@ class TreeModel:
     drawn: DrawnTree
     skeleton: TreeSkeleton
     leaves: Leaves
-    meshes: tuple[Mesh, ...]  # wood, then leaves if there are any
+    meshes: tuple[Mesh, ...]  # wood, then leaves and blossoms if there are any
     warnings: tuple[str, ...]
+    blossom: Leaves | None = None  # in spring, where the species has one
 
 
 def sketch_to_tree(
@@ -140,7 +143,7 @@ def draw_out(
         skeleton = PipeRadii(habit, radius)(skeleton, key=stage_key(key, "radii"))
     held = options.theta == "fixed"
     theta = fit.theta_before if held else fit.theta
-    return DrawnTree(graph, matches, exemplar, fit, similarity, skeleton, radius, habit, held, theta)
+    return DrawnTree(graph, matches, exemplar, fit, similarity, skeleton, radius, habit, held, theta, sketch)
 
 
 def _with_roots(fit: Fit, graph: SketchGraph) -> Fit:
@@ -192,15 +195,20 @@ def finish(
         skeleton, told = _pruned(left if place is None else moved(left, place), options)
         warnings = grown.warnings + tangled + told
     with watch("foliage"):
-        season = "bare" if leaf is None else options.season
-        leaves = populate(skeleton, habit, key=stage_key(key, "foliage"), model=leaf or habit.leaf, season=season)
+        leaves, flowers = _foliage(skeleton, habit, leaf, options.season, stage_key(key, "foliage"))
     if leaves.kept < 1:
         warnings += (f"Only {leaves.kept:.1%} of the leaves were kept (at most {len(leaves)}), each larger, so that their area is right.",)
     with watch("mesh"):
         meshes = [*wood_meshes(skeleton, bark=bark, habit=habit, key=stage_key(key, "mesh"))]
-        if len(leaves):
-            meshes.append(leaf_mesh(leaves, season=options.season))
-    return TreeModel(drawn, skeleton, leaves, tuple(meshes), drawn.warnings + warnings)
+        meshes += [leaf_mesh(worn, season=options.season) for worn in (leaves, flowers) if worn is not None and len(worn)]
+    return TreeModel(drawn, skeleton, leaves, tuple(meshes), drawn.warnings + warnings, flowers)
+
+
+def _foliage(tree: TreeSkeleton, habit: Habit, leaf: str | None, season: str, key: Key[Array, ""]) -> tuple[Leaves, Leaves | None]:
+    """The leaves, and the blossoms of a spring."""
+    if leaf is None:
+        return Leaves.none(habit.leaf), None
+    return populate(tree, habit, key=key, model=leaf, season=season), blossom(tree, habit, key=key, model=leaf, season=season)
 
 
 def read_obstacles(options: TreeOptions) -> tuple:

@@ -20,6 +20,7 @@ SUNK = 0.85  # a petiole starts at this share of the wood's radius: never afloat
 _YEARLING = 1.5  # above so many twig radii wood is older than a year
 _SHOOT_LEAN = 52.0  # degrees between a twig and its short shoots
 _STRETCH = 1.7  # times as far apart as on a twig, leaves stand on a shoot: it stands for the finest twigs, which spread
+_FAN = 128.0  # degrees to either side that a fan opens
 _LONGEST = 0.3  # metres, of a mean short shoot
 _JITTER, _LEAN, _TURN, _LENGTH = 20, 21, 22, 23  # the draws of a node
 
@@ -55,6 +56,8 @@ def buds(
     pieces: Twigs, limb: Int[np.ndarray, " segment"], wear: Wear, twig_radius: float, key: Key[Array, ""]
 ) -> tuple[Buds, Float[np.ndarray, "shoot 2 3"]]:
     """The buds of all leafy wood, and the short shoots (start and end of each, metres)."""
+    if wear.model.fan:
+        return _fan(pieces, limb, wear), np.zeros((0, 2, 3))
     nodes = _nodes(pieces, limb, wear, key)
     if wear.model.spur == 1:
         return _spread(nodes, wear), np.zeros((0, 2, 3))
@@ -67,6 +70,27 @@ def buds(
 def around(azimuth, side, tangent) -> Float[np.ndarray, "leaf 3"]:
     """The unit vector out of a stem at an azimuth about it."""
     return np.cos(azimuth)[:, None] * side + np.sin(azimuth)[:, None] * np.cross(side, tangent)
+
+
+def _fan(pieces: Twigs, limb, wear: Wear) -> Buds:
+    """The folds of a fan at the tip of every limb, spread in the plane of the limb and its side."""
+    tips = pieces.select(pieces.to_tip < 1e-9)
+    of = np.repeat(np.arange(len(tips)), wear.model.fan)
+    rank = np.tile(np.arange(wear.model.fan), len(tips))
+    turn = np.radians(_FAN) * (2 * rank / max(wear.model.fan - 1, 1) - 1)[:, None]
+    tangent, side = tips.tangent[of], tips.side[of]
+    return Buds(
+        foot=(tips.end + SUNK * tips.end_radius[:, None] * tips.tangent)[of],
+        radius=np.zeros(len(of)),
+        tangent=np.cos(turn) * tangent + np.sin(turn) * side,
+        side=np.cos(turn) * side - np.sin(turn) * tangent,
+        azimuth=np.zeros(len(of)),
+        node=rank,
+        along=1 - 0.5 * np.abs(turn[:, 0]) / np.radians(_FAN),
+        segment=tips.row[of],
+        id=limb_ids.child_limb_id(limb[tips.row[of]], rank),
+        shoot=np.full(len(of), NULL),
+    )
 
 
 def _nodes(pieces: Twigs, limb, wear: Wear, key) -> Buds:

@@ -19,8 +19,8 @@ from sketchtree.foliage.venation import Vein
 
 PIXELS = 512  # along the blade
 _SUPERSAMPLE = 3
-_PLAIN = 130  # a shade of 1 in the mask of shades
-_AXIS_PENS = {"cover": 255, "twig": 255, "shade": _PLAIN, "ridge": 160, "line": 0}, {"ridge": 255}
+PLAIN = 130  # a shade of 1 in the mask of shades
+_AXIS_PENS = {"cover": 255, "twig": 255, "shade": PLAIN, "ridge": 160, "line": 0}, {"ridge": 255}
 _BORDER = 4  # transparent pixels round the drawing, so that mipmaps and bilinear filters stay clean
 
 
@@ -48,6 +48,12 @@ class Canvas:
         centre = (low + high) / 2
         self.low, self.high = centre - self.size / scale / 2, centre + self.size / scale / 2
         self._scale = scale * _SUPERSAMPLE
+
+    @classmethod
+    def about_the_axis(cls, points: Curve) -> "Canvas":
+        """The canvas that holds the points, x = 0 in its middle."""
+        half = np.abs(points[:, 0]).max()
+        return cls(np.array([-half, points[:, 1].min()]), np.array([half, points[:, 1].max()]))
 
     def blank(self) -> Image.Image:
         """An empty mask at the drawing's resolution."""
@@ -94,7 +100,7 @@ def paint_blade(outline: Curve, veins: list[Vein], *, petiole: float, reticulati
     blade, stem, vein = (canvas.average(mask) for mask in (body, stalk, lines))
     vein = vein * blade
     stem = np.clip(stem - blade, 0, 1)
-    net = _reticulation(blade.shape, seed) * reticulation
+    net = reticulation_net(blade.shape, seed) * reticulation
     soft = ndimage.gaussian_filter(vein, 3.0)
     mottle = ndimage.zoom(np.random.default_rng(seed).normal(size=(12, 12)), np.array(blade.shape) / 12, order=1)
     rim = np.clip(ndimage.gaussian_filter(blade, 9.0), 0, 1)
@@ -107,7 +113,7 @@ def paint_shoots(shoots: list[tuple[Vein, list[tuple[Vein, float]]]]) -> Paintin
     """Shoots with needles, each with its shade; later ones lie over earlier ones, and a shoot's own axis over
     the first half of its needles."""
     points = np.vstack([vein.path for axis, needles in shoots for vein in (axis, *(needle for needle, _ in needles))])
-    canvas = Canvas(points.min(axis=0), points.max(axis=0))
+    canvas = Canvas.about_the_axis(points)
     masks = {name: canvas.blank() for name in ("cover", "twig", "shade", "ridge", "line")}
     pens = {name: ImageDraw.Draw(mask) for name, mask in masks.items()}
     for axis, needles in shoots:
@@ -119,7 +125,7 @@ def paint_shoots(shoots: list[tuple[Vein, list[tuple[Vein, float]]]]) -> Paintin
                 for name, value in values.items():
                     pens[name].polygon(outline, fill=value)
     coverage = canvas.average(masks["cover"])
-    tone = canvas.average(masks["shade"]) * 255 / _PLAIN
+    tone = canvas.average(masks["shade"]) * 255 / PLAIN
     tone = np.where(coverage > 0.02, tone / np.maximum(coverage, 0.02), 1.0)
     height = 2.5 * ndimage.gaussian_filter(canvas.average(masks["ridge"]), 0.8)
     line, twig = canvas.average(masks["line"]), canvas.average(masks["twig"])
@@ -129,7 +135,7 @@ def paint_shoots(shoots: list[tuple[Vein, list[tuple[Vein, float]]]]) -> Paintin
 def _needle_pens(shade: float) -> tuple[dict, dict]:
     """What a needle writes into each mask, over its width and along its middle. It hides what is under it: its
     pixels are no twig, and have a ridge and a pale line of their own."""
-    return {"cover": 255, "twig": 0, "shade": int(_PLAIN * shade), "ridge": 60, "line": 0}, {"ridge": 255, "line": 255}
+    return {"cover": 255, "twig": 0, "shade": int(PLAIN * shade), "ridge": 60, "line": 0}, {"ridge": 255, "line": 255}
 
 
 def albedo(painting: Painting, blade, vein, stem) -> UInt8[np.ndarray, "row column 4"]:
@@ -170,7 +176,7 @@ def _run_on(colour, coverage):
     return colour[tuple(nearest)]
 
 
-def _reticulation(shape, seed):
+def reticulation_net(shape, seed):
     """The fine net of a blade, 0-1: pixels about as near to their second closest cell as to the closest."""
     from scipy.spatial import cKDTree
 

@@ -48,7 +48,7 @@ def populate(
     max_leaves: int = 60_000,
 ) -> Leaves:
     """The leaves of a tree (Chen §6). `model` overrides the habit's leaf, and then brings its own size,
-    spacing and arrangement; `density` (> 0) scales the nodes a metre. Raises OptionError."""
+    spacing and arrangement; `density` (> 0) scales the nodes a metre. In the season `bare` evergreens keep theirs. Raises OptionError."""
     check_season(season)
     if not density > 0:
         raise OptionError(f"The leaf density is {density}, but it must be above 0.", remedy="Use 1 for the species' own.")
@@ -56,15 +56,15 @@ def populate(
         raise OptionError(f"At most {max_leaves} leaves were allowed.", remedy="Allow at least 1, or use season 'bare'.")
     wear = wear_of(habit, model, density)
     tree, _ = without_roots(tree)
-    if season == "bare" or tree.segment_count == 0:
+    if (season == "bare" and not wear.model.evergreen) or tree.segment_count == 0:
         return Leaves.none(wear.model.name)
-    budding, shoots = buds(_leafy_wood(tree, habit, wear), tree.limb, wear, habit.twig_radius, key)
-    leaves, unit = _unfold(tree, budding, shoots, wear, season, key), _units(budding)
-    if season in _SHARE and not wear.model.evergreen:
+    budding, shoots = buds(leafy_wood(tree, habit, wear), tree.limb, wear, habit.twig_radius, key)
+    leaves, unit = unfold(tree, budding, shoots, wear, season, key), _units(budding)
+    if season in _SHARE and not (wear.model.evergreen or wear.model.flower):
         held = keys.uniform(key, budding.id, _FALLEN) < _SHARE[season]
         leaves, unit = _keep(leaves, held), unit[held]
         budding = budding.select(held)
-    return _capped(leaves, budding.shoot, unit, max_leaves, key)
+    return capped(leaves, budding.shoot, unit, max_leaves, key)
 
 
 def _units(stand: Buds) -> Int[np.ndarray, " leaf"]:
@@ -76,21 +76,24 @@ def _units(stand: Buds) -> Int[np.ndarray, " leaf"]:
     return unit
 
 
-def _leafy_wood(tree: TreeSkeleton, habit: Habit, wear: Wear) -> Twigs:
+def leafy_wood(tree: TreeSkeleton, habit: Habit, wear: Wear) -> Twigs:
+    """The wood that carries leaves; of a palm, its fronds. A palm's fans stand on its leaf stalks, not on their ribs."""
     pieces = wood_pieces(tree)
     if wear.arrangement == "frond":
-        return fronds(pieces, tree)
+        pieces = fronds(pieces, tree)
+        stalks = wear.model.fan > 0 and habit.leaf_arrangement == "frond"
+        return pieces.select(tree.order[pieces.row] <= 1) if stalks else pieces
     reach = wear.model.shoot * habit.twig_length
     return leafy(pieces, tree.order, thickest=_THICKEST * habit.twig_radius, reach=reach, share=_OUTER)
 
 
-def _unfold(tree: TreeSkeleton, stand: Buds, shoots, wear: Wear, season: str, key) -> Leaves:
+def unfold(tree: TreeSkeleton, stand: Buds, shoots, wear: Wear, season: str, key) -> Leaves:
     """A leaf from every bud."""
     model, ids = wear.model, stand.id
     loose = 0.0 if wear.arrangement == "frond" else np.radians(9.0)
     reaching = around(stand.azimuth + loose * keys.normal(key, ids, _AZIMUTH), stand.side, stand.tangent)
-    lean = np.radians(model.inclination + 6.0 * keys.normal(key, ids, _TILT))
-    lean = np.where(stand.node == 0, 0.35 * lean, lean)[:, None]
+    lean = np.radians(model.inclination + (1.0 if model.fan else 6.0) * keys.normal(key, ids, _TILT))
+    lean = np.where((stand.node == 0) & (model.fan == 0), 0.35 * lean, lean)[:, None]
     direction = _unit(np.cos(lean) * stand.tangent + np.sin(lean) * reaching - model.droop * _UP)
     over = np.cross(stand.side, stand.tangent) if wear.arrangement == "frond" else None
     size = wear.size * _growth(stand, wear) * (0.90 + 0.40 * keys.uniform(key, ids, _GROWTH))
@@ -99,7 +102,7 @@ def _unfold(tree: TreeSkeleton, stand: Buds, shoots, wear: Wear, season: str, ke
         position=stand.foot + SUNK * stand.radius[:, None] * around(stand.azimuth, stand.side, stand.tangent),
         direction=direction,
         normal=_facing(tree, stand.foot, direction, over, ids, key),
-        size=size * (1.0 if model.evergreen else _SIZE.get(season, 1.0)),
+        size=size * (1.0 if model.evergreen or model.flower else _SIZE.get(season, 1.0)),
         tint=keys.uniform(key, ids, _TINT),
         segment=stand.segment,
         shoot=shoots,
@@ -109,6 +112,8 @@ def _unfold(tree: TreeSkeleton, stand: Buds, shoots, wear: Wear, season: str, ke
 def _growth(stand: Buds, wear: Wear) -> Float[np.ndarray, " leaf"]:
     """Relative size by place: on a frond long in the middle and short at both ends, on a shoot the
     youngest leaves at the tip are the smallest."""
+    if wear.model.fan:
+        return 0.4 + 0.6 * stand.along
     if wear.arrangement == "frond":
         return 0.35 + 0.65 * np.sin(np.pi * np.clip(0.12 + 0.82 * stand.along, 0, 1)) ** 0.8
     return 1 - 0.3 * np.exp(-stand.node / 1.5) * wear.model.is_blade
@@ -129,7 +134,7 @@ def _facing(tree, centre, direction, over, ids, key) -> Float[np.ndarray, "leaf 
     return _unit(np.where(weak[:, None], spare, normal))
 
 
-def _capped(leaves: Leaves, shoot, unit: Int[np.ndarray, " leaf"], max_leaves: int, key) -> Leaves:
+def capped(leaves: Leaves, shoot, unit: Int[np.ndarray, " leaf"], max_leaves: int, key) -> Leaves:
     """At most `max_leaves` leaves, of the same area in all; `kept` says which share is left. Short shoots go with
     their leaves."""
     keep = np.ones(len(leaves), bool)

@@ -37,7 +37,8 @@ def wear_of(habit: Habit, model: str | None = None, density: float = 1.0) -> Wea
         arrangement, size, spacing = worn.arrangement, worn.size, worn.spacing
     leaves_per_node(arrangement)
     turn = habit.phyllotaxis if arrangement == "spiral" == habit.leaf_arrangement else GOLDEN_ANGLE
-    size *= enlargement(habit) if worn.is_blade and arrangement != "frond" else 1.0
+    single = worn.is_blade and worn.needle == 1.0 and not worn.flower
+    size *= enlargement(habit) if single and arrangement != "frond" else 1.0
     return Wear(worn, arrangement, size / worn.needle, spacing * worn.bundle / density, turn, habit.whorl)
 
 

@@ -3,7 +3,9 @@ import pytest
 
 from sketchtree import keys
 from sketchtree.errors import OptionError
-from sketchtree.foliage.cards import hexagon, leaf_material, leaf_mesh
+from sketchtree.foliage.card_shape import hexagon
+from sketchtree.foliage.cards import leaf_mesh
+from sketchtree.foliage.leaf_materials import leaf_material
 from sketchtree.foliage.leaves import Leaves
 from sketchtree.foliage.models import leaf_model, leaf_names, leaf_painting
 from sketchtree.foliage.populate import populate
@@ -21,7 +23,8 @@ def worn(request):
 
 def test_the_mesh_is_called_leaf_and_its_material_after_the_model(worn):
     leaves, mesh = worn
-    assert mesh.name == "leaf" and mesh.material.name == f"leaf_{leaves.model}"
+    assert mesh.name == ("leaf_blossom" if leaf_model(leaves.model).flower else "leaf")
+    assert mesh.material.name == f"leaf_{leaves.model}"
     assert mesh.material.alpha_cutoff == 0.5 and mesh.material.double_sided
 
 
@@ -44,11 +47,11 @@ def test_columns_are_finite_normals_unit_and_factors_within_range(worn):
     assert mesh.color.min() >= 0 and mesh.color.max() <= 1
 
 
-def test_every_card_holds_its_leafs_foot(worn):
+def test_every_leaf_starts_in_the_middle_of_its_cards_foot_edge(worn):
     leaves, mesh = worn
-    corners = cards(leaves, mesh)
-    nearest = np.linalg.norm(corners - leaves.position[:, None], axis=2).min(axis=1)
-    assert (nearest < 0.55 * leaves.size).all()
+    apart = cards(leaves, mesh)[:, :2].mean(axis=1) - leaves.position
+    apart -= np.einsum("li,li->l", apart, leaves.normal)[:, None] * leaves.normal  # both corners of a folded card rise
+    assert (np.linalg.norm(apart, axis=1) < 0.04 * leaves.size).all()
 
 
 def test_a_card_is_as_long_as_its_blade_with_petiole(worn):

@@ -7,16 +7,31 @@ from sketchtree.foliage.models import leaf_model, leaf_names
 from sketchtree.foliage.seasons import SEASONS, Palette, check_season, linear
 
 
-def test_the_eleven_models_are_there():
-    assert leaf_names() == ("oak", "beech", "maple", "birch", "willow", "poplar", "apple", "hazel", "spruce", "pine", "palm")
+LEAVES = (
+    "oak", "beech", "maple", "birch", "willow", "poplar", "apple", "hazel", "lime", "elm", "alder", "hornbeam", "cherry", "hawthorn", "plane", "lilac",
+    "olive", "horse_chestnut", "ash", "elder", "sumac", "rowan", "acacia", "spruce", "pine", "stone_pine", "white_pine", "larch", "cedar", "fir", "juniper",
+    "cypress", "palm", "fan_palm", "dragon_tree",
+)  # fmt: skip
+BLOSSOMS = (
+    "apple_blossom", "cherry_blossom", "hawthorn_blossom", "elder_blossom", "chestnut_candle", "lilac_panicle", "hazel_catkin", "birch_catkin",
+    "alder_catkin", "willow_catkin",
+)  # fmt: skip
+
+
+def test_there_are_thirty_five_leaves_and_ten_blossoms():
+    assert leaf_names() == LEAVES + BLOSSOMS
+    assert [name for name in leaf_names() if leaf_model(name).flower] == list(BLOSSOMS)
+
+
+def test_every_blossom_is_borne_by_one_leaf_model():
+    borne = [leaf_model(name).blossom for name in LEAVES if leaf_model(name).blossom]
+    assert sorted(borne) == sorted(BLOSSOMS)
 
 
 def test_an_unknown_model_is_refused_with_the_list():
     with pytest.raises(OptionError) as caught:
         leaf_model("gingko")
-    assert str(caught.value) == (
-        "There is no leaf model called 'gingko'. Choose one of: oak, beech, maple, birch, willow, poplar, apple, hazel, spruce, pine, palm."
-    )
+    assert str(caught.value) == f"There is no leaf model called 'gingko'. Choose one of: {', '.join(LEAVES + BLOSSOMS)}."
 
 
 def test_an_unknown_season_is_refused_with_the_list():

@@ -1,8 +1,8 @@
 import numpy as np
 import pytest
 
-from sketchtree.foliage.cards import leaf_material
-from sketchtree.foliage.models import leaf_names, leaf_painting
+from sketchtree.foliage.leaf_materials import leaf_material
+from sketchtree.foliage.models import leaf_model, leaf_names, leaf_painting
 from sketchtree.foliage.painting import to_linear, to_srgb
 
 
@@ -34,6 +34,7 @@ def test_colour_runs_on_under_the_transparent_area(name):
         assert texture[..., channel][empty].max() <= seen.max() + 1
 
 
+@pytest.mark.parametrize("name", [name for name in leaf_names() if not leaf_model(name).flower])
 def test_greens_are_neither_neon_nor_grey(name):
     texture = leaf_material(name, "summer").base_color_texture
     red, green, blue = texture[texture[..., 3] > 200][:, :3].mean(axis=0) / 255
@@ -50,9 +51,23 @@ def test_normals_are_unit_and_look_up(name):
     assert (texture[flat] == (128, 128, 255)).all()
 
 
-def test_the_drawing_is_the_same_every_time(name):
-    from sketchtree.foliage.models import leaf_model
+def test_light_that_passes_is_brighter_in_the_blade_than_in_stem_and_vein(name):
+    material, painting = leaf_material(name), leaf_painting(name)
+    passed = material.translucency_texture.astype(float).sum(axis=2)
+    assert material.translucency_texture.shape == (*painting.coverage.shape, 3) and 0 < material.translucency < 0.5
+    blade = (painting.coverage > 0.9) & (painting.vein < 0.1) & (painting.stem < 0.1)
+    for other in (painting.vein * (1 - painting.stem) * (painting.coverage > 0.9) > 0.8, painting.stem > 0.9):
+        assert not other.any() or passed[other].mean() < passed[blade].mean()
 
+
+def test_leaves_let_yellower_light_through_than_they_throw_back():
+    material = leaf_material("lime")
+    solid = material.base_color_texture[..., 3] > 250
+    back, passed = (t[solid][:, :3].astype(float).mean(axis=0) for t in (material.base_color_texture, material.translucency_texture))
+    assert passed[1] / passed[2] > 1.15 * back[1] / back[2]
+
+
+def test_the_drawing_is_the_same_every_time(name):
     assert np.array_equal(leaf_model(name).draw().coverage, leaf_painting(name).coverage)
 
 

@@ -1,0 +1,47 @@
+"""Where do a tree's blossoms stand in spring? At the ends of its twigs and short shoots, among the young leaves.
+
+The same buds that unfold the leaves are asked, so each blossom ends a stem that is there. Which ends bear one is drawn by bud: a
+new limb leaves the others' blossoms as they were.
+"""
+
+import numpy as np
+from jaxtyping import Array, Key
+
+from sketchtree import keys
+from sketchtree.foliage.buds import Buds, buds
+from sketchtree.foliage.leaves import Leaves
+from sketchtree.foliage.models import leaf_model
+from sketchtree.foliage.populate import capped, leafy_wood, unfold
+from sketchtree.foliage.seasons import check_season
+from sketchtree.foliage.wear import Wear, wear_of
+from sketchtree.parameters import Habit
+from sketchtree.roots import without_roots
+from sketchtree.skeleton import TreeSkeleton
+
+_BEARS = 30  # the draw of a bud
+
+
+def blossom(
+    tree: TreeSkeleton, habit: Habit, *, key: Key[Array, ""], model: str | None = None, season: str = "summer", most: int = 12_000
+) -> Leaves | None:
+    """The blossoms of a tree that wears the leaf `model` (the habit's own by default), at most `most`; None out of spring and where its
+    species has none. Raises OptionError."""
+    check_season(season)
+    wear = wear_of(habit, model)
+    tree, _ = without_roots(tree)
+    if season != "spring" or wear.model.blossom is None or tree.segment_count == 0:
+        return None
+    stand, _ = buds(leafy_wood(tree, habit, wear), tree.limb, wear, habit.twig_radius, key)
+    stand = _ends(stand)
+    stand = stand.select(keys.uniform(key, stand.id, _BEARS) < wear.model.blossom_share)
+    flower = leaf_model(wear.model.blossom)
+    worn = Wear(flower, flower.arrangement, flower.size, flower.spacing, wear.phyllotaxis, 1)
+    found = capped(unfold(tree, stand, np.zeros((0, 2, 3)), worn, season, key), np.full(len(stand), -1), stand.id, most, key)
+    return found if len(found) else None
+
+
+def _ends(stand: Buds) -> Buds:
+    """One bud for each end of a twig or short shoot, pointing along it."""
+    end = stand.select(stand.node == 0)
+    _, first = np.unique(np.round(end.foot, 9), axis=0, return_index=True)
+    return end.select(np.sort(first))

@@ -1,0 +1,1 @@
+"""What each leaf, tuft and blossom looks like, as code."""

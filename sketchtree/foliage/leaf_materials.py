@@ -1,0 +1,65 @@
+"""Which textures does a leaf model have in a season, and which factor does each leaf put on them?
+
+A leaf in the shade of the others is darker than one in the sun, and keeps more of its green:
+
+    factor = C(tint) / texture · (D + (1 − D) light)        D: `_DEEP`, light: 0-1 (`crown_light`)
+
+The light that a leaf lets through has passed its pigments once more: its colour is the blade's, deeper (`_DEEPER`), and brought to an
+even brightness; veins and stems let little through. Undersides are drawn as the upper sides are: glTF has one material for both
+faces, a second would double the triangles. Models whose undersides show from afar (olive) have them in their range of colours.
+"""
+
+from functools import lru_cache
+
+import numpy as np
+from jaxtyping import Float, UInt8
+
+from sketchtree.foliage.models import leaf_model, leaf_painting
+from sketchtree.foliage.painting import Painting, albedo, normal_map
+from sketchtree.foliage.seasons import Palette, linear
+from sketchtree.geometry.mesh import Material
+
+_DEEP = np.array([0.70, 0.80, 0.74])  # of a leaf's colour, in the deepest shade
+_DEEPER, _BRIGHT = 1.35, 0.55  # exponent of the blade's colour; brightest channel of what passes
+_VEIN, _STEM = 0.55, 0.12  # of the light, pass veins and stems
+
+
+@lru_cache(maxsize=128)
+def leaf_material(name: str, season: str = "summer") -> Material:
+    """The textures of a leaf model in a season; the material is called `leaf_<name>`. Raises OptionError."""
+    return painted_material(f"leaf_{name}", leaf_painting(name), name, season)
+
+
+def painted_material(title: str, painting: Painting, name: str, season: str) -> Material:
+    """A drawing in the colours of the leaf model `name`."""
+    model, palette = leaf_model(name), palette_of(name, season)
+    return Material(
+        name=title,
+        base_color_texture=albedo(painting, palette.texture_blade, linear(palette.vein), linear(palette.stem)),
+        normal_texture=normal_map(painting),
+        roughness=model.roughness,
+        alpha_cutoff=0.5,
+        double_sided=True,
+        translucency=model.translucency,
+        translucency_texture=_passed(painting, palette),
+    )
+
+
+def palette_of(name: str, season: str) -> Palette:
+    """A model's colours in a season; what is still there in winter has those of autumn."""
+    return leaf_model(name).palettes[{"bare": "autumn"}.get(season, season)]
+
+
+def leaf_factor(name: str, season: str, tint: Float[np.ndarray, " leaf"], light: Float[np.ndarray, " leaf"]) -> Float[np.ndarray, "leaf 4"]:
+    """The linear factor of every leaf's colour, and 1."""
+    factor = palette_of(name, season).factor(tint)
+    if not leaf_model(name).flower:
+        factor = factor * (_DEEP + (1 - _DEEP) * light[:, None])
+    return np.column_stack([factor, np.ones(len(factor))])
+
+
+def _passed(painting: Painting, palette: Palette) -> UInt8[np.ndarray, "row column 3"]:
+    """The colour of the light that passes through, sRGB."""
+    deep = palette.texture_blade**_DEEPER
+    blade = deep * (_BRIGHT / deep.max())
+    return albedo(painting, blade, _VEIN * blade, _STEM * linear(palette.stem))[..., :3].copy()

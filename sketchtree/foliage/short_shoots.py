@@ -1,0 +1,71 @@
+"""How do short shoots, the thin stems that bear leaves on old wood, become triangles? As three-sided tapering tubes in the texture's petiole."""
+
+from typing import NamedTuple
+
+import numpy as np
+from jaxtyping import Float, Int
+
+from sketchtree.foliage.card_shape import foot_of
+from sketchtree.foliage.leaves import Leaves
+from sketchtree.foliage.models import leaf_painting
+from sketchtree.foliage.twigs import level_side
+
+_STEM = 0.018  # radius of a short shoot at its foot, leaf sizes
+_TAPER = 0.4  # of it, at its tip
+_J = np.arange(3)
+_TURN = 2 * np.pi * _J / 3
+SIDES = np.vstack([np.stack([_J, (_J + 1) % 3, (_J + 1) % 3 + 3], axis=1), np.stack([_J, (_J + 1) % 3 + 3, _J + 3], axis=1)])
+"""Triangles of one tube: its foot's corners are 0-2, its tip's 3-5."""
+
+
+class Stems(NamedTuple):
+    """The tubes, six vertices and six triangles each."""
+
+    position: Float[np.ndarray, "vertex 3"]
+    normal: Float[np.ndarray, "vertex 3"]
+    uv: Float[np.ndarray, "vertex 2"]
+    triangle: Int[np.ndarray, "triangle 3"]
+
+
+class StemFrames(NamedTuple):
+    """Where each stands: a tube of length 1 and radius 1 along y, scaled by (radius, length, radius), turned and brought there."""
+
+    start: Float[np.ndarray, "shoot 3"]
+    axes: Float[np.ndarray, "shoot 3 3"]  # rows: what x, y and z of the unit tube become
+    length: Float[np.ndarray, " shoot"]
+    radius: float
+
+
+def stem_frames(leaves: Leaves) -> StemFrames:
+    """The short shoots' places."""
+    start, span = leaves.shoot[:, 0], leaves.shoot[:, 1] - leaves.shoot[:, 0]
+    length = np.linalg.norm(span, axis=1)
+    along = span / np.maximum(length, 1e-12)[:, None]
+    side = level_side(along)
+    radius = _STEM * (float(np.median(leaves.size)) if len(leaves) else 0.0)
+    return StemFrames(start, np.stack([side, along, np.cross(side, along)], axis=1), length, radius)
+
+
+def unit_stem(model: str) -> Stems:
+    """One tube along y, of length 1 and radius 1 at its foot."""
+    ring = np.stack([np.cos(_TURN), np.zeros(3), -np.sin(_TURN)], axis=1)
+    painting = leaf_painting(model)
+    u = -painting.left / (painting.right - painting.left) + 0.002 * (np.tile(_J, 2) - 1)
+    foot = (painting.top - foot_of(painting)) / (painting.top - painting.bottom)
+    v = foot - np.repeat([0.012, 0.024], 3)
+    position = np.vstack([ring, _TAPER * ring + [0, 1, 0]])
+    return Stems(position, np.tile(ring, (2, 1)), np.stack([u, v], axis=1), SIDES)
+
+
+def stems(leaves: Leaves, first: int) -> Stems:
+    """All tubes; `first` is the number of their first vertex."""
+    one, at = unit_stem(leaves.model), stem_frames(leaves)
+    count = len(at.start)
+    scale = np.stack([np.full(count, at.radius), at.length, np.full(count, at.radius)], axis=1)
+    position = at.start[:, None] + np.einsum("svi,sij->svj", scale[:, None] * one.position, at.axes)
+    return Stems(
+        position.reshape(-1, 3),
+        np.einsum("vi,sij->svj", one.normal, at.axes).reshape(-1, 3),
+        np.tile(one.uv, (count, 1)),
+        (first + one.triangle[None] + 6 * np.arange(count)[:, None, None]).reshape(-1, 3),
+    )
