@@ -23,7 +23,7 @@ INTEGERS = ("parent", "order", "limb", "stroke", "tree", "kind", "curve_start")
 FORMAT = 1
 LARGEST_ID = 2**53  # beyond it a number is no longer told from the next
 ENDINGS = (".swc", ".json", ".npz")  # always trees: what a folder is searched for
-ALL_ENDINGS = (*ENDINGS, ".mtg", ".csv", ".txt", ".h5")
+ALL_ENDINGS = (*ENDINGS, ".mtg", ".csv", ".txt", ".h5", ".sketchtree")
 
 
 def read_skeleton(path: str | os.PathLike) -> TreeSkeleton:
@@ -35,7 +35,7 @@ def read_skeleton(path: str | os.PathLike) -> TreeSkeleton:
 
     readers = {
         ".swc": read_swc, ".json": read_skeleton_json, ".npz": read_npz, ".mtg": read_mtg,
-        ".csv": read_cylinders, ".txt": read_cylinders, ".h5": read_skeleton_hdf5,
+        ".csv": read_cylinders, ".txt": read_cylinders, ".h5": read_skeleton_hdf5, ".sketchtree": read_skeleton_hdf5,
     }  # fmt: skip
     if ending not in readers:
         raise SkeletonError(f"{path} is no skeleton that can be read.", remedy=f"Give a file that ends in one of {', '.join(ALL_ENDINGS)}.")

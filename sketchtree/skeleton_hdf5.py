@@ -1,7 +1,8 @@
 """A skeleton in an HDF5 file: one dataset a column of `TreeSkeleton`, without loss.
 
-The root's attributes are `format` ("SketchTree skeleton"), `schema` (1) and `version`. Columns that may be missing have
-the defaults of `TreeSkeleton.from_columns`; `parent`, `tip` and `radius` are needed.
+The root's attributes are `format` ("SketchTree skeleton"), `schema` (1) and `version`; every column's `unit` is an attribute of it. Columns that
+may be missing have the defaults of `TreeSkeleton.from_columns`; `parent`, `tip` and `radius` are needed. A project file holds the same
+columns in its group `skeleton`.
 """
 
 import os
@@ -14,11 +15,13 @@ from sketchtree.skeleton_files import FLOATS, INTEGERS, shaped
 from sketchtree.version import __version__
 
 FORMAT, SCHEMA = "SketchTree skeleton", 1
+PROJECT = "SketchTree project"
+_LENGTHS = ("tip", "radius", "depth_sd", "curve_points")  # columns in metres
 _REMEDY = "Give a file that `write_skeleton_hdf5` wrote, or another format."
 
 
 def read_skeleton_hdf5(path: str | os.PathLike) -> TreeSkeleton:
-    """The tree of an HDF5 file. Raises `SkeletonError`."""
+    """The tree of an HDF5 file, a skeleton or a project. Raises `SkeletonError`."""
     import h5py
 
     try:
@@ -26,12 +29,13 @@ def read_skeleton_hdf5(path: str | os.PathLike) -> TreeSkeleton:
             pass
         with h5py.File(path, "r") as file:
             form, schema = file.attrs.get("format"), int(file.attrs.get("schema", 0))
-            columns = {name: file[name][()] for name in INTEGERS + FLOATS if name in file}
+            group = file["skeleton"] if form == PROJECT else file
+            columns = {name: group[name][()] for name in INTEGERS + FLOATS if name in group}
     except (OSError, RuntimeError, ValueError, TypeError, KeyError) as error:
         if isinstance(error, OSError) and error.strerror:
             raise SkeletonError(f"Can't read {path}: {error.strerror.lower()}.", remedy="Check the path.") from error
         raise SkeletonError(f"{path} is no HDF5 file, or is damaged.", remedy=_REMEDY) from error
-    if form != FORMAT:
+    if form not in (FORMAT, PROJECT):
         raise SkeletonError(f"{path} is an HDF5 file, but holds no skeleton.", remedy=_REMEDY)
     if schema > SCHEMA:
         raise SkeletonError(f"{path} has skeleton schema {schema}; this version reads {SCHEMA}.", remedy="Update sketchtree.")
@@ -45,11 +49,21 @@ def read_skeleton_hdf5(path: str | os.PathLike) -> TreeSkeleton:
 
 
 def write_skeleton_hdf5(path: str | os.PathLike, tree: TreeSkeleton) -> None:
-    """Writes every column of the tree, without loss."""
+    """Writes every column of the tree, without loss. `path` may be a binary file that is open."""
     import h5py
 
     with h5py.File(path, "w", libver=("v110", "v110")) as file:
-        for name in INTEGERS + FLOATS:
-            column = getattr(tree, name)
-            file.create_dataset(name, data=column, compression="gzip" if np.size(column) else None, track_times=False)
+        put_columns(file, tree)
         file.attrs["format"], file.attrs["schema"], file.attrs["version"] = FORMAT, SCHEMA, __version__
+
+
+def put_columns(group, tree: TreeSkeleton) -> None:
+    """One dataset a column into an open HDF5 group."""
+    for name in INTEGERS + FLOATS:
+        put(group, name, getattr(tree, name), "m" if name in _LENGTHS else "1")
+
+
+def put(group, name: str, column, unit: str) -> None:
+    """A dataset with its unit; it names no time."""
+    column = np.asarray(column)
+    group.create_dataset(name, data=column, compression="gzip" if column.size and column.ndim else None, track_times=False).attrs["unit"] = unit

@@ -57,7 +57,7 @@ def preview(
     """
     angles = [_angles(name, azimuth, elevation) for name in ([view] if isinstance(view, str) else view)]
     if isinstance(meshes, (str, Path)):
-        from sketchtree.view_glb import read_glb
+        from sketchtree.export.gltf import read_glb
 
         meshes = read_glb(meshes)
     meshes = [mesh for mesh in meshes if len(mesh.triangle)]

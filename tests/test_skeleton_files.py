@@ -137,7 +137,7 @@ def test_every_ending_has_its_reader(tmp_path):
 def test_another_ending_is_named(tmp_path, name):
     with pytest.raises(SkeletonError) as raised:
         read_skeleton(tmp_path / name)
-    assert str(raised.value) == f"{tmp_path / name} is no skeleton that can be read. Give a file that ends in one of .swc, .json, .npz, .mtg, .csv, .txt, .h5."
+    assert str(raised.value) == f"{tmp_path / name} is no skeleton that can be read. Give a file that ends in one of .swc, .json, .npz, .mtg, .csv, .txt, .h5, .sketchtree."
 
 
 def test_an_id_beyond_what_a_number_holds_is_named_and_a_byte_order_mark_is_none(tmp_path):

@@ -9,7 +9,7 @@ from sketchtree import view
 from sketchtree.errors import ExportError, OptionError
 from sketchtree.geometry.mesh import Material, Mesh
 from sketchtree.view import NO_OPENGL, REFUSED, VIEWS, frame_camera, preview
-from sketchtree.view_glb import read_glb
+from sketchtree.export.gltf import read_glb
 from sketchtree.view_light import aligned, baked_light, ground_light, transmittance
 
 UP = np.array([0.0, 1.0, 0.0])

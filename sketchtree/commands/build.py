@@ -17,7 +17,7 @@ _LATER = {
 
 @click.command("build")
 @click.argument("sketch", type=click.Path(path_type=Path))
-@click.option("-o", "--output", required=True, type=click.Path(path_type=Path), metavar="TREE", help=".glb .obj .ply .stl, .swc .json, or .png")
+@click.option("-o", "--output", required=True, type=click.Path(path_type=Path), metavar="TREE", help=".glb .gltf .usd .usdz .obj .ply .stl .3mf, .swc .mtg .json .h5, .sketchtree, or .png")
 @options.reading
 @options.tree(200_000, "the tree")
 @click.option("--wood", type=click.Choice(["one-piece", "tubes"]), default="tubes", show_default=True)
@@ -32,7 +32,7 @@ def build(sketch: Path, output: Path, seed: int, quiet: bool, json_log: bool, re
     _refuse_planned(wanted)
     from sketchtree.commands import writing
 
-    writing.check_outputs(sketch, output, report, wanted["skeleton"], wanted["preview"])
+    writing.check_outputs(sketch, output, report, wanted["skeleton"], wanted["preview"], kinds=writing.WHOLE)
     from sketchtree import options as choices
     from sketchtree import pipeline
     from sketchtree.keys import root_key

@@ -11,7 +11,7 @@ from sketchtree.commands.progress import Progress
 
 @click.command("forest")
 @click.argument("sketches", nargs=-1, type=click.Path(path_type=Path), metavar="SKETCH...")
-@click.option("-o", "--output", required=True, type=click.Path(path_type=Path), metavar="FOREST", help=".glb .obj .ply .stl, .swc .json, or .png")
+@click.option("-o", "--output", required=True, type=click.Path(path_type=Path), metavar="FOREST", help=".glb .gltf .usd .usdz .obj .ply .stl .3mf, .swc .mtg .json .h5, or .png")
 @click.option("--spacing", type=float, metavar="METRES", help="From trunk to trunk (default: so that the drawings just touch).")
 @options.reading
 @options.tree(1_000_000, "all trees together, shared evenly,")

@@ -7,10 +7,11 @@ from dataclasses import dataclass
 from pathlib import Path
 
 from sketchtree.errors import ExportError
-from sketchtree.export.files import MESHES, SKELETONS, check_extension, check_writable, write_whole
+from sketchtree.export.files import MESHES, PROJECTS, SKELETONS, check_extension, check_program, check_writable, write_whole
 
 PICTURES = (".png",)
 POSTERIORS = (".npz",)
+WHOLE = MESHES + SKELETONS + PROJECTS + PICTURES  # what one whole tree can be written as
 
 
 @dataclass(frozen=True)
@@ -38,6 +39,7 @@ def check_outputs(
             continue
         if allowed is not None:
             check_extension(path, allowed)
+        check_program(path)
         if path.resolve() in taken:
             raise ExportError(f"`{option} {path}` would overwrite {taken[path.resolve()]}.", remedy="Give it another name.")
         taken[path.resolve()] = f"what `{option}` writes"
@@ -51,20 +53,33 @@ def split_options(wanted: dict, *records: type) -> list:
 
 def write_tree(model, output: Path, run: Run, *, skeleton: Path | None, preview: Path | None) -> tuple[str, ...]:
     """Write the tree and what else was asked for; returns warnings (a picture that could not be made)."""
-    from sketchtree.export import gltf, meshes
-    from sketchtree.export.skeletons import skeleton_extras
-
     kind = output.suffix.lower()
-    if kind == ".glb":
-        gltf.write_glb(output, model.meshes, extras=skeleton_extras(model.skeleton))
-    elif kind in MESHES:
-        meshes.write_meshes(output, model.meshes)
+    warnings: tuple[str, ...] = ()
+    if kind in MESHES:
+        from sketchtree.export.write import write_asset
+
+        warnings += write_asset(output, asset_of(model, run))
     elif kind in SKELETONS:
         _write_skeleton(output, model.skeleton, run)
+    elif kind in PROJECTS:
+        from sketchtree.export.skeletons.hdf5 import write_project
+
+        write_project(output, model, seed=run.seed, options=run.options)
     if skeleton is not None:
         _write_skeleton(skeleton, model.skeleton, run)
     pictures = [path for path in (output if kind in PICTURES else None, preview) if path is not None]
-    return tuple(warning for path in pictures for warning in _picture(model, path))
+    return warnings + tuple(warning for path in pictures for warning in _picture(model, path))
+
+
+def asset_of(model, run: Run):
+    """What a mesh file holds of the tree (or of a forest): one level, the skeleton, and what it was made with."""
+    from sketchtree.asset import Asset
+    from sketchtree.version import __version__
+
+    drawn = getattr(model, "drawn", None)
+    template = {} if drawn is None else {"template": drawn.exemplar.name if drawn.exemplar else None}
+    about = {"program": "SketchTree", "version": __version__, "seed": run.seed, "units": "metres", "up": "y"} | template
+    return Asset.of(model.meshes, skeleton=model.skeleton, about=about)
 
 
 def _picture(model, path: Path) -> tuple[str, ...]:
@@ -118,12 +133,10 @@ def other_readings(output: Path, count: int) -> tuple[Path, ...]:
 
 
 def _write_skeleton(path: Path, tree, run: Run, *, units: str = "metres", frame: str = "world") -> None:
-    from sketchtree.export.skeletons import write_skeleton_json, write_swc
+    from sketchtree.export.write import write_skeleton
     from sketchtree.version import __version__
 
-    header = {"units": units, "frame": frame, "version": __version__, "seed": run.seed}
-    write = write_swc if path.suffix.lower() == ".swc" else write_skeleton_json
-    write(path, tree, header=header)
+    write_skeleton(path, tree, header={"units": units, "frame": frame, "version": __version__, "seed": run.seed})
 
 
 def record(run: Run, drawn, model=None, *, extra_warnings: tuple[str, ...] = ()) -> dict:

@@ -1,28 +1,24 @@
 """Can this file be written, and is it there whole or not at all?
 
 A file is written under a temporary name beside its target, flushed, and renamed over it; whatever stops the
-program, the target holds either what it held before or the whole new file.
+program, the target holds either what it held before or the whole new file. Files that belong together are all written
+under temporary names first; should a rename fail after that, those before it are undone.
 """
 
 import os
 import secrets
-from collections.abc import Iterator
+import shutil
+from collections.abc import Iterator, Mapping
 from contextlib import contextmanager
+from importlib.util import find_spec
 from pathlib import Path
 
 from sketchtree.errors import ExportError
 
-MESHES = (".glb", ".obj", ".ply", ".stl")
-SKELETONS = (".swc", ".json")
-_LATER = {
-    ".gltf": "write .glb, the same format in one file",
-    ".usd": "write .glb",
-    ".usda": "write .glb",
-    ".usdz": "write .glb",
-    ".mtg": "write .swc",
-    ".h5": "write .json",
-    ".sketchtree": "write .glb, which holds the skeleton too",
-}
+MESHES = (".glb", ".gltf", ".usd", ".usda", ".usdc", ".usdz", ".obj", ".ply", ".stl", ".3mf")
+SKELETONS = (".swc", ".mtg", ".json", ".h5")
+PROJECTS = (".sketchtree",)
+_ELSEWHERE = {".fbx": "write .glb, which the same programs open", ".blend": "write .glb and open it in Blender", ".xml": "write .usda or .glb"}
 
 
 def check_extension(path: str | os.PathLike, allowed: tuple[str, ...] = MESHES + SKELETONS) -> str:
@@ -31,11 +27,17 @@ def check_extension(path: str | os.PathLike, allowed: tuple[str, ...] = MESHES +
     if suffix in allowed:
         return suffix
     said = f"`{suffix}` files are not written" if suffix else "it has no extension to tell the format"
-    hint = _LATER.get(suffix, "")
+    hint = _ELSEWHERE.get(suffix, "") if ".glb" in allowed else ""
     raise ExportError(
         f"Can't write {path}: {said}. This version writes {', '.join(allowed)} here.",
         remedy=f"{hint[0].upper()}{hint[1:]}." if hint else "Choose one of these extensions.",
     )
+
+
+def check_program(path: str | os.PathLike) -> None:
+    """Raises `ExportError` where the format needs a package that is not installed. Call it before long work."""
+    if Path(path).suffix.lower() in (".usd", ".usda", ".usdc", ".usdz") and find_spec("pxr") is None:
+        raise ExportError(f"Can't write {path}: USD needs the package `usd-core`.", remedy="Install it: pip install 'sketchtree[usd]'.")
 
 
 def check_writable(path: str | os.PathLike) -> Path:
@@ -67,17 +69,95 @@ def whole_file(path: str | os.PathLike) -> Iterator[Path]:
         yield temporary
         os.replace(temporary, path)
     except OSError as error:
-        raise ExportError(f"Can't write {path}: {_why(error)}.", remedy="Free some space or choose another folder.") from error
+        raise _cannot(path, error) from error
     finally:
         temporary.unlink(missing_ok=True)
 
 
 def write_whole(path: str | os.PathLike, data: bytes) -> None:
     """Write the bytes, all or nothing."""
-    with whole_file(path) as temporary, open(temporary, "wb") as file:
+    with whole_file(path) as temporary:
+        _write(temporary, data)
+
+
+def write_set(files: Mapping[Path, bytes]) -> None:
+    """Write files that belong together: afterwards all are new or, where one can't be written, all as they were.
+
+    Folders that are named and missing are made, one level deep. Raises `ExportError` naming the file at fault.
+    """
+    made = _made_folders(files)
+    temporary = {}
+    try:
+        for path, data in files.items():
+            temporary[check_writable(path)] = _beside(path)
+            try:
+                _write(temporary[path], data)
+            except OSError as error:
+                raise _cannot(path, error) from error
+        _exchange(temporary)
+        made = []
+    finally:
+        for path in temporary.values():
+            path.unlink(missing_ok=True)
+        for folder in made:
+            folder.rmdir()
+
+
+def _made_folders(files: Mapping[Path, bytes]) -> list[Path]:
+    """Folders in the one that the files share, which were missing and are there now."""
+    home, made = min((path.parent for path in files), key=lambda folder: len(folder.parts)), []
+    for folder in dict.fromkeys(path.parent for path in files):
+        if folder.parent == home and folder != home and not folder.exists():
+            try:
+                folder.mkdir()
+            except OSError as error:
+                raise _cannot(folder, error) from error
+            made.append(folder)
+    return made
+
+
+def _exchange(temporary: Mapping[Path, Path]) -> None:
+    """Every temporary file over its target; what was there comes back if one can't be moved."""
+    kept, moved, path = {}, [], None
+    try:
+        for path, new in temporary.items():
+            if path.exists() and len(temporary) > 1:
+                kept[path] = _twin(path)
+            os.replace(new, path)
+            moved.append(path)
+    except BaseException as error:
+        for done in moved:
+            if done in kept:
+                os.replace(kept.pop(done), done)
+            else:
+                done.unlink(missing_ok=True)
+        if isinstance(error, OSError):
+            raise _cannot(path, error) from error
+        raise
+    finally:
+        for old in kept.values():
+            old.unlink(missing_ok=True)
+
+
+def _twin(path: Path) -> Path:
+    """A second name of the same file; where the disk has no such thing, a copy."""
+    twin = _beside(path)
+    try:
+        os.link(path, twin)
+    except OSError:
+        shutil.copyfile(path, twin)
+    return twin
+
+
+def _write(path: Path, data: bytes) -> None:
+    with open(path, "wb") as file:
         file.write(data)
         file.flush()
         os.fsync(file.fileno())
+
+
+def _cannot(path: Path, error: OSError) -> ExportError:
+    return ExportError(f"Can't write {path}: {_why(error)}.", remedy="Free some space or choose another folder.")
 
 
 def _beside(path: Path) -> Path:

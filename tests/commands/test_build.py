@@ -10,7 +10,7 @@ import numpy as np
 import pytest
 
 from sketchtree.commands.app import run
-from sketchtree.export.skeletons import read_glb_skeleton
+from sketchtree.export.gltf import read_glb_skeleton
 from sketchtree.skeleton_files import read_swc
 from sketchtree.report import report_schema
 

@@ -8,7 +8,7 @@ import numpy as np
 import pytest
 
 from sketchtree.commands.app import run
-from sketchtree.export.skeletons import read_glb_skeleton
+from sketchtree.export.gltf import read_glb_skeleton
 from sketchtree.report import report_schema
 
 ROOT = Path(__file__).resolve().parents[2]

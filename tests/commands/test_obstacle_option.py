@@ -9,7 +9,7 @@ import trimesh
 from tests.propagate.space.solids import ball, box, meets
 
 from sketchtree.commands.app import run
-from sketchtree.export.skeletons import read_glb_skeleton
+from sketchtree.export.gltf import read_glb_skeleton
 from sketchtree.skeleton import Kind
 
 ROOT = Path(__file__).resolve().parents[2]

@@ -9,7 +9,7 @@ from shapes import checks, leafy, square, textured
 
 from sketchtree.errors import ExportError
 from sketchtree.export.gltf import GENERATOR, glb_bytes, read_glb_json, write_glb
-from sketchtree.export.tangents import tangents
+from sketchtree.export.gltf.tangents import tangents
 
 
 def document(meshes, **options):
@@ -77,12 +77,12 @@ def test_wood_has_all_its_textures_and_tangents():
     assert "normalTexture" in material and "TANGENT" in content["meshes"][0]["primitives"][0]["attributes"]
 
 
-def test_opaque_colours_are_jpeg_and_normals_and_alpha_are_png():
+def test_colours_and_normals_are_jpeg_and_alpha_is_png():
     kinds = {image["name"]: image["mimeType"] for image in document([textured(), leafy()])["images"]}
     assert kinds == {
         "wood_checks_albedo": "image/jpeg",
         "wood_checks_roughness": "image/jpeg",
-        "wood_checks_normal": "image/png",
+        "wood_checks_normal": "image/jpeg",
         "leaf_checks_albedo": "image/png",
     }
 

@@ -52,5 +52,5 @@ def test_nothing_to_write_is_named(tmp_path):
 
 
 def test_another_extension_is_named(tmp_path):
-    with pytest.raises(ExportError, match=r"This version writes \.obj, \.ply, \.stl here"):
+    with pytest.raises(ExportError, match=r"This version writes \.obj, \.ply, \.stl, \.3mf here"):
         write_meshes(tmp_path / "t.fbx", [square()])

@@ -6,14 +6,9 @@ import pytest
 from shapes import curved, square
 
 from sketchtree.errors import ExportError, SkeletonError
-from sketchtree.export.gltf import write_glb
-from sketchtree.export.skeletons import (
-    read_glb_skeleton,
-    skeleton_extras,
-    skeleton_from_extras,
-    write_skeleton_json,
-    write_swc,
-)
+from sketchtree.export.gltf import read_glb_skeleton, write_glb
+from sketchtree.export.skeletons import write_skeleton_json, write_swc
+from sketchtree.export.skeletons.packed import skeleton_extras, skeleton_from_extras
 from sketchtree.skeleton import TreeSkeleton
 from sketchtree.skeleton_files import read_skeleton_json, read_swc
 

@@ -1,24 +1,18 @@
-"""Skeletons as files: SWC for other programs, JSON without loss, and a compact form inside a GLB.
+"""Skeletons as SWC, for other programs.
 
 SWC (Cannon et al. 1998): one line a node, `id type x y z radius parent`, parents first, ids from 1. Type 5 is a fork,
 6 an end, 0 anything else. Every node of the read polylines is a line, the drawn points between two tips too; their
 radius is interpolated along the curve. Numbers have 9 significant digits.
 """
 
-import base64
-import json
 import os
-import zlib
 from collections.abc import Mapping
 
 import numpy as np
 
 from sketchtree.axes import NULL
-from sketchtree.errors import ExportError, SkeletonError
 from sketchtree.export.files import check_extension, write_whole
-from sketchtree.export.gltf import read_glb_json
 from sketchtree.skeleton import TreeSkeleton
-from sketchtree.skeleton_files import FLOATS, FORMAT, INTEGERS, shaped
 from sketchtree.version import __version__
 
 
@@ -71,56 +65,3 @@ def _share_along(tree: TreeSkeleton, row):
     rest = np.linalg.norm(tree.tip[row[last]] - tree.curve_points[last], axis=1)
     whole = np.repeat(gone[last] + rest, np.diff(np.r_[np.flatnonzero(first), len(row)]))
     return gone / np.where(whole > 0, whole, 1.0)
-
-
-def write_skeleton_json(path: str | os.PathLike, tree: TreeSkeleton, *, header: Mapping[str, object] | None = None) -> None:
-    """Write every column without loss, all or nothing. NaN is written as null."""
-    check_extension(path, (".json",))
-    columns = {name: _plain(getattr(tree, name)) for name in INTEGERS + FLOATS}
-    content = {"sketchtree_skeleton": FORMAT, "version": __version__, "header": dict(header or {}), "columns": columns}
-    write_whole(path, json.dumps(content, allow_nan=False, separators=(",", ":")).encode())
-
-
-def skeleton_extras(tree: TreeSkeleton) -> dict:
-    """The tree as small JSON for `write_glb(extras=...)`: positions as 32-bit floats, columns packed by zlib.
-
-    Columns that say nothing (all unknown) are left out. `read_glb_skeleton` reads it back.
-    """
-    columns = {}
-    for name in INTEGERS + FLOATS:
-        column = getattr(tree, name)
-        if name in ("depth_sd", "age") and np.isnan(column).all():
-            continue
-        column = column.astype("<f4" if name in FLOATS else _smallest(column))
-        columns[name] = [column.dtype.str, base64.b64encode(zlib.compress(column.tobytes(), 6)).decode()]
-    return {"sketchtree_skeleton": FORMAT, "version": __version__, "rows": len(tree), "columns": columns}
-
-
-def skeleton_from_extras(extras: dict) -> TreeSkeleton:
-    """The tree that `skeleton_extras` packed. Raises `SkeletonError` where there is none."""
-    if not isinstance(extras, dict) or extras.get("sketchtree_skeleton") != FORMAT:
-        raise SkeletonError("There is no skeleton of ours here.", remedy="Give a GLB file written by this version of `sketchtree`.")
-    columns = {name: np.full(extras["rows"], np.nan) for name in ("depth_sd", "age")}
-    for name, (dtype, text) in extras["columns"].items():
-        columns[name] = np.frombuffer(zlib.decompress(base64.b64decode(text)), dtype)
-    return TreeSkeleton(**shaped(columns))
-
-
-def read_glb_skeleton(path: str | os.PathLike) -> TreeSkeleton:
-    """The skeleton inside a GLB that we wrote. Raises `ExportError` where the file is none or holds none."""
-    extras = read_glb_json(path).get("scenes", [{}])[0].get("extras", {})
-    found = [value for value in (extras, *extras.values()) if isinstance(value, dict) and "sketchtree_skeleton" in value]
-    if not found:
-        raise ExportError(f"{path} holds no skeleton.", remedy="Give a GLB file written by `sketchtree build`.")
-    return skeleton_from_extras(found[0])
-
-
-def _plain(column):
-    if column.dtype.kind == "f" and np.isnan(column).any():
-        return [None if np.isnan(value) else value for value in column.tolist()]
-    return column.tolist()
-
-
-def _smallest(column) -> str:
-    low, high = (int(column.min()), int(column.max())) if column.size else (0, 0)
-    return next(kind for kind in ("<i1", "<i2", "<i4", "<i8") if np.iinfo(kind).min <= low and high <= np.iinfo(kind).max)

@@ -1,0 +1,78 @@
+"""A mesh in glTF's words: one primitive, its columns as small as the format lets them be without an extension.
+
+    POSITION NORMAL TEXCOORD_n TANGENT   32-bit floats; tangents where there is a normal map and nothing is cut away
+    COLOR_n                              normalised bytes, four channels
+    JOINTS_n WEIGHTS_n                   bytes (joints: two where there are more than 256); weights sum to 255
+    indices                              16 bits up to 65,535 vertices
+"""
+
+import re
+
+import numpy as np
+
+from sketchtree.export.gltf.materials import material_number
+from sketchtree.export.gltf.tables import INDEX, Tables, as_bytes, unit32
+from sketchtree.export.gltf.tangents import tangents
+from sketchtree.geometry.mesh import Mesh
+
+_NARROW = 65535  # the last index of 16 bits restarts a strip
+_JOINTS = re.compile(r"(JOINTS|WEIGHTS)_\d+")
+
+
+def mesh_number(tables: Tables, mesh: Mesh, name: str, *, skinned: bool = False) -> int:
+    """Its place in the table of meshes. Joints and weights are left out unless it is `skinned`."""
+    key = ("mesh", id(mesh), name)
+    if key in tables.known:
+        return tables.known[key]
+    wide = len(mesh.position) > _NARROW
+    primitive = {
+        "attributes": _columns(tables, mesh, skinned),
+        "indices": tables.column(mesh.triangle.astype("<u4" if wide else "<u2").ravel(), INDEX),
+        "material": material_number(tables, mesh.material),
+        "mode": 4,
+    }
+    tables.meshes.append({"name": name, "primitives": [primitive]})
+    tables.known[key] = len(tables.meshes) - 1
+    return tables.known[key]
+
+
+def is_skinned(mesh: Mesh) -> bool:
+    """Does it say which joints move it?"""
+    return "JOINTS_0" in mesh.extra
+
+
+def _columns(tables: Tables, mesh: Mesh, skinned: bool) -> dict:
+    attributes = {
+        "POSITION": tables.column(mesh.position.astype("<f4"), bounds=True),
+        "NORMAL": tables.column(unit32(mesh.normal)),
+        "TEXCOORD_0": tables.column(mesh.uv.astype("<f4")),
+    }
+    if mesh.material.normal_texture is not None and mesh.material.alpha_cutoff is None:  # cards: readers derive them
+        tangent = tangents(mesh)
+        attributes["TANGENT"] = tables.column(np.concatenate([unit32(tangent[:, :3]), tangent[:, 3:].astype("<f4")], axis=1))
+    if mesh.color is not None:
+        attributes["COLOR_0"] = _color(tables, mesh.color)
+    elif any(name.startswith("COLOR_") for name in mesh.extra):  # sets are counted from 0 without a gap
+        attributes["COLOR_0"] = _color(tables, np.ones((len(mesh.position), 4)))
+    for name, column in mesh.extra.items():
+        if not _JOINTS.fullmatch(name):
+            attributes[name] = _color(tables, column) if name.startswith("COLOR_") else tables.column(column.astype("<f4"))
+    if skinned:
+        attributes |= _influences(tables, mesh)
+    return attributes
+
+
+def _color(tables: Tables, color) -> int:
+    whole = color if color.shape[1] == 4 else np.concatenate([color, np.ones((len(color), 4 - color.shape[1]))], axis=1)
+    return tables.column(as_bytes(whole), normalized=True)
+
+
+def _influences(tables: Tables, mesh: Mesh) -> dict:
+    """JOINTS_0 and WEIGHTS_0; a joint without weight is joint 0, as the format asks."""
+    weight = np.asarray(mesh.extra["WEIGHTS_0"], float)
+    total = weight.sum(axis=1, keepdims=True)
+    byte = np.floor(255.0 * weight / np.where(total > 0, total, 1.0) + 1e-9).astype(np.int64)
+    byte[np.arange(len(byte)), weight.argmax(axis=1)] += 255 - byte.sum(axis=1)
+    joint = np.where(byte > 0, mesh.extra["JOINTS_0"], 0)
+    small = joint.astype("<u1" if joint.size == 0 or joint.max() < 256 else "<u2")
+    return {"JOINTS_0": tables.column(small), "WEIGHTS_0": tables.column(byte.astype("u1"), normalized=True)}

@@ -1,0 +1,64 @@
+"""Skeletons and projects as HDF5.
+
+A project (`.sketchtree`) is all that a tree was made of, so that it can be made again and edited:
+
+    format, schema, version, seed     attributes of the root
+    sketch                            the drawing, as sketch JSON: no stroke, width or pressure is lost
+    edits                             JSON: operations by limb id, in order; none yet
+    options                           JSON: as used
+    skeleton/                         every column of the complete tree
+    posterior/                        what is known of the drawn segments' depths: depth and depth_sd (sketch units), log_posterior,
+                                      method; alternative_depth [reading segment] and alternative_log_posterior, where asked for
+"""
+
+import io
+import json
+import os
+
+import numpy as np
+
+from sketchtree.export.files import check_extension, write_whole
+from sketchtree.skeleton import TreeSkeleton
+from sketchtree.skeleton_hdf5 import PROJECT, SCHEMA, put, put_columns, write_skeleton_hdf5
+from sketchtree.sketch.files.sketch_json import sketch_json
+from sketchtree.version import __version__
+
+
+def write_hdf5(path: str | os.PathLike, tree: TreeSkeleton) -> None:
+    """Write every column without loss as `.h5`, all or nothing. Raises `ExportError` where it can't be written."""
+    check_extension(path, (".h5",))
+    whole = io.BytesIO()
+    write_skeleton_hdf5(whole, tree)
+    write_whole(path, whole.getvalue())
+
+
+def write_project(path: str | os.PathLike, model, *, seed: int, options: dict) -> None:
+    """Write a `TreeModel` with the drawing it was made of as `.sketchtree`, all or nothing. `options` are JSON."""
+    import h5py
+
+    check_extension(path, (".sketchtree",))
+    whole = io.BytesIO()
+    with h5py.File(whole, "w", libver=("v110", "v110")) as file:
+        file.attrs["format"], file.attrs["schema"], file.attrs["version"], file.attrs["seed"] = PROJECT, SCHEMA, __version__, seed
+        _put_text(file, "sketch", sketch_json(model.drawn.sketch))
+        file["sketch"].attrs["name"] = model.drawn.sketch.name
+        _put_text(file, "edits", "[]")
+        _put_text(file, "options", json.dumps(options, sort_keys=True))
+        put_columns(file.create_group("skeleton"), model.skeleton)
+        _put_posterior(file.create_group("posterior"), model.drawn.fit)
+    write_whole(path, whole.getvalue())
+
+
+def _put_text(file, name: str, text: str) -> None:
+    put(file, name, np.frombuffer(text.encode(), np.uint8), "UTF-8")
+
+
+def _put_posterior(group, fit) -> None:
+    put(group, "depth", fit.depth, "sketch unit")
+    put(group, "depth_sd", fit.depth_sd, "sketch unit")
+    group.attrs["method"] = fit.method
+    if fit.log_posterior is not None:
+        group.attrs["log_posterior"] = fit.log_posterior
+    if fit.alternatives:
+        put(group, "alternative_depth", np.stack([reading.depth for reading in fit.alternatives]), "sketch unit")
+        put(group, "alternative_log_posterior", np.array([reading.log_posterior for reading in fit.alternatives], float), "nat")

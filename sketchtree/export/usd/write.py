@@ -1,0 +1,126 @@
+"""A tree as USD: `.usda` text, `.usd` and `.usdc` binary, `.usdz` one packed file.
+
+Metres, y up. The default prim is the tree, kind `component`, with its parts, a scope `Materials` and, of several levels of detail, a variant set
+`LOD`. Textures lie in a folder NAME_textures beside the file, or in the package. Seed and version stand in `customLayerData`; no
+date, no path: the same asset gives the same bytes.
+"""
+
+import io
+import json
+import tempfile
+import zipfile
+from pathlib import Path
+
+from sketchtree.asset import Asset, Level
+from sketchtree.errors import ExportError
+from sketchtree.export.capsules import capsules_as_json
+from sketchtree.export.checks import check_asset
+from sketchtree.export.files import check_program
+from sketchtree.export.usd.names import prim_name
+from sketchtree.geometry.instances import Instances
+from sketchtree.version import __version__
+
+_ALIGNED = 64  # bytes: where a package's files begin
+_EPOCH = (1980, 1, 1, 0, 0, 0)
+
+
+def usd_files(path: Path, asset: Asset) -> dict[Path, bytes]:
+    """Every file of the asset, by its path. Raises `ExportError` without usd-core, and where a number is not finite."""
+    check_program(path)
+    check_asset(asset)
+    suffix = path.suffix.lower()
+    packed = suffix == ".usdz"
+    stage, textures = _stage(asset, "textures" if packed else f"{path.stem}_textures")
+    layer = _exported(stage.GetRootLayer(), ".usdc" if packed else suffix)
+    if packed:
+        return {path: _package({f"{path.stem}.usdc": layer} | textures)}
+    return {path.parent / name: data for name, data in textures.items()} | {path: layer}
+
+
+def _stage(asset: Asset, folder: str):
+    """(the stage, its textures by their names)."""
+    from pxr import Kind, Usd, UsdGeom, UsdSkel
+
+    from sketchtree.export.usd.bones import define_bones
+    from sketchtree.export.usd.materials import Materials
+
+    stage = Usd.Stage.CreateInMemory()
+    UsdGeom.SetStageUpAxis(stage, UsdGeom.Tokens.y)
+    UsdGeom.SetStageMetersPerUnit(stage, 1.0)
+    root = f"/{prim_name(asset.name, set())}"
+    top = (UsdSkel.Root if asset.armature is not None else UsdGeom.Xform).Define(stage, root).GetPrim()
+    stage.SetDefaultPrim(top)
+    Usd.ModelAPI(top).SetKind(Kind.Tokens.component)
+    stage.GetRootLayer().customLayerData = {"creator": f"SketchTree {__version__}"} | _told(asset)
+    materials = Materials(stage, f"{root}/Materials", folder)
+    skeleton = define_bones(stage, f"{root}/bones", asset.armature) if asset.armature is not None else None
+    if len(asset.levels) == 1:
+        _parts(stage, root, asset.levels[0], materials, skeleton)
+    else:
+        _variants(stage, top, root, asset, materials, skeleton)
+    box = UsdGeom.BBoxCache(Usd.TimeCode.Default(), UsdGeom.Imageable.GetOrderedPurposeTokens())
+    model = UsdGeom.ModelAPI.Apply(top)
+    model.SetExtentsHint(model.ComputeExtentsHint(box))
+    return stage, materials.files
+
+
+def _variants(stage, top, root: str, asset: Asset, materials, skeleton) -> None:
+    """A variant a level; the finest is chosen."""
+    levels = top.GetVariantSets().AddVariantSet("LOD")
+    for number, level in enumerate(asset.levels):
+        levels.AddVariant(f"LOD{number}")
+        levels.SetVariantSelection(f"LOD{number}")
+        with levels.GetVariantEditContext():
+            _parts(stage, root, level, materials, skeleton)
+    levels.SetVariantSelection("LOD0")
+
+
+def _parts(stage, root: str, level: Level, materials, skeleton) -> None:
+    from sketchtree.export.usd.parts import define_mesh, define_places
+
+    taken = {"Materials", "bones"}
+    for part in level.parts:
+        if not part.triangle_count:
+            continue
+        path = f"{root}/{prim_name(part.name, taken)}"
+        if isinstance(part, Instances):
+            define_places(stage, path, part, materials)
+        else:
+            define_mesh(stage, path, part, materials, skeleton=skeleton)
+
+
+def _told(asset: Asset) -> dict:
+    """What the file is about, as USD's metadata can hold it."""
+    from sketchtree.export.skeletons.packed import skeleton_extras
+
+    told = {name: value for name, value in asset.about.items() if isinstance(value, (str, int, float, bool))}
+    if asset.skeleton is not None:
+        told["skeleton"] = json.dumps(skeleton_extras(asset.skeleton), separators=(",", ":"))
+    if asset.capsules is not None:
+        told["capsules"] = json.dumps(capsules_as_json(asset.capsules), separators=(",", ":"))
+    return told
+
+
+def _exported(layer, suffix: str) -> bytes:
+    """The layer's bytes; USD writes files only by their path."""
+    with tempfile.TemporaryDirectory() as folder:
+        path = Path(folder) / f"layer{suffix}"
+        try:
+            done = layer.Export(str(path))
+        except Exception as error:  # pxr raises Tf.ErrorException where the disk is full
+            raise ExportError(f"Can't write USD: {str(error).strip().splitlines()[-1]}", remedy="Free some space for temporary files.") from error
+        if not done:
+            raise ExportError("Can't write USD: its library gave up.", remedy="Free some space for temporary files.")
+        return path.read_bytes()
+
+
+def _package(files: dict[str, bytes]) -> bytes:
+    """A zip without compression in which every file begins at a multiple of 64 bytes (usdz specification)."""
+    whole = io.BytesIO()
+    with zipfile.ZipFile(whole, "w", zipfile.ZIP_STORED) as archive:
+        for name, data in files.items():
+            entry = zipfile.ZipInfo(name, _EPOCH)
+            begins = whole.tell() + 30 + len(name.encode()) + 4
+            entry.extra = b"\x86\x19" + (-begins % _ALIGNED).to_bytes(2, "little") + bytes(-begins % _ALIGNED)
+            archive.writestr(entry, data)
+    return whole.getvalue()

@@ -1,0 +1,63 @@
+"""Which writer takes this file? By its extension; every file of a set is written, or none."""
+
+import os
+from collections.abc import Mapping, Sequence
+from pathlib import Path
+
+from sketchtree.asset import Asset
+from sketchtree.export.files import MESHES, SKELETONS, check_extension, check_program, check_writable, write_set
+from sketchtree.geometry.instances import Instances
+from sketchtree.skeleton import TreeSkeleton
+
+
+def write_asset(path: str | os.PathLike, asset: Asset, *, separate: bool = False, collision: Sequence[str] = ()) -> tuple[str, ...]:
+    """Write the asset as the extension says; returns what a person should know about what the format could not hold.
+
+    Of several levels of detail OBJ, PLY, STL and 3MF hold the finest, glTF and USD all, in one file or, if `separate`, glTF in one each.
+    `collision` names a node for each capsule in glTF, where they are to be meshes. Raises `ExportError`.
+    """
+    suffix = check_extension(path, MESHES)
+    check_program(path)
+    path = check_writable(path)
+    if suffix in (".glb", ".gltf"):
+        from sketchtree.export.gltf.write import gltf_files
+
+        write_set(gltf_files(path, asset, separate=separate, collision=collision))
+        return ()
+    if suffix.startswith(".usd"):
+        from sketchtree.export.usd.write import usd_files
+
+        write_set(usd_files(path, asset))
+        return ()
+    from sketchtree.export.meshes import mesh_files
+
+    write_set(mesh_files(path, [part.merged() if isinstance(part, Instances) else part for part in asset.parts]))
+    return _left_out(path, asset)
+
+
+def write_skeleton(path: str | os.PathLike, tree: TreeSkeleton, *, header: Mapping[str, object]) -> None:
+    """Write the skeleton as the extension says. `header` (units, frame, version, seed) is told where the format has a place for it. Raises `ExportError`."""
+    suffix = check_extension(path, SKELETONS)
+    if suffix == ".h5":
+        from sketchtree.export.skeletons.hdf5 import write_hdf5
+
+        return write_hdf5(path, tree)
+    from sketchtree.export.skeletons.columns import write_skeleton_json
+    from sketchtree.export.skeletons.mtg import write_mtg
+    from sketchtree.export.skeletons.swc import write_swc
+
+    {".swc": write_swc, ".mtg": write_mtg, ".json": write_skeleton_json}[suffix](path, tree, header=dict(header))
+
+
+def _left_out(path: Path, asset: Asset) -> tuple[str, ...]:
+    """Warnings: what a file without a scene can't hold."""
+    said = []
+    suffix = path.suffix.lower()
+    if len(asset.levels) > 1:
+        said.append(f"{path} holds the finest of {len(asset.levels)} levels of detail; `{suffix}` has no place for more.")
+    if asset.armature is not None or asset.capsules is not None:
+        said.append(f"{path} holds no bones and nothing to collide with; `{suffix}` has no place for them.")
+    leaves = sum(part.triangle_count for part in asset.parts if part.name.startswith("leaf"))
+    if suffix == ".3mf" and leaves:
+        said.append(f"{path} holds the wood alone: leaves are sheets without thickness, which can't be printed.")
+    return tuple(said)
