@@ -86,9 +86,8 @@ def render(meshes: Sequence[Mesh], view: View) -> Seen:
     depth, color, normal, facing = np.full(size, -np.inf), np.zeros((size, 3)), np.zeros((size, 3)), np.zeros(size, bool)
     for mesh in meshes:
         texels = Pyramid.of(mesh.material)
-        for near in map(_nearest, _fragments(mesh, view, texels)):
-            keep = near.depth > depth[near.pixel]
-            near = Fragments(*(getattr(near, name)[keep] for name in Fragments.__dataclass_fields__))
+        for found in _fragments(mesh, view, texels):
+            near = _nearest(found, depth)
             depth[near.pixel] = near.depth
             color[near.pixel] = _colors(mesh, near, texels, view)
             normal[near.pixel], facing[near.pixel] = _normals(mesh, near, view)
@@ -105,8 +104,7 @@ def _fragments(mesh: Mesh, view: View, texels: Pyramid) -> Iterator[Fragments]:
         found = Fragments(found.pixel, found.depth, triangle[found.triangle], found.weight)
         if mesh.material.alpha_cutoff is not None and texels.has_alpha:
             alpha = texels.at(*_texture_places(mesh, found, view))[:, 3]
-            solid = alpha >= mesh.material.alpha_cutoff
-            found = Fragments(*(getattr(found, name)[solid] for name in Fragments.__dataclass_fields__))
+            found = _rows(found, alpha >= mesh.material.alpha_cutoff)
         yield found
 
 
@@ -154,11 +152,17 @@ def _ragged(first, count):
     return which, np.arange(len(which)) - np.repeat(np.cumsum(count) - count, count) + first[which]
 
 
-def _nearest(found: Fragments) -> Fragments:
-    """Of each pixel's fragments the nearest, the later one where two are equally near."""
-    order = np.lexsort((np.arange(len(found.depth)), found.depth, found.pixel))
-    last = order[np.flatnonzero(np.diff(found.pixel[order], append=-1) != 0)]
-    return Fragments(*(getattr(found, name)[last] for name in Fragments.__dataclass_fields__))
+def _nearest(found: Fragments, depth: Float[np.ndarray, " pixel"]) -> Fragments:
+    """Of each pixel's fragments the nearest, where it is nearer than `depth`; the later one where two are equally near."""
+    rows = np.flatnonzero(found.depth > depth[found.pixel])
+    rows = rows[np.argsort(found.depth[rows], kind="stable")]
+    winner = np.full(len(depth), -1)
+    winner[found.pixel[rows]] = rows  # the last one written stays
+    return _rows(found, winner[winner >= 0])
+
+
+def _rows(found: Fragments, rows) -> Fragments:
+    return Fragments(*(getattr(found, name)[rows] for name in Fragments.__dataclass_fields__))
 
 
 def _texture_places(mesh: Mesh, found: Fragments, view: View):
