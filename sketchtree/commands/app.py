@@ -20,6 +20,7 @@ COMMANDS = {
     "batch": "Many drawings in, a tree and a report of each out.",
     "infer": "Only the drawn branches, in 3D.",
     "inspect": "How a drawing is read, as a picture: strokes, junctions, root, crown, doubts.",
+    "convert": "A tree from one kind of file to another.",
     "templates": "The exemplars a sketch is matched with.",
 }
 """Command → its one line of help. Each lives in the module of its name, imported when it is used."""

@@ -11,7 +11,6 @@ COMMANDS = {
     "cloud": "Many photos, or a point cloud",
     "studio": "The studio",
     "view": "Files that drop into real tools",
-    "convert": "Files that drop into real tools",
     "doctor": "Files that drop into real tools",
     "cite": "Files that drop into real tools",
 }

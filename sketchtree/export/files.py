@@ -34,10 +34,10 @@ def check_extension(path: str | os.PathLike, allowed: tuple[str, ...] = MESHES +
     )
 
 
-def check_program(path: str | os.PathLike) -> None:
+def check_program(path: str | os.PathLike, verb: str = "write") -> None:
     """Raises `ExportError` where the format needs a package that is not installed. Call it before long work."""
     if Path(path).suffix.lower() in (".usd", ".usda", ".usdc", ".usdz") and find_spec("pxr") is None:
-        raise ExportError(f"Can't write {path}: USD needs the package `usd-core`.", remedy="Install it: pip install 'sketchtree[usd]'.")
+        raise ExportError(f"Can't {verb} {path}: USD needs the package `usd-core`.", remedy="Install it: pip install 'sketchtree[usd]'.")
 
 
 def check_writable(path: str | os.PathLike) -> Path:

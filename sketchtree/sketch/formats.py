@@ -14,6 +14,7 @@ from sketchtree.sketch.files.excalidraw import excalidraw_sketch, is_excalidraw,
 from sketchtree.sketch.files.excalidraw_embed import embedded_scene
 from sketchtree.sketch.files.inkml import read_inkml
 from sketchtree.sketch.files.limits import MAX_MB, MAX_MEGAPIXELS, MAX_STROKES, check_number, inflate, read_bytes
+from sketchtree.sketch.files.project import drawing_in_project
 from sketchtree.sketch.files.quickdraw import read_quickdraw
 from sketchtree.sketch.files.recognise import EXCALIDRAW, INKML, PICTURES, QUICKDRAW, SKETCH, SVG, WEBP, Unreadable, recognise
 from sketchtree.sketch.files.sketch_json import read_sketch_json, sketch_json
@@ -53,7 +54,7 @@ def read_sketch(
     max_megapixels: float = MAX_MEGAPIXELS,
     progress: Progress | None = None,
 ) -> Sketch:
-    """Read a drawing: SVG (also gzipped), sketch JSON, Excalidraw, InkML, Quick, Draw!, or a picture of a line drawing.
+    """Read a drawing: SVG (also gzipped), sketch JSON, Excalidraw, InkML, Quick, Draw!, a picture of a line drawing, or a project of ours.
 
     Points come in the file's user units, y up (INTERFACES §2); of a picture, in pixels. `progress` is told the part done,
     0 to 1. Raises SketchError, naming file and stroke, for anything that is no such drawing, is larger than
@@ -64,6 +65,7 @@ def read_sketch(
     data = inflate(read_bytes(path, max_mb=max_mb), path.name, max_mb=max_mb)
     if not data.strip(b"\xef\xbb\xbf\xff\xfe\x00 \t\r\n"):
         raise SketchError(f"{path.name} is empty.", remedy="Save the drawing again.")
+    data = drawing_in_project(data) or data
     what = recognise(data)
     if what is None or isinstance(what, Unreadable):
         raise _no_reader(path, what)

@@ -1,6 +1,6 @@
 """A mesh in glTF's words: one primitive, its columns as small as the format lets them be without an extension.
 
-    POSITION NORMAL TEXCOORD_n TANGENT   32-bit floats; tangents where there is a normal map and nothing is cut away
+    POSITION NORMAL TEXCOORD_n TANGENT   32-bit floats; tangents where there is a normal map
     COLOR_n                              normalised bytes, four channels
     JOINTS_n WEIGHTS_n                   bytes (joints: two where there are more than 256); weights sum to 255
     indices                              16 bits up to 65,535 vertices
@@ -47,7 +47,7 @@ def _columns(tables: Tables, mesh: Mesh, skinned: bool) -> dict:
         "NORMAL": tables.column(unit32(mesh.normal)),
         "TEXCOORD_0": tables.column(mesh.uv.astype("<f4")),
     }
-    if mesh.material.normal_texture is not None and mesh.material.alpha_cutoff is None:  # cards: readers derive them
+    if mesh.material.normal_texture is not None:
         tangent = tangents(mesh)
         attributes["TANGENT"] = tables.column(np.concatenate([unit32(tangent[:, :3]), tangent[:, 3:].astype("<f4")], axis=1))
     if mesh.color is not None:

@@ -2,7 +2,7 @@
 
 A project (`.sketchtree`) is all that a tree was made of, so that it can be made again and edited:
 
-    format, schema, version, seed     attributes of the root
+    format, schema, version, seed, template     attributes of the root
     sketch                            the drawing, as sketch JSON: no stroke, width or pressure is lost
     edits                             JSON: operations by limb id, in order; none yet
     options                           JSON: as used
@@ -17,6 +17,7 @@ import os
 
 import numpy as np
 
+from sketchtree.errors import SkeletonError
 from sketchtree.export.files import check_extension, write_whole
 from sketchtree.skeleton import TreeSkeleton
 from sketchtree.skeleton_hdf5 import PROJECT, SCHEMA, put, put_columns, write_skeleton_hdf5
@@ -40,6 +41,7 @@ def write_project(path: str | os.PathLike, model, *, seed: int, options: dict) -
     whole = io.BytesIO()
     with h5py.File(whole, "w", libver=("v110", "v110")) as file:
         file.attrs["format"], file.attrs["schema"], file.attrs["version"], file.attrs["seed"] = PROJECT, SCHEMA, __version__, seed
+        file.attrs["template"] = model.drawn.exemplar.name if model.drawn.exemplar else ""
         _put_text(file, "sketch", sketch_json(model.drawn.sketch))
         file["sketch"].attrs["name"] = model.drawn.sketch.name
         _put_text(file, "edits", "[]")
@@ -62,3 +64,16 @@ def _put_posterior(group, fit) -> None:
     if fit.alternatives:
         put(group, "alternative_depth", np.stack([reading.depth for reading in fit.alternatives]), "sketch unit")
         put(group, "alternative_log_posterior", np.array([reading.log_posterior for reading in fit.alternatives], float), "nat")
+
+
+def read_choices(path: str | os.PathLike) -> dict:
+    """What a project was built with: `seed`, `template`, and `leaf`, `season`, `bark` where they were chosen. Raises `SkeletonError`."""
+    import h5py
+
+    try:
+        with h5py.File(path, "r") as file:
+            said = json.loads(file["options"][()].tobytes())
+            chosen = {name: said[name] for name in ("leaf", "season", "bark") if said.get(name) is not None}
+            return {"seed": int(file.attrs["seed"]), "template": str(file.attrs["template"])} | chosen
+    except (OSError, RuntimeError, ValueError, TypeError, KeyError, AttributeError) as error:
+        raise SkeletonError(f"{path} is no project of ours, or is damaged.", remedy="Build it again.") from error

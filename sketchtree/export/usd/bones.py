@@ -23,7 +23,38 @@ def define_bones(stage, path: str, bones: Armature):
     made.CreateRestTransformsAttr(_matrices(rest))
     extent = np.stack([bones.position.min(axis=0), bones.position.max(axis=0)]).astype(np.float32)
     made.CreateExtentAttr(Vt.Vec3fArray.FromNumpy(extent))
+    made.GetPrim().SetCustomDataByKey("length", Vt.DoubleArray(bones.length.tolist()))  # metres, of each bone
     return made.GetPath()
+
+
+def read_bones(stage) -> Armature | None:
+    """The stage's first skeleton, parents first as UsdSkel asks. None without one."""
+    prim = next((prim for prim in stage.Traverse() if prim.IsA(UsdSkel.Skeleton)), None)
+    if prim is None:
+        return None
+    made = UsdSkel.Skeleton(prim)
+    paths = list(made.GetJointsAttr().Get())
+    bind = np.array([np.array(matrix).T for matrix in made.GetBindTransformsAttr().Get()])
+    above = [path.rpartition("/")[0] for path in paths]
+    length = prim.GetCustomDataByKey("length")
+    return Armature(
+        tuple(made.GetJointNamesAttr().Get() or (path.rpartition("/")[2] for path in paths)),
+        np.array([paths.index(path) if path in paths else NULL for path in above]),
+        bind[:, :3, 3],
+        Rotation.from_matrix(bind[:, :3, :3]).as_quat(),
+        np.zeros(len(paths)) if length is None else np.array(length, float),
+    )
+
+
+def influences(prim, count: int) -> dict:
+    """JOINTS_0 and WEIGHTS_0 of a mesh of `count` vertices; nothing where no joint moves it, or other than four a vertex."""
+    if not prim.HasAPI(UsdSkel.BindingAPI):
+        return {}
+    binding = UsdSkel.BindingAPI(prim)
+    joints, weights = binding.GetJointIndicesPrimvar().Get(), binding.GetJointWeightsPrimvar().Get()
+    if joints is None or weights is None or len(joints) != 4 * count or len(weights) != 4 * count:
+        return {}
+    return {"JOINTS_0": np.array(joints).reshape(count, 4), "WEIGHTS_0": np.array(weights, float).reshape(count, 4)}
 
 
 def _joint_paths(bones: Armature) -> list[str]:

@@ -50,8 +50,7 @@ class Materials:
         if material.alpha_cutoff is not None:
             _set(surface, "opacity", Sdf.ValueTypeNames.Float, alpha, albedo, "a")
             _set(surface, "opacityThreshold", Sdf.ValueTypeNames.Float, material.alpha_cutoff)
-        if material.translucency:
-            made.GetPrim().SetCustomDataByKey("translucency", float(material.translucency))
+        made.GetPrim().SetCustomData({"name": material.name, "base_color": Gf.Vec4f(*map(float, material.base_color)), "translucency": float(material.translucency)})
         return made
 
     def _texture(self, home, material: Material, part: str, image, quality: int, space: str, *, scale=None, bias=None):

@@ -94,6 +94,8 @@ def _told(asset: Asset) -> dict:
     from sketchtree.export.skeletons.packed import skeleton_extras
 
     told = {name: value for name, value in asset.about.items() if isinstance(value, (str, int, float, bool))}
+    if len(asset.levels) > 1:
+        told["lod_coverage"] = json.dumps([float(level.coverage) for level in asset.levels])
     if asset.skeleton is not None:
         told["skeleton"] = json.dumps(skeleton_extras(asset.skeleton), separators=(",", ":"))
     if asset.capsules is not None:
