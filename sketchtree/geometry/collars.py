@@ -14,7 +14,7 @@ The foot of the collar dips into the parent's wood, so that parent and limb meet
 from dataclasses import dataclass
 
 import numpy as np
-from jaxtyping import Float, Int
+from jaxtyping import Bool, Float, Int
 
 from sketchtree.axes import NULL
 from sketchtree.geometry.detail import Detail
@@ -30,7 +30,7 @@ _BEHIND, _AHEAD, _PIECES = 5.0, 10.0, 14  # stretch of the parent that is looked
 
 
 @dataclass(frozen=True, eq=False)
-class _Surface:
+class WoodNear:
     """The parent's wood near each collar: a chain of cones."""
 
     point: Float[np.ndarray, "collar piece+1 3"]
@@ -65,20 +65,38 @@ def collar_tops(lines: CentreLines, detail: Detail, height: float) -> Float[np.n
     limb = np.flatnonzero((lines.parent != NULL) & (lines.radius[lines.start[:-1]] >= detail.collar_radius * height))
     if len(limb) == 0:
         return top
-    surface = _surface(lines, limb)
+    way = ways_out(lines, limb)
+    reach = way.clear(_WIDTH + 0.4)
+    top[limb] = np.where(way.leaves & (reach < 0.9 * lines.length[limb]), reach, 0.0)
+    return top
+
+
+@dataclass(frozen=True, eq=False)
+class WaysOut:
+    """Where the lines of some limbs leave their parents' wood."""
+
+    place: Float[np.ndarray, " limb"]  # metres along the limb
+    sine: Float[np.ndarray, " limb"]  # of the angle to the parent's surface, 0.25-1
+    radius: Float[np.ndarray, " limb"]  # of the limb there, metres
+    leaves: Bool[np.ndarray, " limb"]  # it does leave
+
+    def clear(self, past: float | Float[np.ndarray, " limb"]) -> Float[np.ndarray, " limb"]:
+        """Metres along the limb where its whole ring is `past` radii clear of the parent."""
+        return self.place + self.radius * (1.1 * np.sqrt(1.0 - self.sine**2) / self.sine + past)
+
+
+def ways_out(lines: CentreLines, limb: Int[np.ndarray, " limb"]) -> WaysOut:
+    """Where these limbs leave the wood of their parents, by marching along their lines."""
+    surface = wood_near(lines, limb)
     thick = surface.radius[:, _PIECES // 3]
     s = np.minimum(_FAR * thick, lines.length[limb])[:, None] * np.linspace(0.0, 1.0, _MARCH)
     point, radius = lines.at(np.repeat(limb, _MARCH).reshape(s.shape), s)
     gap, _, _ = surface.nearest(point)
-    out, leaves = _crossing(s, gap)
+    out, leaves = crossing(s, gap)
     here = np.clip(np.argmax(s >= out[:, None], axis=1), 1, _MARCH - 1)
     row = np.arange(len(limb))
     sine = (gap[row, here] - gap[row, here - 1]) / np.maximum(s[row, here] - s[row, here - 1], 1e-12)
-    sine = np.clip(sine, 0.25, 1.0)
-    r = radius[row, here]
-    reach = out + r * (1.1 * np.sqrt(1.0 - sine**2) / sine + _WIDTH + 0.4)
-    top[limb] = np.where(leaves & (reach < 0.9 * lines.length[limb]), reach, 0.0)
-    return top
+    return WaysOut(out, np.clip(sine, 0.25, 1.0), radius[row, here], leaves)
 
 
 def raise_collars(
@@ -101,19 +119,19 @@ def raise_collars(
     ring = first[:, None] + np.arange(size)
     tube, length = vertex[ring], s[ring[:, -1], 0]
     r = rings.radius[rings.start[limb] + size - 1]
-    surface = _surface(lines, limb)
-    foot = _feet(surface, tube, length)
+    surface = wood_near(lines, limb)
+    foot = feet(surface, tube, length)
     width = _WIDTH * r[:, None]
     shoulder = np.minimum(foot + width, 0.97 * length[:, None])
-    at_foot, at_shoulder = _along(tube, foot, length), _along(tube, shoulder, length)
+    at_foot, at_shoulder = along(tube, foot, length), along(tube, shoulder, length)
     centre = rings.point[rings.start[limb] + size - 1]
-    low, deep, normal = _skirt(surface, at_foot, at_shoulder, centre, width, tolerance)
+    low, deep, normal = skirt_of(surface, at_foot, at_shoulder, centre, width, tolerance)
     above = 1 + size // 9  # rings between the bow and the top
     t = np.linspace(0.0, 1.0, size - 2 - above)[:, None, None]
     bow = (1 - t) ** 2 * low[:, None] + 2 * (1 - t) * t * at_foot[:, None] + t**2 * at_shoulder[:, None]
     share = np.arange(1, above + 1)[:, None] / (above + 1)
     rise = (length[:, None] - shoulder)[:, None] * share + shoulder[:, None]
-    upper = np.stack([_along(tube, rise[:, k], length) for k in range(above)], axis=1)
+    upper = np.stack([along(tube, rise[:, k], length) for k in range(above)], axis=1)
     vertex[ring] = np.concatenate([deep[:, None], bow, upper, tube[:, -1:]], axis=1)
     skirt = foot - 0.9 * width
     curve = (1 - t[..., 0]) * skirt[:, None] + t[..., 0] * shoulder[:, None]
@@ -122,28 +140,28 @@ def raise_collars(
     return np.stack([normal, normal], axis=1)
 
 
-def _skirt(surface: _Surface, foot, shoulder, centre, width, tolerance: float):
+def skirt_of(surface: WoodNear, foot, shoulder, centre, width, tolerance: float):
     """The lowest visible points of the collar, on the parent's surface, and the ring below them, inside the wood."""
     _, normal, thick = surface.nearest(foot)
-    ahead = _unit(shoulder - foot)
-    outward = _unit(_flat(shoulder - centre[:, None], ahead))
-    aside = _unit(_flat(outward, normal) - 0.35 * _flat(ahead, normal))
+    ahead = unit(shoulder - foot)
+    outward = unit(_flat(shoulder - centre[:, None], ahead))
+    aside = unit(_flat(outward, normal) - 0.35 * _flat(ahead, normal))
     width = np.minimum(width, 0.8 * thick)
     gap, normal, thick = surface.nearest(foot + width[..., None] * aside)
     low = foot + width[..., None] * aside - (gap + 1.5 * tolerance + _SINK * width)[..., None] * normal
     return low, low - (0.25 * thick)[..., None] * normal, normal
 
 
-def _feet(surface: _Surface, tube, length):
+def feet(surface: WoodNear, tube, length):
     """Where each generator leaves the parent's wood, metres along the limb."""
     collar, ring, side = tube.shape[:3]
     gap = surface.nearest(tube.reshape(collar, -1, 3))[0].reshape(collar, ring, side)
     s = length[:, None] * np.linspace(0.0, 1.0, ring)
-    out, leaves = _crossing(np.repeat(s[:, None], side, axis=1), np.moveaxis(gap, 1, 2))
+    out, leaves = crossing(np.repeat(s[:, None], side, axis=1), np.moveaxis(gap, 1, 2))
     return np.where(leaves, np.minimum(out, 0.85 * length[:, None]), np.where(gap[:, -1] > 0, 0.0, 0.85 * length[:, None]))
 
 
-def _crossing(s, gap):
+def crossing(s, gap):
     """The place past which `gap` stays above 0 for the first time (last axis), and whether there is one."""
     passes = (gap[..., :-1] <= 0) & (gap[..., 1:] > 0)
     left = np.argmax(passes, axis=-1)[..., None]
@@ -154,7 +172,7 @@ def _crossing(s, gap):
     return s0 + share * (s1 - s0), found
 
 
-def _along(tube, s, length):
+def along(tube, s, length):
     """Points `s` (collar side) metres along the generators."""
     last = tube.shape[1] - 1
     place = np.clip(s / length[:, None], 0.0, 1.0) * last
@@ -164,18 +182,19 @@ def _along(tube, s, length):
     return (1 - share) * tube[collar, left, side] + share * tube[collar, left + 1, side]
 
 
-def _surface(lines: CentreLines, limb) -> _Surface:
+def wood_near(lines: CentreLines, limb: Int[np.ndarray, " collar"]) -> WoodNear:
+    """The parents' wood near the feet of these limbs."""
     parent, place = lines.parent[limb], lines.parent_s[limb]
     _, thick = lines.at(parent, place)
     offset = np.linspace(-_BEHIND, _AHEAD, _PIECES + 1)
     around = np.repeat(parent, _PIECES + 1).reshape(len(limb), -1)
     point, radius = lines.at(around, place[:, None] + thick[:, None] * offset)
-    return _Surface(point, radius)
+    return WoodNear(point, radius)
 
 
 def _flat(vector, normal):
     return vector - np.sum(vector * normal, axis=-1, keepdims=True) * normal
 
 
-def _unit(vector):
+def unit(vector):
     return vector / np.maximum(np.linalg.norm(vector, axis=-1, keepdims=True), 1e-12)

@@ -51,7 +51,7 @@ def halvings(
         for l in range(1, (n & -n).bit_length()):
             tried[n >> l >= np.maximum(needed, 3)] = l
         tried[within < whole[limb]] = 0
-        tried = _one_at_a_time(tried, within, limb)
+        tried = one_at_a_time(tried, within, limb)
         total = np.bincount(limb, n >> tried, minlength=len(whole)).astype(np.int64)
         better = able & (total < best)
         best[better], side[better] = total[better], n
@@ -66,8 +66,10 @@ def _falling(needed, limb, start):
     return np.maximum.accumulate(back)[::-1] - (len(start) - limb) * stride
 
 
-def _one_at_a_time(level, within, limb):
-    """At most one halving more than at the ring below."""
-    slack = level - within
+def one_at_a_time(
+    level: Int[np.ndarray, " ring"], step: Int[np.ndarray, " ring"], limb: Int[np.ndarray, " ring"]
+) -> Int[np.ndarray, " ring"]:
+    """Levels that rise by one at most wherever `step` (a count that rises by 0 or 1 a ring) does, and nowhere else."""
+    slack = level - step
     stride = int(np.ptp(slack)) + 1 if len(slack) else 1
-    return np.minimum.accumulate(slack - limb * stride) + limb * stride + within
+    return np.minimum.accumulate(slack - limb * stride) + limb * stride + step

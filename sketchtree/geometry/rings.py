@@ -45,17 +45,34 @@ class Rings:
         return np.repeat(np.arange(len(self.start) - 1), np.diff(self.start))
 
 
+@dataclass(frozen=True, eq=False)
+class Forks:
+    """Where rings are wanted for the sake of the limbs that grow out there."""
+
+    limb: Int[np.ndarray, " place"]  # that gets the ring
+    s: Float[np.ndarray, " place"]  # metres along it
+    margin: Float[np.ndarray, " place"]  # metres, > 0; other rings keep that far away
+
+
 def rings(
     lines: CentreLines,
     collar_top: Float[np.ndarray, " limb"],
     collar_size: Int[np.ndarray, " limb"],
     detail: Detail,
     height: float,
+    *,
+    slender: float = np.inf,
+    forks: Forks | None = None,
 ) -> Rings:
     """Rings of every limb. Where `collar_top` > 0 metres, `collar_size` rings are spaced evenly from the foot
-    up to there, for the collar to take over."""
-    limb, s = _places(lines, detail, height)
-    limb, s = _with_collars(limb, s, collar_top, collar_size, 0.3 * np.maximum(lines.radius[lines.start[:-1]], 1e-6))
+    up to there, for the collar to take over. No two rings stand farther apart than `slender` radii; `forks` get theirs."""
+    limb, s = _places(lines, detail, height, slender)
+    if forks is not None:
+        limb, s = _with_forks(lines, limb, s, forks)
+    clearance = 0.3 * np.maximum(lines.radius[lines.start[:-1]], 1e-6)
+    if forks is not None:
+        clearance = np.minimum(clearance, 0.5 * (lines.length - collar_top))
+    limb, s = _with_collars(limb, s, collar_top, collar_size, clearance)
     start = np.r_[0, np.cumsum(np.bincount(limb, minlength=len(lines)))].astype(np.int64)
     point, radius = lines.at(limb, s)
     tangent = _tangents(lines, limb, s, radius)
@@ -64,7 +81,7 @@ def rings(
     return Rings(start, s, point, tangent, rotation_minimising(point, tangent, start, first), radius)
 
 
-def _places(lines: CentreLines, detail: Detail, height: float):
+def _places(lines: CentreLines, detail: Detail, height: float, slender: float):
     """Limb and place of every ring, before collars and domes."""
     limb = lines.of_point
     tube = np.column_stack([lines.point, lines.radius])
@@ -76,6 +93,7 @@ def _places(lines: CentreLines, detail: Detail, height: float):
     thins = np.ceil(np.where(lines.radius[left] > 4.0 * detail.tolerance * height, thins, 1.0) - 1e-6)
     begin, end = lines.s[left], lines.s[right]
     parts = np.maximum(np.ceil((end - begin) / np.maximum(detail.longest * height, _CLOSEST * lines.radius[left]) - 1e-6), thins)
+    parts = np.maximum(parts, np.ceil((end - begin) / (slender * np.minimum(lines.radius[left], lines.radius[right])) - 1e-6))
     limb, begin, end, parts = _flaring(lines, limb[left], begin, end, np.maximum(parts, 1.0))
     parts = parts.astype(np.int64)
     within = np.arange(parts.sum()) - np.repeat(np.cumsum(parts) - parts, parts)
@@ -111,6 +129,30 @@ def _with_collars(limb, s, collar_top, collar_size, clearance):
     even = np.repeat(collar_top[collared] / np.maximum(size - 1, 1), size) * within
     limb = np.r_[limb[keep], np.repeat(collared, size)]
     s = np.r_[s[keep], even]
+    order = np.lexsort((s, limb))
+    return limb[order], s[order]
+
+
+def _with_forks(lines: CentreLines, limb, s, forks: Forks):
+    """The places with those that the forks want, which the others give way to; both ends of every limb stay."""
+    stride = float(lines.length.max(initial=0.0)) * 2.0 + 1.0
+    rank = np.lexsort((forks.s, forks.limb))
+    wanted, margin = (forks.limb * stride + forks.s)[rank], forks.margin[rank]
+    far = np.ones(len(wanted), bool)
+    for _ in range(3):  # of wanted rings that stand close together, one stays
+        kept = np.flatnonzero(far)
+        close = np.diff(wanted[kept]) < 0.5 * np.minimum(margin[kept][1:], margin[kept][:-1])
+        drop = np.r_[False, close][: len(kept)] & (np.cumsum(np.r_[False, close][: len(kept)]) % 2 == 1)
+        far[kept[drop]] = False
+    wanted, margin, on = wanted[far], margin[far], forks.limb[rank][far]
+    place = limb * stride + s
+    after = np.clip(np.searchsorted(wanted, place), 0, max(len(wanted) - 1, 0))
+    before = np.maximum(after - 1, 0)
+    close = np.zeros(len(place), bool)
+    if len(wanted):
+        close = (np.abs(wanted[after] - place) < margin[after]) | (np.abs(wanted[before] - place) < margin[before])
+    keep = ~close | (s <= 0.0) | (s >= lines.length[limb])
+    limb, s = np.r_[limb[keep], on], np.r_[s[keep], wanted - on * stride]
     order = np.lexsort((s, limb))
     return limb[order], s[order]
 

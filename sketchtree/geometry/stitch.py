@@ -15,7 +15,7 @@ repeat changes; both copies share position and normal, so the tube is closed whe
 from dataclasses import dataclass
 
 import numpy as np
-from jaxtyping import Float, Int
+from jaxtyping import Bool, Float, Int
 
 from sketchtree.geometry.rings import Rings
 
@@ -31,7 +31,7 @@ class Surface:
 
 
 @dataclass(frozen=True, eq=False)
-class _Stored:
+class StoredRings:
     """The rings as they are stored: twice where the bark's repeat changes, and only the vertices that carry on."""
 
     source: Int[np.ndarray, " stored"]  # ring of each stored ring
@@ -60,7 +60,7 @@ def stitch(
     """
     n = vertex.shape[1]
     limb = np.repeat(np.arange(len(limbs)), np.diff(start))
-    stored = _stored(np.r_[False, (np.diff(repeat) != 0) & (np.diff(limb) == 0)], level, n)
+    stored = stored_rings(np.r_[False, (np.diff(repeat) != 0) & (np.diff(limb) == 0)], level, n)
     used = repeat[stored.source].copy()
     twice = np.flatnonzero(stored.upper != stored.lower)
     used[stored.lower[twice]] = repeat[twice - 1]
@@ -76,39 +76,46 @@ def stitch(
         np.concatenate([vertex[ring, around], ends]),
         np.concatenate([normal[ring, around], end_normal]),
         np.concatenate([uv, _end_uv(uv, stored, low, high, rings, limbs, tile)]),
-        np.concatenate([_sides(stored, start), _fan(stored, low, foot)[:, [1, 0, 2]], _fan(stored, high, tip)]),
+        np.concatenate([sides(stored, start), fan(stored, low, foot)[:, [1, 0, 2]], fan(stored, high, tip)]),
     )
 
 
-def _stored(changed, level, n: int) -> _Stored:
+def stored_rings(
+    changed: Bool[np.ndarray, " ring"], level: Int[np.ndarray, " ring"], n: int | Int[np.ndarray, " ring"]
+) -> StoredRings:
+    """The rings as they are stored, of n columns at their limb's foot; `changed` where another repeat of the bark starts."""
     source = np.repeat(np.arange(len(level)), 1 + changed)
     upper = np.cumsum(1 + changed) - 1
     side = (n >> level)[source]
     first = np.r_[0, np.cumsum(side + 1)]
     within = np.arange(first[-1]) - np.repeat(first[:-1], side + 1)
-    return _Stored(source, upper, upper - changed, side, first, within << np.repeat(level[source], side + 1))
+    return StoredRings(source, upper, upper - changed, side, first, within << np.repeat(level[source], side + 1))
 
 
-def _sides(stored: _Stored, start):
-    """The triangles between successive rings of a limb."""
+def sides(stored: StoredRings, start: Int[np.ndarray, " limb+1"], covered: Bool[np.ndarray, " cell"] | None = None):
+    """The triangles between successive rings of a limb, without the cells `covered` (numbered by the sides of their lower
+    ring, ring by ring; only between rings of as many sides)."""
     below = np.setdiff1d(np.arange(start[-1] - 1), start[1:-1] - 1, assume_unique=True)
     under, over = stored.upper[below], stored.lower[below + 1]
     alike = stored.side[under] == stored.side[over]
     a, d = _pairs(stored, under[alike], over[alike], 1)
     quads = np.stack([a, a + 1, d + 1, a, d + 1, d], axis=-1)
+    if covered is not None:
+        first = np.r_[0, np.cumsum(stored.side[stored.upper])]
+        quads = quads[~covered[first[below[alike]].repeat(stored.side[over[alike]]) + a - stored.first[under[alike]].repeat(stored.side[over[alike]])]]
     a, d = _pairs(stored, under[~alike], over[~alike], 2)
     fans = np.stack([a, a + 1, d, a + 1, d + 1, d, a + 1, a + 2, d + 1], axis=-1)
     return np.concatenate([quads.reshape(-1, 3), fans.reshape(-1, 3)])
 
 
-def _pairs(stored: _Stored, under, over, ratio: int):
+def _pairs(stored: StoredRings, under, over, ratio: int):
     """For each side of the upper rings, its first vertex and the one below it."""
     side = stored.side[over]
     within = np.arange(side.sum()) - np.repeat(np.cumsum(side) - side, side)
     return np.repeat(stored.first[under], side) + ratio * within, np.repeat(stored.first[over], side) + within
 
 
-def _fan(stored: _Stored, ring, centre):
+def fan(stored: StoredRings, ring: Int[np.ndarray, " end"], centre: Int[np.ndarray, " end"]) -> Int[np.ndarray, "triangle 3"]:
     """Triangles from the sides of these rings to a centre, counter-clockwise seen from the tip."""
     side = stored.side[ring]
     a, _ = _pairs(stored, ring, ring, 1)
@@ -123,7 +130,7 @@ def _ends(ring: Rings, limbs, vertex, start):
     return np.concatenate([lid, apex]), np.concatenate([-ring.tangent[first], ring.tangent[last]])
 
 
-def _end_uv(uv, stored: _Stored, low, high, ring: Rings, limbs, tile: float):
+def _end_uv(uv, stored: StoredRings, low, high, ring: Rings, limbs, tile: float):
     """Lids and tips take the bark one radius further on."""
     place = np.concatenate([0.5 * (uv[stored.first[end]] + uv[stored.first[end + 1] - 1]) for end in (low, high)])
     place[: len(limbs), 1] += ring.radius[ring.start[limbs]] / tile

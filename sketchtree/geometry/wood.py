@@ -7,52 +7,124 @@ from jaxtyping import Array, Bool, Float, Int, Key
 
 from sketchtree import keys
 from sketchtree.axes import NULL
+from sketchtree.errors import OptionError
 from sketchtree.geometry.bark import bark_material, rachis_material, twig_material
 from sketchtree.geometry.collars import collar_tops
 from sketchtree.geometry.detail import Detail
 from sketchtree.geometry.limbs import CentreLines, centre_lines
 from sketchtree.geometry.mesh import Material, Mesh
+from sketchtree.geometry.one_piece.joints import joined
 from sketchtree.geometry.radii import is_frond
 from sketchtree.geometry.resolution import collar_rings, halvings, sides
 from sketchtree.geometry.rings import Rings, rings
+from sketchtree.geometry.stitch import Surface
 from sketchtree.geometry.tubes import sweep
 from sketchtree.parameters import Habit
 from sketchtree.skeleton import TreeSkeleton
 
+WAYS = ("one-piece", "tubes")
+"""How wood can be made."""
+
+MOST_JOINED = 2_000
+"""Limbs up to which wood is made in one piece unless told otherwise."""
+
 _YOUNG = 0.012  # metres, radius at its foot of a limb that has no bark yet
 
 
-def wood_mesh(tree: TreeSkeleton, *, bark: str, key: Key[Array, ""], detail: Detail = Detail()) -> Mesh:  # noqa: B008 (frozen)
-    """Limbs as closed tubes that grow out of each other, in one mesh called `wood`.
+@dataclass(frozen=True, eq=False)
+class Wood:
+    """The wood of a tree, and how it was made."""
+
+    meshes: tuple[Mesh, ...]  # `wood` first
+    made: str  # one-piece | tubes
+    warnings: tuple[str, ...] = ()
+
+
+def wood_mesh(
+    tree: TreeSkeleton, *, bark: str, key: Key[Array, ""], detail: Detail = Detail(), wood: str | None = None  # noqa: B008 (frozen)
+) -> Mesh:
+    """All limbs in one mesh called `wood`, made as `wood` says (see `wood_of`).
 
     `bark` is a name of `bark_names()`; `key` shifts the bark of each limb. A tree without a segment gives an
-    empty mesh. With more than `detail.most_triangles` the tolerances grow until it fits; the coarsest mesh has
-    about 12 triangles a limb. Raises `OptionError` for an unknown bark.
+    empty mesh. With more than `detail.most_triangles` the tolerances grow until it fits; the coarsest tubes have
+    about 12 triangles a limb. Raises `OptionError` for an unknown bark or way.
     """
     material = bark_material(bark)
-    plan = plan_wood(tree, centre_lines(tree), detail)
-    return swept(plan, np.ones(len(plan.lines), bool), "wood", material, key)
+    lines = centre_lines(tree)
+    skin, _, _ = _skin(tree, lines, made_as(wood, len(lines)), key, detail)
+    return skin(np.ones(len(lines), bool), "wood", material)
 
 
 def wood_meshes(
-    tree: TreeSkeleton, *, bark: str, habit: Habit, key: Key[Array, ""], detail: Detail = Detail()  # noqa: B008 (frozen)
+    tree: TreeSkeleton, *, bark: str, habit: Habit, key: Key[Array, ""], detail: Detail = Detail(), wood: str | None = None  # noqa: B008 (frozen)
 ) -> tuple[Mesh, ...]:
+    """The meshes of `wood_of`."""
+    return wood_of(tree, bark=bark, habit=habit, key=key, detail=detail, wood=wood).meshes
+
+
+def wood_of(
+    tree: TreeSkeleton, *, bark: str, habit: Habit, key: Key[Array, ""], detail: Detail = Detail(), wood: str | None = None  # noqa: B008 (frozen)
+) -> Wood:
     """The same limbs as `wood_mesh`, in up to three meshes: `wood`, which has bark; `wood_twigs`, limbs too young for it;
     and `wood_rachis`, the midribs of a palm's fronds. `wood` comes first and is always there; the others where there are any.
 
-    `detail.most_triangles` holds for all together. Raises `OptionError` for an unknown bark.
+    `wood` is "one-piece" (all meshes together, welded, are one closed surface a base), "tubes" (each limb a closed tube that
+    dips into its parent) or None: one piece up to `MOST_JOINED` limbs, else tubes, with a warning. `detail.most_triangles` holds for
+    all together. Raises `OptionError` for an unknown bark or way.
     """
     material = bark_material(bark)
     frond = is_frond(tree) if habit.leaf_arrangement == "frond" else np.zeros(len(tree), bool)
-    plan = plan_wood(tree, centre_lines(tree, apart=frond), detail)
-    lines = plan.lines
+    lines = centre_lines(tree, apart=frond)
+    made = made_as(wood, len(lines))
+    skin, lines, sunk = _skin(tree, lines, made, key, detail)
     midrib = frond[lines.first_row]
     twig = (lines.radius[lines.start[:-1]] < _YOUNG) & (lines.parent != NULL) & ~midrib
-    meshes = [swept(plan, ~(midrib | twig), "wood", material, key)]
-    for name, among, skin in (("wood_twigs", twig, twig_material(bark)), ("wood_rachis", midrib, rachis_material())):
+    meshes = [skin(~(midrib | twig), "wood", material)]
+    for name, among, surface in (("wood_twigs", twig, twig_material(bark)), ("wood_rachis", midrib, rachis_material())):
         if among.any():
-            meshes.append(swept(plan, among, name, skin, key))
-    return tuple(meshes)
+            meshes.append(skin(among, name, surface))
+    return Wood(tuple(meshes), made, _warnings(wood, made, len(lines), sunk))
+
+
+def made_as(wood: str | None, limbs: int) -> str:
+    """The way to make the wood of so many limbs, where `wood` is wished for. Raises `OptionError` for an unknown way."""
+    if wood not in (None, *WAYS):
+        raise OptionError(f"There is no way `{wood}` to make wood.", remedy=f"Choose one of: {', '.join(WAYS)}.")
+    return wood or (WAYS[0] if limbs <= MOST_JOINED else WAYS[1])
+
+
+def _warnings(wished: str | None, made: str, limbs: int, sunk: int) -> tuple[str, ...]:
+    if sunk:
+        return (f"{sunk} of {limbs} limbs found no room on the limbs they grow from: each is a closed tube that stands in the wood.",)
+    if wished is None and made != WAYS[0]:
+        return (f"The wood has {limbs:,} limbs, more than {MOST_JOINED:,}, so each is a tube of its own. `--wood one-piece` joins them.",)
+    return ()
+
+
+def _skin(tree: TreeSkeleton, lines: CentreLines, made: str, key: Key[Array, ""], detail: Detail):
+    """What makes the mesh of some limbs, by a name and a material; the lines it uses; and how many limbs could not be joined."""
+    if made == WAYS[0] and len(lines):
+        from sketchtree.geometry.one_piece.piece import within_budget
+
+        lines = joined(lines, tree)
+        piece = within_budget(lines, _shift(lines, key), detail, _extent(tree))
+        return lambda among, name, material: Mesh(name, *_of(piece.part(among)), material), lines, len(piece.sunk)
+    plan = plan_wood(tree, lines, detail)
+    return lambda among, name, material: swept(plan, among, name, material, key), lines, 0
+
+
+def _of(surface: Surface):
+    return surface.position, surface.normal, surface.uv, surface.triangle
+
+
+def _shift(lines: CentreLines, key: Key[Array, ""]) -> Float[np.ndarray, "limb 2"]:
+    """How far each limb's bark is shifted, tiles."""
+    return np.stack([keys.uniform(key, lines.limb_id, draw) for draw in (0, 1)], axis=1)
+
+
+def _extent(tree: TreeSkeleton) -> float:
+    """The longest side of the tree's box, metres."""
+    return max(float(np.ptp(tree.tip, axis=0).max()), 1e-9) if len(tree) else 1.0
 
 
 @dataclass(frozen=True, eq=False)
@@ -75,7 +147,7 @@ class WoodPlan:
 
 def plan_wood(tree: TreeSkeleton, lines: CentreLines, detail: Detail) -> WoodPlan:
     """The rings of every limb, within the budget of `detail`."""
-    height = max(float(np.ptp(tree.tip, axis=0).max()), 1e-9) if len(tree) else 1.0  # the longest side of the tree's box
+    height = _extent(tree)
     while True:
         plan = _plan(lines, detail, height)
         if plan.triangle_count <= detail.most_triangles or detail.is_coarsest:
@@ -85,10 +157,9 @@ def plan_wood(tree: TreeSkeleton, lines: CentreLines, detail: Detail) -> WoodPla
 
 def swept(plan: WoodPlan, among: Bool[np.ndarray, " limb"], name: str, material: Material, key: Key[Array, ""]) -> Mesh:
     """The mesh of the limbs `among` all."""
-    shift = np.stack([keys.uniform(key, plan.lines.limb_id, draw) for draw in (0, 1)], axis=1)
     shape = plan.side, plan.level
-    surface = sweep(plan.lines, plan.ring, shape, plan.collar_top, shift, plan.detail, plan.tolerance, among)
-    return Mesh(name, surface.position, surface.normal, surface.uv, surface.triangle, material)
+    surface = sweep(plan.lines, plan.ring, shape, plan.collar_top, _shift(plan.lines, key), plan.detail, plan.tolerance, among)
+    return Mesh(name, *_of(surface), material)
 
 
 def _plan(lines: CentreLines, detail: Detail, height: float) -> WoodPlan:

@@ -15,7 +15,7 @@ KEY = jax.random.key(0)
 
 
 def wood(tree, **detail):
-    return wood_mesh(tree, bark="oak", key=KEY, detail=Detail(**detail))
+    return wood_mesh(tree, bark="oak", key=KEY, detail=Detail(**detail), wood="tubes")
 
 
 def welded(mesh):
@@ -255,7 +255,7 @@ def test_a_flat_stem_that_hardly_rises_is_meshed():
 
 def test_young_limbs_have_a_skin_of_their_own_and_nothing_is_lost():
     tree = TREES["bushy"]
-    whole, (bark, twigs) = wood(tree), wood_meshes(tree, bark="oak", habit=Habit(), key=KEY)
+    whole, (bark, twigs) = wood(tree), wood_meshes(tree, bark="oak", habit=Habit(), key=KEY, wood="tubes")
     assert len(bark.triangle) + len(twigs.triangle) == len(whole.triangle)
     assert (twigs.name, twigs.material.name) == ("wood_twigs", "wood_oak_young")
     assert bark.name == "wood" and bark.material.name == "wood_oak"
@@ -273,7 +273,7 @@ PALM = Habit(trunk_ratio=0.02, twig_radius=0.009, leaf_arrangement="frond")
 
 
 def test_fronds_and_what_stands_above_the_last_of_them_are_green_midribs():
-    meshes = wood_meshes(palm(), bark="palm", habit=PALM, key=KEY)
+    meshes = wood_meshes(palm(), bark="palm", habit=PALM, key=KEY, wood="tubes")
     assert [mesh.name for mesh in meshes] == ["wood", "wood_rachis"]
     trunk, midribs = meshes
     assert midribs.material.name == "wood_rachis"
@@ -283,7 +283,7 @@ def test_fronds_and_what_stands_above_the_last_of_them_are_green_midribs():
 
 
 def test_every_mesh_of_a_palm_is_closed():
-    for mesh in wood_meshes(palm(), bark="palm", habit=PALM, key=KEY):
+    for mesh in wood_meshes(palm(), bark="palm", habit=PALM, key=KEY, wood="tubes"):
         triangle = welded(mesh)
         edge = np.concatenate([triangle[:, [0, 1]], triangle[:, [1, 2]], triangle[:, [2, 0]]])
         assert {tuple(pair) for pair in edge.tolist()} == {tuple(pair) for pair in edge[:, ::-1].tolist()}
@@ -291,12 +291,12 @@ def test_every_mesh_of_a_palm_is_closed():
 
 def test_a_palm_without_fronds_is_all_trunk():
     tree = stick([(0, y, 0) for y in range(5)], 0.2)
-    assert [mesh.name for mesh in wood_meshes(tree, bark="palm", habit=PALM, key=KEY)] == ["wood"]
+    assert [mesh.name for mesh in wood_meshes(tree, bark="palm", habit=PALM, key=KEY, wood="tubes")] == ["wood"]
 
 
 def test_a_tree_of_one_segment_is_one_tube():
     tree = stick([(0, 0, 0), (0, 1, 0)], 0.05)
-    assert len(wood(tree).triangle) and len(wood_meshes(tree, bark="oak", habit=Habit(), key=KEY)) == 1
+    assert len(wood(tree).triangle) and len(wood_meshes(tree, bark="oak", habit=Habit(), key=KEY, wood="tubes")) == 1
 
 
 def test_unknown_bark_is_named():

@@ -1,0 +1,1 @@
+"""Wood as one closed surface: every limb's tube is stitched into its parent's."""
