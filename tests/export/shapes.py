@@ -1,7 +1,11 @@
 """Small meshes and skeletons for the tests of the export room."""
 
+import dataclasses
+
 import numpy as np
 
+from sketchtree.asset import Armature, Asset, Capsules, Level
+from sketchtree.geometry.instances import Instances
 from sketchtree.geometry.mesh import Material, Mesh
 from sketchtree.skeleton import TreeSkeleton
 
@@ -32,8 +36,6 @@ def textured(name: str = "wood") -> Mesh:
 
 def leafy() -> Mesh:
     """The square as a leaf: cut out by alpha, seen from both sides, tinted."""
-    import dataclasses
-
     leaf = square("leaf", base_color_texture=checks(channels=4), alpha_cutoff=0.5, double_sided=True)
     return dataclasses.replace(leaf, color=np.tile([0.5, 1.0, 0.25, 1.0], (4, 1)))
 
@@ -52,3 +54,44 @@ def curved() -> TreeSkeleton:
         curve_points=np.array([(0, 1.25, 0), (0, 1.5, 0)]),
         curve_start=np.array([0, 0, 0, 2, 2, 2]),
     )
+
+
+def scattered(count: int = 5) -> Instances:
+    """A leaf at several places, each turned, sized and tinted by chance."""
+    rng = np.random.default_rng(0)
+    turn = rng.normal(size=(count, 4))
+    turn /= np.linalg.norm(turn, axis=1, keepdims=True)
+    color = np.column_stack([rng.uniform(0.3, 1.0, (count, 3)), np.ones(count)])
+    leaf = dataclasses.replace(leafy(), color=None)
+    return Instances(leaf, rng.normal(size=(count, 3)), turn, np.full((count, 3), 0.2), color)
+
+
+def bones() -> Armature:
+    """A trunk, and a limb that leaves it sideways."""
+    half = np.sqrt(0.5)
+    place, turn = np.array([(0, 0, 0), (0, 0.5, 0.0)]), np.array([(0, 0, 0, 1), (0, 0, -half, half)])
+    return Armature(("trunk", "limb"), np.array([-1, 0]), place, turn, np.array([0.5, 0.4]))
+
+
+def bending() -> Mesh:
+    """The textured square, bent by two bones, with every further column a game asks for."""
+    wood = textured()
+    columns = {
+        "JOINTS_0": np.array([(0, 0, 0, 0), (0, 1, 0, 0), (1, 0, 0, 0), (1, 0, 0, 0)]),
+        "WEIGHTS_0": np.array([(1, 0, 0, 0), (0.3, 0.7, 0, 0), (0.9, 0.1, 0, 0), (1 / 3, 2 / 3, 0, 0)]),
+        "TEXCOORD_1": wood.uv * 0.5,
+        "COLOR_1": np.tile([0.0, 0.5, 1.0, 0.25], (4, 1)),
+        "_PIVOT": wood.position * 2.0,
+    }
+    return dataclasses.replace(wood, extra=columns)
+
+
+def bars() -> Capsules:
+    """One bar upright on the first bone, one beside it on none."""
+    return Capsules(np.array([(0, 0, 0), (1, 0, 0.0)]), np.array([(0, 1, 0), (1, 0, 0.0)]), np.array([0.1, 0.2]), np.array([0, -1]))
+
+
+def detailed() -> Asset:
+    """Three levels of detail, the coarsest of one card."""
+    levels = (Level((textured(), scattered()), 0.5), Level((square("wood"), leafy()), 0.1), Level((square("leaf_card"),)))
+    return Asset(levels, curved(), about={"seed": 3})

@@ -198,7 +198,7 @@ def _armature(content: dict) -> Armature | None:
         tuple(nodes[row].get("name", f"joint_{i}") for i, row in enumerate(order)),
         np.array([order.index(above[row]) if row in above else NULL for row in order]),
         matrices[:, :3, 3],
-        Rotation.from_matrix(matrices[:, :3, :3]).as_quat(),
+        Rotation.from_matrix(matrices[:, :3, :3]).as_quat(canonical=True),
         np.array([nodes[row].get("extras", {}).get("length", 0.0) for row in order], float),
     )
 

@@ -15,9 +15,14 @@ from sketchtree.version import __version__
 def write_skeleton_json(path: str | os.PathLike, tree: TreeSkeleton, *, header: Mapping[str, object] | None = None) -> None:
     """Write every column without loss, all or nothing. NaN is written as null."""
     check_extension(path, (".json",))
+    write_whole(path, skeleton_json(tree, header=header))
+
+
+def skeleton_json(tree: TreeSkeleton, *, header: Mapping[str, object] | None = None) -> bytes:
+    """The file of `write_skeleton_json` as bytes."""
     columns = {name: _plain(getattr(tree, name)) for name in INTEGERS + FLOATS}
     content = {"sketchtree_skeleton": FORMAT, "version": __version__, "header": dict(header or {}), "columns": columns}
-    write_whole(path, json.dumps(content, allow_nan=False, separators=(",", ":")).encode())
+    return json.dumps(content, allow_nan=False, separators=(",", ":")).encode()
 
 
 def _plain(column):

@@ -41,7 +41,7 @@ def read_bones(stage) -> Armature | None:
         tuple(made.GetJointNamesAttr().Get() or (path.rpartition("/")[2] for path in paths)),
         np.array([paths.index(path) if path in paths else NULL for path in above]),
         bind[:, :3, 3],
-        Rotation.from_matrix(bind[:, :3, :3]).as_quat(),
+        Rotation.from_matrix(bind[:, :3, :3]).as_quat(canonical=True),
         np.zeros(len(paths)) if length is None else np.array(length, float),
     )
 
