@@ -21,6 +21,9 @@ COMMANDS = {
     "infer": "Only the drawn branches, in 3D.",
     "inspect": "How a drawing is read, as a picture: strokes, junctions, root, crown, doubts.",
     "convert": "A tree from one kind of file to another.",
+    "view": "Look at a tree: in a window, as a picture, or turning, as a film.",
+    "doctor": "Does everything work here? What is installed, and what is missing for what.",
+    "cite": "How to cite this program and the methods it uses.",
     "templates": "The exemplars a sketch is matched with.",
 }
 """Command → its one line of help. Each lives in the module of its name, imported when it is used."""

@@ -10,9 +10,6 @@ COMMANDS = {
     "views": "Many photos, or a point cloud",
     "cloud": "Many photos, or a point cloud",
     "studio": "The studio",
-    "view": "Files that drop into real tools",
-    "doctor": "Files that drop into real tools",
-    "cite": "Files that drop into real tools",
 }
 """Command → the section of docs/roadmap.md that describes it."""
 

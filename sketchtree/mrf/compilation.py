@@ -58,7 +58,7 @@ def compiled(function: Callable, *arguments, name: str, keep: bool = True) -> Pr
     shapes = tuple((leaf.shape, str(leaf.dtype)) for leaf in leaves)
     key = (name, structure, shapes)
     if key not in _PROGRAMS:
-        _use_disk_cache()
+        use_disk_cache()
         path = None if not keep else _path(f"{name} {structure} {shapes} {jax.config.jax_enable_x64}")
         columns = [jax.ShapeDtypeStruct(leaf.shape, leaf.dtype) for leaf in leaves]
         make = partial(_make, function, columns, structure, path)
@@ -139,7 +139,7 @@ def _surroundings() -> str:
     return " ".join([hashlib.blake2b(sources).hexdigest(), *versions, features, *flags])
 
 
-def _use_disk_cache() -> None:
+def use_disk_cache() -> None:
     """Point jax at the user's cache folder, unless a folder was chosen already (`JAX_COMPILATION_CACHE_DIR`)."""
     if jax.config.jax_compilation_cache_dir is not None:
         return

@@ -25,7 +25,7 @@ def test_a_folder_chosen_by_the_user_is_kept(tmp_path, monkeypatch):
     before = jax.config.jax_compilation_cache_dir
     try:
         jax.config.update("jax_compilation_cache_dir", str(tmp_path))
-        compilation._use_disk_cache()
+        compilation.use_disk_cache()
         assert jax.config.jax_compilation_cache_dir == str(tmp_path)
     finally:
         jax.config.update("jax_compilation_cache_dir", before)
@@ -38,7 +38,7 @@ def test_without_a_writable_folder_nothing_is_kept(monkeypatch, tmp_path):
     monkeypatch.setattr(compilation, "user_cache_dir", lambda *a, **k: str(blocked))
     try:
         jax.config.update("jax_compilation_cache_dir", None)
-        compilation._use_disk_cache()
+        compilation.use_disk_cache()
         assert jax.config.jax_compilation_cache_dir is None
     finally:
         jax.config.update("jax_compilation_cache_dir", before)

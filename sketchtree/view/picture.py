@@ -1,7 +1,7 @@
 """What does a tree look like? One call draws a picture of its meshes with pyvista, off screen.
 
 VTK ends the whole process where no OpenGL can be had, so the drawing happens in a child process
-(`view_child.py`): the caller learns whether there is a picture and, if not, why, and goes on.
+(`child.py`): the caller learns whether there is a picture and, if not, why, and goes on.
 """
 
 import subprocess
@@ -16,7 +16,7 @@ from jaxtyping import Float
 from sketchtree.errors import OptionError
 from sketchtree.export.files import check_writable, write_whole
 from sketchtree.geometry.mesh import Mesh
-from sketchtree.view_light import baked_light, ground_light
+from sketchtree.view.light import baked_light, ground_light
 
 VIEWS = {"front": (0.0, 4.0), "side": (90.0, 4.0), "back": (180.0, 4.0), "top": (0.0, 89.0), "three-quarter": (32.0, 9.0)}
 """Azimuth and elevation of the camera, degrees; azimuth 0 looks from +z, 90 from +x."""
@@ -30,7 +30,7 @@ REFUSED = "No picture could be drawn: this machine's OpenGL is too old for our s
 
 _FIELD = 26.0  # degrees, vertical
 _MARGIN = 0.06  # of the picture, free on every side
-_CHILD = Path(__file__).with_name("view_child.py")
+_CHILD = Path(__file__).with_name("child.py")
 _FRAGMENTS = 4e8  # surface pixels drawn on top of each other, at most, before a picture is drawn less smoothly
 _SKY = {"horizon": (0.925, 0.930, 0.915), "zenith": (0.690, 0.775, 0.850), "earth": (0.700, 0.690, 0.630)}  # sRGB
 
@@ -63,8 +63,7 @@ def preview(
     meshes = [mesh for mesh in meshes if len(mesh.triangle)]
     if not meshes:
         return False, "No picture was drawn: there is nothing to show."
-    request = _request(meshes, angles, size, focus, ground, supersample)
-    return _in_child(request, Path(png_path), timeout)
+    return draw_in_child(request_of(meshes, angles, size, focus=focus, ground=ground, supersample=supersample), Path(png_path), timeout)
 
 
 def _angles(view: str, azimuth, elevation) -> tuple[float, float]:
@@ -73,7 +72,12 @@ def _angles(view: str, azimuth, elevation) -> tuple[float, float]:
     return VIEWS[view][0] if azimuth is None else azimuth, VIEWS[view][1] if elevation is None else elevation
 
 
-def _request(meshes, angles, size, focus, ground, supersample) -> dict[str, np.ndarray]:
+def request_of(
+    meshes: Sequence[Mesh], angles: Sequence[tuple[float, float]], size: tuple[int, int], *,
+    focus=None, ground: bool = True, supersample: int = 1, around: Float[np.ndarray, "point 3"] | None = None,
+) -> dict[str, np.ndarray]:
+    """What the child is to draw: one picture of `size` pixels for each azimuth and elevation (degrees). Each shows all meshes, or the
+    ball of a `focus` (place and radius, metres), or the points `around` (metres)."""
     points = np.vstack([mesh.position[np.unique(mesh.triangle)] for mesh in meshes])
     centroid, area = (np.concatenate(column) for column in zip(*map(_surfaces, meshes), strict=True))
     base = float(points[:, 1].min())
@@ -82,7 +86,9 @@ def _request(meshes, angles, size, focus, ground, supersample) -> dict[str, np.n
     request = {"size": np.array(size), "meshes": np.array(len(meshes)), "sun": sun}
     request |= {name: np.array(colour) for name, colour in _SKY.items()}
     request["columns"] = np.array(int(np.ceil(np.sqrt(len(angles)))))
-    around = points - shift if focus is None else np.asarray(focus[0]) - shift + focus[1] * _ball()
+    if around is None:
+        around = points if focus is None else np.asarray(focus[0]) + focus[1] * _ball()
+    around = around - shift
     request["camera"] = np.array([frame_camera(around, *angle, size[0] / size[1]) for angle in angles])
     drawn = max(fragments(centroid - shift, area, camera, size) for camera in request["camera"])
     request["supersample"] = np.array(affordable(supersample, drawn))
@@ -184,28 +190,30 @@ def _four(texture):
     return texture if texture.shape[2] == 4 else np.dstack([texture, np.full(texture.shape[:2], 255, np.uint8)])
 
 
-def _in_child(request: dict[str, np.ndarray], png_path: Path, timeout: float) -> tuple[bool, str]:
+def draw_in_child(request: dict[str, np.ndarray], png_path: Path, timeout: float) -> tuple[bool, str]:
+    """Have the child draw the request into a PNG, within `timeout` seconds. (True, "") or (False, one line that says why not)."""
     check_writable(png_path)
     with tempfile.TemporaryDirectory(prefix="sketchtree-view-") as folder:
         asked, drawn = Path(folder) / "request.npz", Path(folder) / "picture.png"
         np.savez(asked, **request)
         try:
-            child = subprocess.run(_command(asked, drawn), capture_output=True, text=True, errors="replace", timeout=timeout)
+            child = subprocess.run(command(asked, drawn), capture_output=True, text=True, errors="replace", timeout=timeout)
         except subprocess.TimeoutExpired:
             return False, f"No picture was drawn: it took longer than {timeout:g} s. Ask for a smaller one, or for fewer leaves."
         if child.returncode or not drawn.exists():
-            return False, _reason(child)
+            return False, reason_of(child)
         if "vtkShaderProgram" in child.stderr:
             return False, REFUSED
         write_whole(png_path, drawn.read_bytes())
     return True, ""
 
 
-def _command(asked: Path, drawn: Path) -> list[str]:
+def command(asked: Path, drawn: Path | str) -> list[str]:
+    """The child's command line."""
     return [sys.executable, "-P", str(_CHILD), str(asked), str(drawn)]
 
 
-def _reason(child: subprocess.CompletedProcess) -> str:
+def reason_of(child: subprocess.CompletedProcess) -> str:
     """One line: VTK ended the process, the driver refused the shaders, or what Python said last."""
     if child.returncode < 0 or child.returncode > 128 or "OpenGL" in child.stdout + child.stderr:
         return NO_OPENGL

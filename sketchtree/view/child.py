@@ -1,6 +1,6 @@
-"""Draws one picture in a process of its own: `python -P view_child.py REQUEST.npz OUT.png`.
+"""Draws one picture in a process of its own: `python -P child.py REQUEST.npz OUT.png`, or opens a window: `… REQUEST.npz window`.
 
-VTK ends the process where no OpenGL can be had, so `view.py` runs this file as a child. It imports nothing
+VTK ends the process where no OpenGL can be had, so `picture.py` and `window.py` run this file as a child. It imports nothing
 of the package. The request holds, for each mesh k, `k.position`, `k.normal`, `k.uv`, `k.triangle`, `k.tint`,
 `k.light` (sun and sky, 0-1), `k.albedo` (sRGB, 4 channels), `k.normal_map`, `k.look` (cutoff, leaf, gloss), the
 ground's light, and the cameras.
@@ -76,6 +76,9 @@ def main(request_path: str, png_path: str) -> None:
 
     with np.load(request_path) as file:
         request = dict(file)
+    if png_path == "window":
+        _window(request)
+        return
     width, height = (int(n) for n in request["size"])
     scale = int(request["supersample"])
     plotter, shaders = _stage(request, (scale * width, scale * height))
@@ -93,13 +96,28 @@ def main(request_path: str, png_path: str) -> None:
     sheet.save(png_path, format="PNG")
 
 
-def _stage(request, size):
+def _window(request) -> None:
+    """A window to turn the tree in; ends when it is closed (or `q` is pressed)."""
+    plotter, shaders = _stage(request, tuple(int(n) for n in request["size"]), window=True)
+    _aim(plotter, shaders, request["camera"][0], request["sun"])
+    plotter.renderer.AddObserver("StartEvent", lambda *_: _look(plotter, shaders))
+    plotter.enable_terrain_style(mouse_wheel_zooms=True)
+    plotter.show(title=str(request["title"]), auto_close=True)
+
+
+def _look(plotter, shaders) -> None:
+    """Tell the shaders where the camera has been turned to."""
+    for shader in shaders:
+        shader.GetFragmentCustomUniforms().SetUniform3f("viewer", [float(x) for x in plotter.camera.position])
+
+
+def _stage(request, size, *, window: bool = False):
     """A plotter with every mesh and the ground, lit by our own shaders, and the shaders' properties."""
     import pyvista
 
-    pyvista.OFF_SCREEN = True
-    plotter = pyvista.Plotter(off_screen=True, window_size=size, lighting="none")
-    plotter.render_window.SetMultiSamples(0)
+    pyvista.OFF_SCREEN = not window
+    plotter = pyvista.Plotter(off_screen=not window, window_size=size, lighting="none")
+    plotter.render_window.SetMultiSamples(4 if window else 0)
     horizon, zenith, earth = request["horizon"], request["zenith"], request["earth"]
     plotter.set_background(tuple(horizon), top=tuple(zenith))
     shaders = []

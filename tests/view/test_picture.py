@@ -5,12 +5,12 @@ import numpy as np
 import pytest
 from PIL import Image
 
-from sketchtree import view
 from sketchtree.errors import ExportError, OptionError
 from sketchtree.geometry.mesh import Material, Mesh
-from sketchtree.view import NO_OPENGL, REFUSED, VIEWS, frame_camera, preview
 from sketchtree.export.gltf import read_glb
-from sketchtree.view_light import aligned, baked_light, ground_light, transmittance
+from sketchtree.view import NO_OPENGL, REFUSED, VIEWS, picture, preview
+from sketchtree.view.picture import frame_camera
+from sketchtree.view.light import aligned, baked_light, ground_light, transmittance
 
 UP = np.array([0.0, 1.0, 0.0])
 
@@ -70,7 +70,7 @@ def test_a_glb_file_and_several_views_make_one_sheet(pictures, tmp_path):
 
 def test_a_crash_of_the_child_is_survived_and_says_what_to_install(monkeypatch, tmp_path):
     crash = "import os, signal; os.kill(os.getpid(), signal.SIGSEGV)"
-    monkeypatch.setattr(view, "_command", lambda asked, drawn: [sys.executable, "-c", crash])
+    monkeypatch.setattr(picture, "command", lambda asked, drawn: [sys.executable, "-c", crash])
     assert preview([card()], tmp_path / "a.png") == (False, NO_OPENGL)
     assert not (tmp_path / "a.png").exists()
 
@@ -84,7 +84,7 @@ def test_the_advice_without_opengl_is_one_line():
 
 def test_refused_shaders_are_reported(monkeypatch, tmp_path):
     script = "import sys; open(sys.argv[1], 'wb').write(b'x'); sys.stderr.write('ERR| vtkShaderProgram: 0:1: error')"
-    monkeypatch.setattr(view, "_command", lambda asked, drawn: [sys.executable, "-c", script, str(drawn)])
+    monkeypatch.setattr(picture, "command", lambda asked, drawn: [sys.executable, "-c", script, str(drawn)])
     assert preview([card()], tmp_path / "a.png") == (False, REFUSED)
     assert REFUSED == (
         "No picture could be drawn: this machine's OpenGL is too old for our shaders (3.2 is needed). "
@@ -93,17 +93,17 @@ def test_refused_shaders_are_reported(monkeypatch, tmp_path):
 
 
 def test_an_error_in_the_child_is_passed_on_in_one_line(monkeypatch, tmp_path):
-    monkeypatch.setattr(view, "_command", lambda asked, drawn: [sys.executable, "-c", "raise MemoryError('too many leaves')"])
+    monkeypatch.setattr(picture, "command", lambda asked, drawn: [sys.executable, "-c", "raise MemoryError('too many leaves')"])
     assert preview([card()], tmp_path / "a.png") == (False, "No picture could be drawn: MemoryError: too many leaves.")
 
 
 def test_a_child_that_says_nothing_is_named_by_its_status():
     silent = subprocess.CompletedProcess([], 3, "", "")
-    assert view._reason(silent) == "No picture could be drawn: the drawing process ended with status 3."
+    assert picture.reason_of(silent) == "No picture could be drawn: the drawing process ended with status 3."
 
 
 def test_a_child_that_hangs_is_ended(monkeypatch, tmp_path):
-    monkeypatch.setattr(view, "_command", lambda asked, drawn: [sys.executable, "-c", "import time; time.sleep(60)"])
+    monkeypatch.setattr(picture, "command", lambda asked, drawn: [sys.executable, "-c", "import time; time.sleep(60)"])
     drawn, reason = preview([card()], tmp_path / "a.png", timeout=0.5)
     assert (drawn, reason) == (False, "No picture was drawn: it took longer than 0.5 s. Ask for a smaller one, or for fewer leaves.")
 
@@ -195,11 +195,11 @@ def test_aligned_axes_are_right_handed_and_orthonormal(direction):
 
 def test_a_picture_costs_the_pixels_its_surfaces_cover():
     camera = np.array([0, 0, 10, 0, 0, 0, 0, 1, 0, 90.0])  # sees 20 m × 20 m at the origin
-    one = view.fragments(np.zeros((1, 3)), np.array([4.0]), camera, (200, 200))
+    one = picture.fragments(np.zeros((1, 3)), np.array([4.0]), camera, (200, 200))
     assert one == pytest.approx(0.5 * 4.0 / 400.0 * 200**2)
-    assert view.fragments(np.array([[0, 0, 20.0]]), np.array([4.0]), camera, (200, 200)) == 0  # behind the camera
-    assert view.fragments(np.array([[0, 0, 9.999]]), np.array([4.0]), camera, (200, 200)) == 200**2
+    assert picture.fragments(np.array([[0, 0, 20.0]]), np.array([4.0]), camera, (200, 200)) == 0  # behind the camera
+    assert picture.fragments(np.array([[0, 0, 9.999]]), np.array([4.0]), camera, (200, 200)) == 200**2
 
 
 def test_a_costly_picture_is_supersampled_less():
-    assert [view.affordable(2, cost) for cost in (0.0, 9e7, 2e8, 1e12)] == [2, 2, 1, 1]
+    assert [picture.affordable(2, cost) for cost in (0.0, 9e7, 2e8, 1e12)] == [2, 2, 1, 1]

@@ -1,0 +1,38 @@
+"""`sketchtree cite`: how to cite this program and the methods that made a tree."""
+
+import json
+from pathlib import Path
+
+import click
+
+
+@click.command("cite")
+@click.argument("report", required=False, type=click.Path(path_type=Path), metavar="[REPORT.json]")
+@click.option("--bibtex", is_flag=True, help="Entries for BibTeX.")
+def cite(report: Path | None, bibtex: bool) -> None:
+    """How to cite this program and the methods it uses; with a REPORT of a run, those that it used."""
+    from sketchtree import citations
+
+    works = citations.works_for(None if report is None else _method(report))
+    if bibtex:
+        click.echo("\n\n".join([citations.program_bibtex(), *(work.bibtex for work in works)]))
+        return
+    click.echo(citations.program_line())
+    for work in works:
+        click.echo(f"\n{work.line}\n  for {work.serves}")
+
+
+def _method(report: Path) -> str | None:
+    """The method that a report names."""
+    from sketchtree.errors import OptionError
+
+    try:
+        content = json.loads(report.read_text("utf-8"))
+    except OSError as error:
+        raise OptionError(f"{report} can't be read: {(error.strerror or 'it failed').lower()}.", remedy="Check the path.") from error
+    except ValueError as error:
+        raise OptionError(f"{report} is no report.", remedy="Give the file that `--report` wrote.") from error
+    if not isinstance(content, dict) or "schema" not in content:
+        raise OptionError(f"{report} is no report.", remedy="Give the file that `--report` wrote.")
+    method = (content.get("infer") or {}).get("method") if isinstance(content.get("infer"), dict) else None
+    return method

@@ -1,0 +1,29 @@
+"""A window in which a tree can be turned and looked at closely: left button turns, right button or wheel goes nearer, middle button moves; `q` closes it."""
+
+import subprocess
+import tempfile
+from collections.abc import Sequence
+from pathlib import Path
+
+import numpy as np
+
+from sketchtree.errors import ExportError
+from sketchtree.geometry.mesh import Mesh
+from sketchtree.view import picture
+
+
+def window(meshes: Sequence[Mesh], title: str, *, size: tuple[int, int] = (1200, 900)) -> None:
+    """Open a window and wait until it is closed. Raises `ExportError` where none can be opened, or there is nothing to show."""
+    meshes = [mesh for mesh in meshes if len(mesh.triangle)]
+    if not meshes:
+        raise ExportError("No window was opened: there is nothing to show.", remedy="Give a tree that has at least one branch.")
+    request = picture.request_of(meshes, [picture.VIEWS["three-quarter"]], size) | {"title": np.array(title)}
+    with tempfile.TemporaryDirectory(prefix="sketchtree-view-") as folder:
+        asked = Path(folder) / "request.npz"
+        np.savez(asked, **request)
+        child = subprocess.run(picture.command(asked, "window"), capture_output=True, text=True, errors="replace")
+    if child.returncode == 0:
+        return
+    reason = picture.reason_of(child)
+    why = "there is no screen, or no OpenGL, here" if reason == picture.NO_OPENGL else reason.split(": ", 1)[-1].rstrip(".")
+    raise ExportError(f"No window could be opened: {why}.", remedy="Use `--screenshot P.png`, which needs no screen.")
