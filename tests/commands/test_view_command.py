@@ -74,11 +74,19 @@ def test_what_could_not_be_drawn_is_a_warning(glb, tmp_path, capsys, monkeypatch
 
 
 def test_without_a_screen_a_window_is_refused_with_another_way(glb, capsys, monkeypatch):
+    for name in ("DISPLAY", "WAYLAND_DISPLAY"):
+        monkeypatch.delenv(name, raising=False)
+    monkeypatch.setattr("sys.platform", "linux")
+    assert app.run(["view", str(glb)]) == 2
+    assert capsys.readouterr().err.endswith("sketchtree: No window could be opened: there is no screen here. Use `--screenshot P.png`, which needs no screen.\n")
+
+
+def test_without_opengl_too(glb, capsys, monkeypatch):
+    monkeypatch.setattr("sketchtree.view.window.has_screen", lambda: True)
     monkeypatch.setattr(picture, "command", lambda *_: ["false"])
     monkeypatch.setattr(picture, "reason_of", lambda _: NO_OPENGL)
     assert app.run(["view", str(glb)]) == 2
-    said = capsys.readouterr().err
-    assert said.endswith("sketchtree: No window could be opened: there is no screen, or no OpenGL, here. Use `--screenshot P.png`, which needs no screen.\n")
+    assert capsys.readouterr().err.endswith("No window could be opened: there is no OpenGL here. Use `--screenshot P.png`, which needs no screen.\n")
 
 
 @pytest.mark.parametrize(("arguments", "said"), [
