@@ -20,8 +20,11 @@ def convert(source: Path, target: Path, seed: int, quiet: bool, json_log: bool, 
     """Write the tree in file A as file B: .glb .gltf .usd .usdz .obj .ply .stl (meshes), .swc .mtg .json .h5 .sketchtree (skeletons; A only: .sketchtree, B only: .3mf .png)."""
     began = time.perf_counter()
     from sketchtree.commands import writing
+    from sketchtree.errors import ExportError
     from sketchtree.export.files import MESHES, SKELETONS
 
+    if source.resolve() == target.resolve():
+        raise ExportError(f"{target} is what is to be read, too.", remedy="Give the new file another name.")
     writing.check_outputs(source, target, report)
     imported = time.perf_counter() - began
     progress = Progress(("read", "mesh", "export"), quiet=quiet, json_log=json_log)
@@ -42,9 +45,9 @@ def convert(source: Path, target: Path, seed: int, quiet: bool, json_log: bool, 
             if not bare:
                 _refuse_dress(wanted, source, "its meshes are dressed already")
             with watch("mesh"):
-                asset, worn = (_dressed(source, contents, seed, db, wanted) if bare else (contents.asset, ""))
+                asset, worn, warnings = _dressed(source, contents, seed, db, wanted) if bare else (contents.asset, "", ())
             with watch("export"):
-                warnings = _write_asset(target, asset) if target.suffix.lower() in MESHES else _write_picture(target, asset)
+                warnings += _write_asset(target, asset) if target.suffix.lower() in MESHES else _write_picture(target, asset)
             counts = {kind: sum(part.triangle_count for part in asset.parts if part.name.startswith(kind)) for kind in ("wood", "leaf")}
             said = f"{sum(part.triangle_count for part in asset.parts)} triangles" + worn
         seconds = {"import": imported} | watch.seconds | {"total": time.perf_counter() - began}
@@ -80,7 +83,7 @@ def _write_picture(target: Path, asset) -> tuple[str, ...]:
 
 
 def _dressed(source: Path, contents, seed: int, db: Path | None, wanted: dict):
-    """(the skeleton as meshes, what the summary says of its dress)."""
+    """(the skeleton as meshes, what the summary says of its dress, warnings)."""
     from sketchtree.asset import Asset
     from sketchtree.choose import bark_model, leaf_model
     from sketchtree.dressing import Dress, dressed
@@ -98,7 +101,10 @@ def _dressed(source: Path, contents, seed: int, db: Path | None, wanted: dict):
     dress = Dress(bark_model(wanted["bark"] or made_of.get("bark"), habit), leaf, season, habit)
     about = {"program": "SketchTree", "version": __version__, "seed": seed, "units": "metres", "up": "y"} | ({"template": template or None} if made_of else {})
     asset = Asset.of(dressed(contents.skeleton, dress, key=root_key(seed)), skeleton=contents.skeleton, about=about)
-    return asset, f", bark {dress.bark}, " + (f"leaves {leaf}" if leaf else "no leaves (`--leaf MODEL` adds them)")
+    worn = f", bark {dress.bark}, " + (f"leaves {leaf}" if leaf else "no leaves (`--leaf MODEL` adds them)")
+    if leaf is None or any(part.name.startswith("leaf") for part in asset.parts):
+        return asset, worn, ()
+    return asset, worn, (f"No leaf grew: no branch of {source} is thin enough to bear them, or the season is bare.",)
 
 
 def _project_dress(source: Path) -> dict:

@@ -1,3 +1,7 @@
+import dataclasses
+import zipfile
+from xml.etree import ElementTree
+
 import numpy as np
 import pytest
 import trimesh
@@ -5,6 +9,7 @@ from shapes import leafy, square, textured
 
 from sketchtree.errors import ExportError
 from sketchtree.export.meshes import write_meshes
+from sketchtree.export.meshes.read import read_meshes
 
 
 @pytest.mark.parametrize("suffix", ["obj", "ply", "stl"])
@@ -54,3 +59,69 @@ def test_nothing_to_write_is_named(tmp_path):
 def test_another_extension_is_named(tmp_path):
     with pytest.raises(ExportError, match=r"This version writes \.obj, \.ply, \.stl, \.3mf here"):
         write_meshes(tmp_path / "t.fbx", [square()])
+
+
+def test_an_obj_is_read_back_with_its_materials(tmp_path):
+    write_meshes(tmp_path / "tree.obj", [textured(), leafy()])
+    wood, leaf = read_meshes(tmp_path / "tree.obj").parts
+    assert (wood.name, wood.material.name, leaf.name, leaf.material.name) == ("wood", "wood_checks", "leaf", "leaf_checks")
+    np.testing.assert_array_equal(leaf.material.base_color_texture[..., 3], leafy().material.base_color_texture[..., 3])
+    assert wood.material.normal_texture is not None and wood.material.roughness_texture is not None
+    for name in ("position", "uv", "normal"):
+        back, given = (getattr(mesh, name)[mesh.triangle] for mesh in (wood, textured()))
+        np.testing.assert_allclose(back, given, atol=1e-6)
+
+
+@pytest.mark.parametrize("suffix", ["ply", "stl"])
+def test_a_plain_mesh_is_read_back(tmp_path, suffix):
+    write_meshes(tmp_path / f"t.{suffix}", [textured(), leafy()])
+    (mesh,) = read_meshes(tmp_path / f"t.{suffix}").parts
+    assert len(mesh.triangle) == 4 and (mesh.color is not None) == (suffix == "ply")
+
+
+def test_an_obj_of_another_program_is_read(tmp_path):
+    (tmp_path / "t.obj").write_text("# quads, from the end, without normals\nv 0 0 0\nv 1 0 0\nv 1 1 0\nv 0 1 0\nvt 0 0\nl 1 2\nf -4/1 -3/1 -2/1 -1/1\nf 1 2 3\n")
+    (mesh,) = read_meshes(tmp_path / "t.obj").parts
+    assert len(mesh.triangle) == 3
+    np.testing.assert_allclose(np.abs(mesh.normal[:, 2]), 1)
+
+
+@pytest.mark.parametrize(
+    ("name", "text", "message"),
+    [
+        ("t.obj", "v 0 0 0\n", "holds no triangle. Give a mesh file that is whole, of triangles."),
+        ("t.obj", "v 0 0 0\nf 1 2 3\n", "is damaged, or no OBJ file. Give a mesh file that is whole, of triangles."),
+        ("t.ply", "no ply", "is damaged, or no PLY file."),
+    ],
+)
+def test_a_mesh_that_can_not_be_read_is_named(tmp_path, name, text, message):
+    (tmp_path / name).write_text(text)
+    with pytest.raises(ExportError, match=message):
+        read_meshes(tmp_path / name)
+
+
+def test_a_mesh_that_is_not_there_is_named(tmp_path):
+    with pytest.raises(ExportError, match="can't be read: no such file or directory. Check the path."):
+        read_meshes(tmp_path / "t.stl")
+
+
+def test_a_3mf_holds_the_wood_welded_upright_on_the_plate(tmp_path):
+    doubled = dataclasses.replace(square(), position=np.repeat(square().position[[0, 1, 2, 0, 2, 3]], 1, axis=0), triangle=np.arange(6).reshape(2, 3))
+    doubled = dataclasses.replace(doubled, normal=np.tile([0.0, 0.0, 1.0], (6, 1)), uv=np.zeros((6, 2)))
+    write_meshes(tmp_path / "t.3mf", [doubled, leafy()])
+    with zipfile.ZipFile(tmp_path / "t.3mf") as package:
+        assert package.namelist() == ["[Content_Types].xml", "_rels/.rels", "3D/3dmodel.model"]
+        model = ElementTree.fromstring(package.read("3D/3dmodel.model"))
+    core = "{http://schemas.microsoft.com/3dmanufacturing/core/2015/02}"
+    assert model.get("unit") == "meter" and [item.get("name") for item in model.iter(f"{core}object")] == ["wood"]
+    vertices = np.array([[float(row.get(axis)) for axis in "xyz"] for row in model.iter(f"{core}vertex")])
+    assert len(vertices) == 4 and np.ptp(vertices[:, 2]) == 1 and np.ptp(vertices[:, 1]) == 0
+    corners = [[int(row.get(f"v{k}")) for k in (1, 2, 3)] for row in model.iter(f"{core}triangle")]
+    a, b, c = vertices[corners[0]]
+    assert np.cross(b - a, c - a)[1] < 0  # what faced the viewer, +z, faces −y now
+
+
+def test_same_wood_same_3mf(tmp_path):
+    for name in ("a.3mf", "b.3mf"):
+        write_meshes(tmp_path / name, [textured()])
+    assert (tmp_path / "a.3mf").read_bytes() == (tmp_path / "b.3mf").read_bytes()
