@@ -43,15 +43,15 @@ def bones(lines: CentreLines, limbs: Boughs, *, most: int = 64) -> Bones:
     height = float(np.ptp(lines.point[:, 1])) or 1.0
     stems = np.flatnonzero(limbs.is_stem)
     measure = _measure(lines)
-    wanted = _joints_wanted(lines, measure, height)
-    chosen = _chosen(lines, limbs, wanted, height, most - (len(stems) > 1))
+    count = _joints_given(lines, limbs, _joints_wanted(lines, measure, height), height, most - (len(stems) > 1))
+    chosen = np.flatnonzero(count)
+    chosen = chosen[np.lexsort((-limbs.carried[chosen], limbs.depth[chosen]))]
     root = int((limbs.is_stem[chosen]).sum() > 1)
-    first, count = np.full(len(lines), NULL), np.zeros(len(lines), np.int64)
-    count[chosen] = wanted[chosen]
-    first[chosen] = root + np.r_[0, np.cumsum(wanted[chosen])][:-1]
-    limb = np.repeat(chosen, wanted[chosen])
+    first = np.full(len(lines), NULL)
+    first[chosen] = root + np.r_[0, np.cumsum(count[chosen])][:-1]
+    limb = np.repeat(chosen, count[chosen])
     rank = np.arange(len(limb)) - (first[limb] - root)
-    s = _at_measure(lines, measure, limb, rank / wanted[limb])
+    s = _at_measure(lines, measure, limb, rank / count[limb])
     armature = _armature(lines, limbs, limb, rank, s, first, count, root)
     return Bones(armature, np.r_[np.full(root, NULL), limb], np.r_[np.zeros(root), s], first, count)
 
@@ -72,19 +72,18 @@ def _joints_wanted(lines: CentreLines, measure, height: float) -> Int[np.ndarray
     return np.clip(np.round(1.0 + whole), _FEW, _MANY).astype(np.int64)
 
 
-def _chosen(lines: CentreLines, limbs: Boughs, wanted, height: float, most: int) -> Int[np.ndarray, " bone_limb"]:
-    """Limbs with bones, parents first: those that carry most wood, with all that they grow from. A stem always has some."""
-    taken, left = np.zeros(len(lines), bool), most
+def _joints_given(lines: CentreLines, limbs: Boughs, wanted, height: float, most: int) -> Int[np.ndarray, " limb"]:
+    """How many joints each limb gets: those that carry most wood first, none before what it grows from; the first stem in any case."""
+    given, left = np.zeros(len(lines), np.int64), most
     order = np.lexsort((np.arange(len(lines)), -limbs.carried, ~limbs.is_stem))
     for limb in order.tolist():
-        if limbs.is_root[limb] or (not limbs.is_stem[limb] and (not taken[lines.parent[limb]] or lines.length[limb] < _STUB * height)):
+        if limbs.is_root[limb] or (not limbs.is_stem[limb] and (not given[lines.parent[limb]] or lines.length[limb] < _STUB * height)):
             continue
-        if wanted[limb] > left:
+        if wanted[limb] > left and left < most:
             break
-        taken[limb] = True
-        left -= int(wanted[limb])
-    chosen = np.flatnonzero(taken)
-    return chosen[np.lexsort((-limbs.carried[chosen], limbs.depth[chosen]))]
+        given[limb] = min(wanted[limb], left)
+        left -= int(given[limb])
+    return given
 
 
 def _at_measure(lines: CentreLines, measure, limb, share) -> Float[np.ndarray, " joint"]:

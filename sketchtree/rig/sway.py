@@ -7,7 +7,7 @@ direction d (level, unit), its strength w (0 calm, 1 storm) and the time t in se
     boughs       p₂ = p₁ + w r branch (c (d + ½ up) sin θ + ½ c (d × up) sin(1.7 θ + 2))            θ = 2π (t f_b + phase)
     leaves       p₃ = p₂ + w l flutter n sin 2π(t f_l + phase + 3 (x + y + z))                 n: normal; x y z of the vertex at rest
 
-    H, r   height and reach of the tree, metres (`tree.pack.json`)      a .06   lean       g .025   gusts       c .05   boughs' amplitude
+    H, r   height and reach of the tree, metres (`tree.pack.json`)      a .08   lean       g .03   gusts       c .06   boughs' amplitude
     f_s .25   f_b .6   f_l 3.1   per second                             l .02   leaves' amplitude, metres
 
 In the manner of Sousa 2007 (GPU Gems 3, chapter 16), who also leans the whole by a power of the height, keeps lengths, and adds the leaves' own
@@ -26,9 +26,9 @@ _UP = np.array([0.0, 1.0, 0.0])
 class Sway:
     """The formula's constants."""
 
-    lean: float = 0.06  # of the height, at strength 1
-    gust: float = 0.025  # of the height
-    bough: float = 0.05  # of the reach
+    lean: float = 0.08  # of the height, at strength 1
+    gust: float = 0.03  # of the height
+    bough: float = 0.06  # of the reach
     leaf: float = 0.02  # metres
     gusts_a_second: float = 0.25
     boughs_a_second: float = 0.6
