@@ -28,7 +28,8 @@ class Picture:
 class Tables:
     """What the nodes of a document point at."""
 
-    binary: bytearray = field(default_factory=bytearray)
+    chunks: list[bytes] = field(default_factory=list)  # of the buffer
+    size: int = 0  # of the buffer, bytes
     views: list = field(default_factory=list)
     accessors: list = field(default_factory=list)
     meshes: list = field(default_factory=list)
@@ -53,10 +54,11 @@ class Tables:
 
     def view(self, data: bytes, target: int | None = None) -> int:
         """The number of a buffer view that holds the bytes."""
-        self.binary.extend(bytes(-len(self.binary) % 4))
-        entry = {"buffer": 0, "byteOffset": len(self.binary), "byteLength": len(data)}
+        gap = -self.size % 4
+        entry = {"buffer": 0, "byteOffset": self.size + gap, "byteLength": len(data)}
         self.views.append(entry | ({"target": target} if target else {}))
-        self.binary.extend(data)
+        self.chunks += [bytes(gap), data]
+        self.size += gap + len(data)
         return len(self.views) - 1
 
     def texture(self, image, name: str, quality: int | None = None) -> int:
@@ -94,7 +96,7 @@ class Tables:
 def unit32(vector) -> np.ndarray:
     """Unit vectors [row channel] that are still of unit length after rounding to 32 bits."""
     vector = np.ascontiguousarray(vector, "<f4")
-    return vector / np.linalg.norm(vector, axis=1, keepdims=True)
+    return vector / np.sqrt(np.einsum("ij,ij->i", vector, vector))[:, None]
 
 
 def as_bytes(share) -> np.ndarray:

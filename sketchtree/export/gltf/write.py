@@ -50,7 +50,7 @@ def asset_bytes(asset: Asset, *, collision: Sequence[str] = (), extras: dict | N
     content, tables = _document(asset, collision, extras)
     images = [{"name": picture.name, "mimeType": picture.media, "bufferView": tables.view(picture.data)} for picture in tables.pictures]
     content |= {"images": images} if images else {}
-    return _packed(_whole(content, tables), bytes(tables.binary))
+    return _packed(_whole(content, tables), tables)
 
 
 def gltf_files(path: Path, asset: Asset, *, separate: bool = False, collision: Sequence[str] = ()) -> dict[Path, bytes]:
@@ -76,9 +76,9 @@ def _loose(path: Path, asset: Asset, collision: Sequence[str]) -> dict[Path, byt
         beside[path.with_name(name)] = picture.data
     content |= {"images": images} if images else {}
     content = _whole(content, tables)
-    if tables.binary:
+    if tables.size:
         content["buffers"][0]["uri"] = quote(f"{path.stem}.bin")
-        beside[path.with_suffix(".bin")] = bytes(tables.binary)
+        beside[path.with_suffix(".bin")] = b"".join(tables.chunks)
     return beside | {path: _text(content)}
 
 
@@ -89,20 +89,20 @@ def _document(asset: Asset, collision: Sequence[str], extras: dict | None) -> tu
 
 
 def _whole(content: dict, tables: Tables) -> dict:
-    if not tables.binary:
+    if not tables.size:
         return content
-    return content | {"bufferViews": tables.views, "buffers": [{"byteLength": len(tables.binary)}]}
+    return content | {"bufferViews": tables.views, "buffers": [{"byteLength": tables.size}]}
 
 
 def _text(content: dict) -> bytes:
     return json.dumps(content, separators=(",", ":"), ensure_ascii=False, allow_nan=False).encode()
 
 
-def _packed(content: dict, binary: bytes) -> bytes:
+def _packed(content: dict, tables: Tables) -> bytes:
     text = _text(content)
     text += b" " * (-len(text) % 4)
-    binary += bytes(-len(binary) % 4)
-    chunks = struct.pack("<I4s", len(text), b"JSON") + text
-    if binary:
-        chunks += struct.pack("<I4s", len(binary), b"BIN\0") + binary
-    return struct.pack("<4sII", b"glTF", 2, 12 + len(chunks)) + chunks
+    parts = [struct.pack("<I4s", len(text), b"JSON"), text]
+    if tables.size:
+        gap = -tables.size % 4
+        parts += [struct.pack("<I4s", tables.size + gap, b"BIN\0"), *tables.chunks, bytes(gap)]
+    return b"".join([struct.pack("<4sII", b"glTF", 2, 12 + sum(map(len, parts))), *parts])
