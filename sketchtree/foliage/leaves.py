@@ -1,6 +1,6 @@
 """Where the leaves are: one row a leaf, needle tuft or leaflet."""
 
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 
 import numpy as np
 from jaxtyping import Float, Int
@@ -29,3 +29,9 @@ class Leaves:
         """No leaf at all, as in winter."""
         vectors, numbers = np.zeros((0, 3)), np.zeros(0)
         return cls(model, vectors, vectors, vectors, numbers, numbers, np.zeros(0, np.int64))
+
+
+def select(leaves: Leaves, keep) -> Leaves:
+    """Only some of the leaves, by mask or by rows; the short shoots stay as they are."""
+    columns = ("position", "direction", "normal", "size", "tint", "segment")
+    return replace(leaves, **{name: getattr(leaves, name)[keep] for name in columns})

@@ -22,7 +22,7 @@ from sketchtree import keys
 from sketchtree.axes import NULL
 from sketchtree.errors import OptionError
 from sketchtree.foliage.buds import SUNK, Buds, around, buds
-from sketchtree.foliage.leaves import Leaves
+from sketchtree.foliage.leaves import Leaves, select
 from sketchtree.foliage.seasons import check_season
 from sketchtree.foliage.twigs import Twigs, fronds, leafy, wood_pieces
 from sketchtree.foliage.wear import Wear, wear_of
@@ -62,7 +62,7 @@ def populate(
     leaves, unit = unfold(tree, budding, shoots, wear, season, key), _units(budding)
     if season in _SHARE and not (wear.model.evergreen or wear.model.flower):
         held = keys.uniform(key, budding.id, _FALLEN) < _SHARE[season]
-        leaves, unit = _keep(leaves, held), unit[held]
+        leaves, unit = select(leaves, held), unit[held]
         budding = budding.select(held)
     return capped(leaves, budding.shoot, unit, max_leaves, key)
 
@@ -140,16 +140,11 @@ def capped(leaves: Leaves, shoot, unit: Int[np.ndarray, " leaf"], max_leaves: in
     keep = np.ones(len(leaves), bool)
     if len(leaves) > max_leaves:
         keep[np.argsort(keys.uniform(key, unit, _CAP), kind="stable")[max_leaves:]] = False
-    few = replace(_keep(leaves, keep), shoot=leaves.shoot[np.unique(shoot[keep & (shoot != NULL)])])
+    few = replace(select(leaves, keep), shoot=leaves.shoot[np.unique(shoot[keep & (shoot != NULL)])])
     if keep.all():
         return few
     area = float(np.sum(leaves.size**2))
     return replace(few, size=few.size * np.sqrt(area / np.sum(few.size**2)), kept=max_leaves / len(leaves))
-
-
-def _keep(leaves: Leaves, keep) -> Leaves:
-    columns = ("position", "direction", "normal", "size", "tint", "segment")
-    return replace(leaves, **{name: getattr(leaves, name)[keep] for name in columns})
 
 
 def _unit(vector):

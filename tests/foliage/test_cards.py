@@ -25,7 +25,7 @@ def test_the_mesh_is_called_leaf_and_its_material_after_the_model(worn):
     leaves, mesh = worn
     assert mesh.name == ("leaf_blossom" if leaf_model(leaves.model).flower else "leaf")
     assert mesh.material.name == f"leaf_{leaves.model}"
-    assert mesh.material.alpha_cutoff == 0.5 and mesh.material.double_sided
+    assert mesh.material.alpha_cutoff == 0.4 and mesh.material.double_sided
 
 
 def cards(leaves, mesh):

@@ -1,0 +1,221 @@
+"""How do the leaves of a tree become fewer and fewer triangles, and stay as many to the eye?
+
+By what there is to spend on a leaf, the first that can be afforded:
+
+    two triangles   the leaf's own picture on a flat card, and the short shoots if they fit
+    one triangle    the picture redrawn in the smallest triangle round it
+    less            a triangle for the two, three or more leaves that follow each other on a stem (`sprays`); tufts are thinned out instead
+
+A card's place is the affine map from its picture's plane that comes nearest to where its leaves' feet, sides and tips truly are (least
+squares), made larger or smaller about its middle until what is drawn on it has its leaves' area:
+
+    min over (o, e_x, e_y)  Σ_k |o + x_k e_x + y_k e_y − p_k|²        (x, y)_k: in the picture    p_k: on the tree
+"""
+
+from typing import NamedTuple
+
+import numpy as np
+from jaxtyping import Float, Int
+
+from sketchtree.errors import OptionError
+from sketchtree.foliage.card_shape import bends, bent, card, foot_of
+from sketchtree.foliage.cards import mesh_name, outward, turned
+from sketchtree.foliage.crown_light import crown_light
+from sketchtree.foliage.leaf_materials import leaf_factor, leaf_material, painted_material
+from sketchtree.foliage.leaves import Leaves, select
+from sketchtree.foliage.models import leaf_model, leaf_painting
+from sketchtree.foliage.seasons import check_season
+from sketchtree.foliage.short_shoots import stems
+from sketchtree.foliage.sprays import layout, sprays
+from sketchtree.foliage.triangles import drawn_area, single, strip
+from sketchtree.geometry.mesh import Material, Mesh
+
+_MOST = 12  # leaves that one card stands for; fewer triangles thin the leaves out
+
+
+class _Planes(NamedTuple):
+    """The flat pictures of the leaves: where x and y of each lie in the world. A tuft has several."""
+
+    plane: Float[np.ndarray, "picture 3 3"]  # rows: origin (the foot), e_x, e_y; metres a leaf length
+    leaf: Int[np.ndarray, " picture"]
+    area: Float[np.ndarray, " picture"]  # that is drawn, m²
+
+
+class _Cards(NamedTuple):
+    """Cards of any shape, before they are a mesh."""
+
+    position: Float[np.ndarray, "card corner 3"]
+    uv: Float[np.ndarray, "card corner 2"]
+    leaf: Int[np.ndarray, "card leaf"]  # that it stands for; -1 none
+    ring: Int[np.ndarray, "triangle 3"]  # corners of each of its triangles
+
+
+_TRIANGLE, _QUAD = np.array([[0, 1, 2]]), np.array([[0, 1, 2], [0, 2, 3]])
+_BENT = np.array([[0, 1, 3], [0, 3, 2], [2, 3, 5], [2, 5, 4]])  # foot, waist and tip of the full card, without the midrib
+
+
+def leaf_cards(leaves: Leaves, *, season: str = "summer", triangles: int) -> Mesh:
+    """The leaves in at most so many triangles (≥ 1), of the same area in all: a mesh called `leaf` or `leaf_blossom`.
+
+    With as many as `cards.leaf_mesh` has it is still made of flat cards. Raises OptionError."""
+    check_season(season)
+    if triangles < 1:
+        raise OptionError(f"The leaves were to have {triangles} triangles.", remedy="Allow at least 1, or leave the leaves out.")
+    planes = _planes(leaves)
+    if triangles >= 2 * len(planes.leaf):
+        return _mesh(leaves, season, _own_pictures(leaves, planes, triangles), leaf_material(leaves.model, season), triangles)
+    if triangles < len(planes.leaf) and leaf_model(leaves.model).is_blade:
+        cards, material = _spray_cards(leaves, planes, season, triangles)
+    else:
+        cards, material = _single(leaves, _thinned(planes, triangles), season)
+    return _mesh(leaves, season, [cards], material, 0)
+
+
+def _planes(leaves: Leaves) -> _Planes:
+    model, (corners, _, _) = leaf_model(leaves.model), card(leaves.model)
+    count = max(model.planes, 1)
+    if model.is_blade:
+        flat = np.column_stack([np.ones(len(corners)), corners[:, :2]])
+        local = np.matmul(np.linalg.pinv(flat), bent(corners, model, *bends(leaves.tint, model)))
+    else:
+        turn = np.pi * np.arange(count) / count
+        across = np.stack([np.cos(turn), np.zeros(count), np.sin(turn)], axis=1)
+        local = np.stack([np.zeros((count, 3)), across, np.tile([0.0, 1.0, 0.0], (count, 1))], axis=1).reshape(1, -1, 3)
+    world = (turned(local, leaves) * leaves.size[:, None, None]).reshape(-1, 3, 3)
+    world[:, 0] += np.repeat(leaves.position, count, axis=0)
+    area = drawn_area(leaf_painting(leaves.model)) * np.repeat(leaves.size, count) ** 2
+    return _Planes(world, np.repeat(np.arange(len(leaves)), count), area)
+
+
+def _thinned(planes: _Planes, most: int) -> _Planes:
+    """An even share of the pictures, grown to the area of all."""
+    count = len(planes.leaf)
+    if count <= most:
+        return planes
+    keep = (np.arange(most) * count) // most
+    grown = np.sqrt(planes.area.sum() / planes.area[keep].sum())
+    plane = planes.plane[keep]
+    plane[:, 1:] *= grown
+    return _Planes(plane, planes.leaf[keep], planes.area[keep] * grown**2)
+
+
+def _own_pictures(leaves: Leaves, planes: _Planes, most: int) -> list[_Cards]:
+    """The leaf's own texture: on four triangles for the leaves that bend the farthest, as many as can be had; on a flat rectangle for the others."""
+    richer = 0
+    if leaf_model(leaves.model).is_blade:
+        richer = min((most - 6 * len(leaves.shoot) - 2 * len(leaves)) // 2, len(leaves))
+        richer = richer if richer > 0 else (most - 2 * len(leaves)) // 2
+        richer = min(richer, len(leaves))
+    far = np.argsort(-leaves.size * bends(leaves.tint, leaf_model(leaves.model))[1], kind="stable")
+    rich = np.zeros(len(leaves), bool)
+    rich[far[:richer]] = True
+    flat = ~rich[planes.leaf]
+    return [_bent_cards(leaves, np.flatnonzero(rich)), _quads(leaves, _Planes(*(column[flat] for column in planes)))]
+
+
+def _bent_cards(leaves: Leaves, rows: Int[np.ndarray, " card"]) -> _Cards:
+    """Some leaves' cards as they are, without the vertex in the middle."""
+    corners, uv, _ = card(leaves.model)
+    outer = [0, 1, 2, 4, 5, 6]
+    if len(rows) == 0:
+        return _Cards(np.zeros((0, 6, 3)), np.zeros((0, 6, 2)), rows[:, None], _BENT)
+    one = select(leaves, rows)
+    position = turned(bent(corners, leaf_model(leaves.model), *bends(one.tint, leaf_model(leaves.model)))[:, outer], one)
+    position = position * one.size[:, None, None] + one.position[:, None]
+    return _Cards(position, np.broadcast_to(uv[outer], (len(rows), 6, 2)), rows[:, None], _BENT)
+
+
+def _quads(leaves: Leaves, planes: _Planes) -> _Cards:
+    """A rectangle for each picture, with the leaf's own texture."""
+    painting = leaf_painting(leaves.model)
+    rows, columns = (np.flatnonzero((painting.coverage > 0.02).any(axis=axis)) for axis in (1, 0))
+    box = np.array([[columns[0], rows[-1] + 1], [columns[-1] + 1, rows[-1] + 1], [columns[-1] + 1, rows[0]], [columns[0], rows[0]]], float)
+    uv = box / painting.coverage.shape[::-1]
+    flat = [painting.left, painting.top] + uv * [painting.right - painting.left, painting.bottom - painting.top] - [0, foot_of(painting)]
+    plane = _to_area(planes.plane, flat.mean(axis=0), drawn_area(painting), planes.area)
+    return _Cards(_on(plane, flat[None]), np.broadcast_to(uv, (len(plane), 4, 2)), planes.leaf[:, None], _QUAD)
+
+
+def _single(leaves: Leaves, planes: _Planes, season: str) -> tuple[_Cards, Material]:
+    """A triangle for each picture."""
+    one = single(leaf_painting(leaves.model))
+    plane = _to_area(planes.plane, one.corner[0].mean(axis=0), one.covered[0], planes.area)
+    material = painted_material(f"leaf_{leaves.model}_single", one.painting, leaves.model, season)
+    return _Cards(_on(plane, one.corner), np.broadcast_to(one.uv[0], (len(plane), 3, 2)), planes.leaf[:, None], _TRIANGLE), material
+
+
+def _spray_cards(leaves: Leaves, planes: _Planes, season: str, most: int) -> tuple[_Cards, Material]:
+    """A triangle for each spray, of as few leaves as fit into `most` triangles."""
+    for longest in range(2, _MOST + 1):
+        table = sprays(planes.plane[:, 0], longest)
+        if len(table) <= most:
+            break
+    else:
+        planes = _thinned(planes, len(planes.leaf) * most // len(table))
+        table = sprays(planes.plane[:, 0], _MOST)[:most]
+    held = (table >= 0).sum(axis=1)
+    foot, tip = planes.plane[:, 0], planes.plane[:, 0] + planes.plane[:, 2]
+    sizes = np.unique(held)
+    stand = [layout(foot[table[held == n, :n]], tip[table[held == n, :n]]) for n in sizes]
+    pictures = strip(leaf_painting(leaves.model), [tuple(one) for one in stand])
+    corner, uv = np.zeros((len(table), 3, 3)), np.zeros((len(table), 3, 2))
+    for k, n in enumerate(sizes):
+        of = held == n
+        rows = table[of, :n]
+        plane, middle = _fitted(planes.plane[rows], *stand[k])
+        corner[of] = _on(_to_area(plane, middle, pictures.covered[k], planes.area[rows].sum(axis=1)), pictures.corner[k : k + 1])
+        uv[of] = pictures.uv[k]
+    leaf = np.where(table >= 0, planes.leaf[table], -1)
+    return _Cards(corner, uv, leaf, _TRIANGLE), painted_material(f"leaf_{leaves.model}_spray", pictures.painting, leaves.model, season)
+
+
+def _fitted(plane: Float[np.ndarray, "card leaf 3 3"], foot, heading):
+    """The plane of each card that comes nearest to its leaves' planes, and the middle of the points in the picture."""
+    o, ex, ey = np.moveaxis(plane, 2, 0)
+    ahead = np.stack([np.sin(heading), np.cos(heading)], axis=1)
+    side = np.stack([ahead[:, 1], -ahead[:, 0]], axis=1)
+    share = [(0.0, 0.0), (1.0, 0.0), (0.5, 0.2), (0.5, -0.2)]
+    flat = np.concatenate([foot + a * ahead + b * side for a, b in share])
+    true = np.concatenate([o + a * ey + b * ex for a, b in share], axis=1)
+    return np.matmul(np.linalg.pinv(np.column_stack([np.ones(len(flat)), flat])), true), flat.mean(axis=0)
+
+
+def _to_area(plane, middle, covered: float, area) -> Float[np.ndarray, "card 3 3"]:
+    """The planes, grown or shrunk about a point of the picture until what is drawn (`covered`, leaf lengths²) has its area (m²)."""
+    own = covered * np.linalg.norm(np.cross(plane[:, 1], plane[:, 2]), axis=1)
+    grown = np.clip(np.sqrt(area / np.maximum(own, 1e-12)), 0.5, 2.0)[:, None, None]
+    axes = plane[:, 1:]
+    moved = np.einsum("k,cki->ci", middle, axes * (1 - grown))
+    return np.concatenate([(plane[:, 0] + moved)[:, None], axes * grown], axis=1)
+
+
+def _on(plane, corner: Float[np.ndarray, "one corner 2"]) -> Float[np.ndarray, "card corner 3"]:
+    """World places of corners of the picture."""
+    return plane[:, :1] + np.matmul(corner, plane[:, 1:])
+
+
+def _mesh(leaves: Leaves, season: str, sets: list[_Cards], material: Material, triangles: int) -> Mesh:
+    """The cards as triangles, and the short shoots if they fit into so many."""
+    factor, blade = leaf_factor(leaves.model, season, leaves.tint, crown_light(leaves)), leaf_model(leaves.model).is_blade
+    position, normal, uv, triangle, color, first = [], [], [], [], [], 0
+    for cards in sets:
+        count, corners = cards.position.shape[:2]
+        faced = _mean(leaves.normal, cards.leaf)
+        faced /= np.maximum(np.linalg.norm(faced, axis=1, keepdims=True), 1e-9)
+        position.append(cards.position.reshape(-1, 3))
+        normal.append(outward(np.repeat(faced[:, None], corners, axis=1), cards.position, blade).reshape(-1, 3))
+        uv.append(cards.uv.reshape(-1, 2))
+        triangle.append((first + cards.ring[None] + corners * np.arange(count)[:, None, None]).reshape(-1, 3))
+        color.append(np.repeat(_mean(factor, cards.leaf), corners, axis=0))
+        first += corners * count
+    stem = stems(leaves, first)
+    if sum(map(len, triangle)) + len(stem.triangle) <= triangles:
+        for column, more in zip((position, normal, uv, triangle, color), (*stem, np.ones((len(stem.position), 4))), strict=True):
+            column.append(more)
+    return Mesh(mesh_name(leaves.model), *(np.vstack(c) for c in (position, normal, uv, triangle)), material, np.vstack(color))
+
+
+def _mean(value: Float[np.ndarray, "leaf channel"], of: Int[np.ndarray, "card leaf"]) -> Float[np.ndarray, "card channel"]:
+    """The mean of each card's leaves."""
+    held = of >= 0
+    return np.einsum("cl,cli->ci", held / np.maximum(held.sum(axis=1, keepdims=True), 1), value[np.maximum(of, 0)])
