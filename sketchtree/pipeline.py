@@ -12,6 +12,7 @@ from jaxtyping import Array, Float, Key
 
 from sketchtree.choose import bark_model, choose_template, leaf_model
 from sketchtree.drawing import read_drawing
+from sketchtree.dressing import Dress
 from sketchtree.errors import InferenceError
 from sketchtree.foliage.blossom import blossom
 from sketchtree.foliage.cards import leaf_mesh
@@ -90,6 +91,7 @@ class TreeModel:
     meshes: tuple[Mesh, ...]  # wood, then leaves and blossoms if there are any
     warnings: tuple[str, ...]
     blossom: Leaves | None = None  # in spring, where the species has one
+    dress: Dress = Dress("oak", None)  # what it wears
 
 
 def sketch_to_tree(
@@ -201,7 +203,7 @@ def finish(
     with watch("mesh"):
         meshes = [*wood_meshes(skeleton, bark=bark, habit=habit, key=stage_key(key, "mesh"))]
         meshes += [leaf_mesh(worn, season=options.season) for worn in (leaves, flowers) if worn is not None and len(worn)]
-    return TreeModel(drawn, skeleton, leaves, tuple(meshes), drawn.warnings + warnings, flowers)
+    return TreeModel(drawn, skeleton, leaves, tuple(meshes), drawn.warnings + warnings, flowers, Dress(bark, leaf, options.season, habit))
 
 
 def _foliage(tree: TreeSkeleton, habit: Habit, leaf: str | None, season: str, key: Key[Array, ""]) -> tuple[Leaves, Leaves | None]:
