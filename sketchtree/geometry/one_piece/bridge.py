@@ -12,11 +12,15 @@ A hole of V corners with h loops inside its outer one has V + 2h − 2 triangles
 from dataclasses import dataclass
 
 import numpy as np
-from jaxtyping import Bool, Int
+from jaxtyping import Bool, Float, Int
 
+from sketchtree.geometry.one_piece.flips import flipped
 from sketchtree.geometry.one_piece.grid import Grid
 from sketchtree.geometry.one_piece.holes import Holes
 from sketchtree.geometry.one_piece.outlines import Outlines
+
+_BULGE = 3e-3  # share of its distance by which the farthest corner is drawn in
+_ASIDE = np.array([0.0137, 0.0071])
 
 
 @dataclass(frozen=True, eq=False)
@@ -28,25 +32,45 @@ class Bridges:
     bridged: Bool[np.ndarray, " hole"]
 
 
-def bridges(grid: Grid, o: Outlines, h: Holes) -> Bridges:
-    """The triangles of every hole, counter-clockwise seen from outside."""
+@dataclass(frozen=True, eq=False)
+class Regions:
+    """The holes less their outlines, laid flat."""
+
+    region: np.ndarray  # shapely polygons
+    flat: Float[np.ndarray, "corner 2"]
+    of_corner: Int[np.ndarray, " corner"]  # hole
+    inner: Int[np.ndarray, " hole"]  # loops inside the outer one
+    sound: Bool[np.ndarray, " hole"]  # it can be triangulated
+
+
+def regions(grid: Grid, o: Outlines, h: Holes) -> Regions:
+    """The regions that the bridges fill."""
     import shapely
 
     loops, outlines = len(h.start) - 1, len(o.limb)
     ring_hole = np.r_[h.of_loop, h.of_fork]
     start = np.r_[h.start, h.start[-1] + o.start[1:]]
-    flat, corner_hole = _flat(grid, o, h)
+    flat, of_corner = _flat(grid, o, h)
     ring = shapely.linearrings(flat, indices=np.repeat(np.arange(loops + outlines), np.diff(start)))
     is_inner = np.ones(loops + outlines, bool)
     is_inner[_shells(flat, start, h)] = False
     order = np.lexsort((is_inner, ring_hole))
     region = shapely.polygons(ring[order], indices=ring_hole[order])
-    able = shapely.is_valid(region)
-    able[h.of_fork[~_turns_left(flat, start[loops:])]] = False
-    triangle, hole = _triangles(region, flat, corner_hole, able)
-    corners = np.bincount(corner_hole, minlength=len(region))
-    inside = np.bincount(ring_hole, minlength=len(region)) - 1
-    whole = able & (np.bincount(hole, minlength=len(region)) == corners + 2 * inside - 2)
+    sound = shapely.is_valid(region)
+    sound[h.of_fork[~_turns_left(flat, start[loops:])]] = False
+    return Regions(region, flat, of_corner, np.bincount(ring_hole, minlength=len(region)) - 1, sound)
+
+
+def bridges(grid: Grid, o: Outlines, h: Holes) -> Bridges:
+    """The triangles of every hole, counter-clockwise seen from outside."""
+    if len(o.limb) == 0:
+        return Bridges(np.zeros((0, 3), np.int64), np.zeros(0, np.int64), np.zeros(0, bool))
+    r = regions(grid, o, h)
+    triangle, hole = _triangles(r.region, r.flat, r.of_corner, r.sound)
+    corners = np.bincount(r.of_corner, minlength=len(r.region))
+    whole = r.sound & (np.bincount(hole, minlength=len(r.region)) == corners + 2 * r.inner - 2)
+    triangle, left = flipped(grid, h, len(o.theta), triangle)
+    whole[hole[left]] = False
     kept = whole[hole]
     return Bridges(triangle[kept], hole[kept], whole)
 
@@ -65,7 +89,18 @@ def _flat(grid: Grid, o: Outlines, h: Holes):
     bent = h.around[corner_hole]
     rho = np.exp(np.where(bent, y, 0.0))
     x, y = np.where(bent, rho * np.cos(theta), x), np.where(bent, -rho * np.sin(theta), y)
-    return np.stack([x, y], axis=1), corner_hole
+    return _bulged(np.stack([x, y], axis=1), corner_hole, len(thick)), corner_hole
+
+
+def _bulged(flat, corner_hole, count: int):
+    """Drawn in a little towards a point near the middle, the farther the more, so that no three corners of an edge of the grid lie on a line,
+    where a triangle would have no side to face."""
+    middle = np.stack([np.bincount(corner_hole, column, minlength=count) for column in flat.T], axis=1)
+    away = flat - (middle / np.maximum(np.bincount(corner_hole, minlength=count), 1)[:, None])[corner_hole] + _ASIDE
+    squared = np.sum(away**2, axis=1)
+    reach = np.zeros(count)
+    np.maximum.at(reach, corner_hole, squared)
+    return away * (1.0 - _BULGE * squared / np.maximum(reach[corner_hole], 1e-300))[:, None]
 
 
 def _shells(flat, start, h: Holes):

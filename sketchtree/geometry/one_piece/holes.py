@@ -1,8 +1,8 @@
 """Which part of a parent's grid makes way for the limbs that grow out of it?
 
 Every outline takes the block of cells that its box, with a margin, touches. Blocks that share cells become one hole. Its
-boundary is a loop along edges of the grid, listed counter-clockwise as (ring, column) with columns unwrapped; where the hole
-goes all round the limb, it has two loops, one at either end.
+boundary is a loop along edges of the grid, listed counter-clockwise as (ring, column) with columns unwrapped. A hole that goes all
+round the limb is cut open along a column that no outline crosses; where there is none, it has two loops, one at either end.
 """
 
 from dataclasses import dataclass
@@ -13,6 +13,7 @@ from scipy.sparse import coo_matrix
 from scipy.sparse.csgraph import connected_components
 
 from sketchtree.geometry.one_piece.grid import Grid
+from sketchtree.geometry.one_piece.loops import free_column, loops_round, unrolled
 from sketchtree.geometry.one_piece.outlines import Outlines
 
 _MARGIN = 0.25  # between outline and hole, at least, / lesser half axis of the outline
@@ -32,7 +33,7 @@ class Holes:
 
     of_fork: Int[np.ndarray, " fork"]  # hole of each fork
     turns: Int[np.ndarray, " fork"]  # whole turns to add to a fork's θ, so that it lies within its hole's columns
-    around: Bool[np.ndarray, " hole"]  # it goes all round the limb
+    around: Bool[np.ndarray, " hole"]  # it goes all round the limb, uncut
     limb: Int[np.ndarray, " hole"]
     of_loop: Int[np.ndarray, " loop"]  # hole of each loop
     start: Int[np.ndarray, " loop+1"]
@@ -88,7 +89,7 @@ def holes(grid: Grid, o: Outlines, blocks: Blocks) -> Holes:
     _, of_fork = connected_components(_sharing(fork, cell, len(left)), directed=False)
     single = (np.bincount(of_fork)[of_fork] == 1) & (width < n)
     plain = _rectangles(blocks, left, width, height, np.flatnonzero(single))
-    traced = _traced(grid, of_fork, single, fork, row, column, o)
+    traced = _traced(grid, of_fork, left, single, fork, row, column, o)
     turns, around = np.zeros(len(left), np.int64), np.zeros(of_fork.max(initial=-1) + 1, bool)
     loops = [(of_fork[f], *corners) for f, corners in plain]
     for hole, corners, goes_round, turned in traced:
@@ -136,75 +137,25 @@ def _rectangles(blocks: Blocks, left, width, height, forks):
         yield f, (np.array(rings), np.array(columns))
 
 
-def _traced(grid: Grid, of_fork, single, fork, row, column, o: Outlines):
+def _traced(grid: Grid, of_fork, left, single, fork, row, column, o: Outlines):
     """Loops of the holes of several blocks, or that go round: hole, loops, whether it goes round, turns of its forks."""
     rest = np.flatnonzero(~single[fork])
     order = rest[np.argsort(of_fork[fork[rest]], kind="stable")]
-    hole = of_fork[fork[order]]
-    columns = grid.columns
-    for some in np.split(order, np.flatnonzero(np.diff(hole)) + 1) if len(order) else []:
-        cells = list(zip(row[some].tolist(), column[some].tolist(), strict=True))
-        n = int(columns[cells[0][0]])
-        unwrapped, goes_round = _unrolled(set(cells), n)
-        loops = _loops(set(cells), n) if goes_round else _loops({(j, c) for (j, _), c in unwrapped.items()}, None)
-        turned = {}
-        if not goes_round:
-            for f in np.unique(fork[some]).tolist():
-                at = some[fork[some] == f][0]
-                home = unwrapped[(int(row[at]), int(column[at]))]
-                middle = 0.5 * (o.theta[o.start[f] : o.start[f + 1]].min() + o.theta[o.start[f] : o.start[f + 1]].max())
-                turned[f] = round((home - middle * n / (2.0 * np.pi)) / n)
-        yield int(of_fork[fork[some[0]]]), loops, goes_round, turned
-
-
-def _unrolled(cells: set, n: int):
-    """Columns of the cells without a jump, and whether going round leads back to a cell."""
-    begin = min(cells)
-    found, waiting = {begin: begin[1]}, [begin]
-    while waiting:
-        j, c = cell = waiting.pop()
-        for dj, dc in ((0, 1), (0, -1), (1, 0), (-1, 0)):
-            other = (j + dj, (c + dc) % n)
-            if other not in cells:
-                continue
-            if other not in found:
-                found[other] = found[cell] + dc
-                waiting.append(other)
-            elif found[other] != found[cell] + dc:
-                return found, True
-    return found, False
-
-
-def _loops(cells: set, n: int | None):
-    """The boundary of a set of cells, counter-clockwise; columns are taken modulo n if it goes round."""
-    wrap = (lambda c: c % n) if n else (lambda c: c)
-    following: dict = {}
-    for j, c in sorted(cells):
-        for (dj, dc), begin, end in (
-            ((-1, 0), (j, c), (j, c + 1)),
-            ((0, 1), (j, c + 1), (j + 1, c + 1)),
-            ((1, 0), (j + 1, c + 1), (j + 1, c)),
-            ((0, -1), (j + 1, c), (j, c)),
-        ):
-            if (j + dj, wrap(c + dc)) not in cells:
-                following.setdefault((begin[0], wrap(begin[1])), []).append((end[0], wrap(end[1]), dj, dc))
-    loops = []
-    while following:
-        begin = at = min(following)
-        rings, columns, out, left_behind = [], [], None, None
-        while at in following and not (at == begin and out is not None and _LEFT[out] == left_behind):
-            ways = following[at]
-            k = next((k for k, way in enumerate(ways) if out and way[2:] == _LEFT[out]), 0)
-            j, c, *step = ways.pop(k)
-            if not ways:
-                del following[at]
-            rings.append(at[0])
-            columns.append(at[1])
-            at, out = (j, c), tuple(step)
-            left_behind = left_behind or out
-        loops.append((np.array(rings), np.array(columns)))
-    return loops
-
-
-# Where two cells meet at a corner only, a loop that comes along one of them (its outside that way) goes on round the same one.
-_LEFT = {(-1, 0): (0, 1), (0, 1): (1, 0), (1, 0): (0, -1), (0, -1): (-1, 0)}
+    west, east, _, _ = o.box()
+    for some in np.split(order, np.flatnonzero(np.diff(of_fork[fork[order]])) + 1) if len(order) else []:
+        cells = set(zip(row[some].tolist(), column[some].tolist(), strict=True))
+        n = int(grid.columns[row[some[0]]])
+        forks, first = np.unique(fork[some], return_index=True)
+        placed = unrolled(cells, n)
+        if placed is not None:
+            homes = [placed[cell] for cell in zip(row[some[first]].tolist(), column[some[first]].tolist(), strict=True)]
+            turns = (np.array(homes) - left[forks]) // n
+        else:
+            scale = n / (2.0 * np.pi)
+            cut = free_column(west[forks] * scale, east[forks] * scale, n)
+            if cut is not None:
+                placed = {(j, c): c if c >= cut else c + n for j, c in cells}
+                turns = -np.floor((0.5 * (west + east)[forks] * scale - cut) / n).astype(np.int64)
+        goes_round = placed is None
+        loops = loops_round(cells, n) if goes_round else loops_round({(j, c) for (j, _), c in placed.items()}, None)
+        yield int(of_fork[forks[0]]), loops, goes_round, {} if goes_round else dict(zip(forks.tolist(), turns.tolist(), strict=True))

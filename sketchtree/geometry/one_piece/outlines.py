@@ -60,6 +60,12 @@ class Outlines:
         ends = [(np.minimum.reduceat(x, first), np.maximum.reduceat(x, first)) for x in (self.theta, self.s)]
         return *ends[0], *ends[1]
 
+    def only(self, fork: Int[np.ndarray, " some"]) -> "Outlines":
+        """Those of some forks, in order."""
+        corner = np.flatnonzero(np.isin(self.of_corner, fork))
+        start = np.r_[0, np.cumsum(np.diff(self.start)[fork])].astype(np.int64)
+        return Outlines(*(x[fork] for x in (self.limb, self.parent, self.thick, self.thin)), start, self.theta[corner], self.s[corner], self.rise[:, corner])
+
     def moved(self, theta, s, across, along) -> "Outlines":
         """Scaled by `across` and `along` about the middle of their boxes, which come to stand at `theta` and `s` (all by fork)."""
         west, east, low, high = self.box()

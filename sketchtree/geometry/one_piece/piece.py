@@ -14,7 +14,8 @@ from sketchtree.axes import NULL
 from sketchtree.geometry.detail import Detail
 from sketchtree.geometry.limbs import CentreLines
 from sketchtree.geometry.one_piece.bows import bow, lengthwise_in_collars
-from sketchtree.geometry.one_piece.bridge import Bridges, bridges
+from sketchtree.geometry.one_piece.bridge import Bridges, bridges, regions
+from sketchtree.geometry.one_piece.distinct import distinct
 from sketchtree.geometry.one_piece.grid import Grid, circles, normals
 from sketchtree.geometry.one_piece.holes import Holes, cell_start, holes, rows_of
 from sketchtree.geometry.one_piece.joint_skin import Barks, Vertices, joint_skin, skirt_cells
@@ -66,6 +67,8 @@ def one_piece(plan: Plan, lines: CentreLines, offset: Float[np.ndarray, "limb 2"
     (lit,) = grid.at(outlines.parent[fork], outlines.theta, outlines.s, normal)
     lit /= np.maximum(np.linalg.norm(lit, axis=1, keepdims=True), 1e-300)
     _light_feet(grid, normal, collars, outlines, lit)
+    x = distinct(x, normal)
+    corner = x[grid.first[grid.ring.start[outlines.limb]][fork] + np.arange(len(fork)) - outlines.start[fork]]
     bark = _barks(grid, plan, offset, detail.tile)
     v = bark.along[grid.of_vertex].copy()
     lengthwise_in_collars(grid, x, v, bark.pace, collars)
@@ -73,17 +76,39 @@ def one_piece(plan: Plan, lines: CentreLines, offset: Float[np.ndarray, "limb 2"
 
 
 def _joined(plan: Plan) -> tuple[Outlines, Holes, Bridges]:
-    """Outlines, holes and their bridges; where one fails, its outlines are made smaller and tried again."""
-    o, grid = plan.outlines, plan.grid
+    """Outlines, holes and their bridges. Outlines that don't fit into their holes are made smaller."""
+    o = _fitted(plan)
     for _ in range(_TRIES):
-        hole = holes(grid, o, rows_of(grid.ring, grid.of_ring, o, plan.first, plan.last))
-        bridge = bridges(grid, o, hole)
+        hole = _holes(plan, o)
+        bridge = bridges(plan.grid, o, hole)
         if bridge.bridged.all():
             break
-        west, east, low, high = o.box()
-        scale = np.where(bridge.bridged[hole.of_fork], 1.0, _SMALLER)
-        o = o.moved(0.5 * (west + east), 0.5 * (low + high), scale, scale)
+        o = _smaller(o, ~bridge.bridged[hole.of_fork])
     return o, hole, bridge
+
+
+def _fitted(plan: Plan) -> Outlines:
+    """The outlines, those made smaller whose holes could not be triangulated at all."""
+    o, fork = plan.outlines, np.arange(len(plan.outlines.limb))
+    for _ in range(_TRIES if len(fork) else 0):
+        some = o.only(fork)
+        hole = _holes(plan, some)
+        fork = fork[~regions(plan.grid, some, hole).sound[hole.of_fork]]
+        if len(fork) == 0:
+            break
+        o = _smaller(o, np.isin(np.arange(len(o.limb)), fork))
+    return o
+
+
+def _smaller(o: Outlines, some) -> Outlines:
+    """The outlines `some` made smaller in place."""
+    west, east, low, high = o.box()
+    scale = np.where(some, _SMALLER, 1.0)
+    return o.moved(0.5 * (west + east), 0.5 * (low + high), scale, scale)
+
+
+def _holes(plan: Plan, o: Outlines) -> Holes:
+    return holes(plan.grid, o, rows_of(plan.grid.ring, plan.grid.of_ring, o, plan.first, plan.last))
 
 
 def _light_feet(grid: Grid, normal, collars, outlines: Outlines, lit) -> None:

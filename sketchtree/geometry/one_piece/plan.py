@@ -50,7 +50,7 @@ def plan_one_piece(lines: CentreLines, detail: Detail, height: float) -> Plan:
     alone, profile = outlines(lines, grid, circles(grid, lines, 0.0), collars)
     room = 0.25 * np.minimum(lines.length - top, lines.radius[lines.start[:-1]])
     moved, _ = apart(alone, top + 0.6 * room, lines.length - 0.6 * room)
-    ring = rings(lines, top, size, detail, height, slender=_SLENDER, forks=_wanted(moved))
+    ring = rings(lines, top, size, detail, height, slender=_SLENDER, forks=_wanted(moved, lines))
     first = ring.start[:-1] + size - 1
     last = np.searchsorted(ring.limb * _stride(ring) + ring.s, np.arange(len(lines)) * _stride(ring) + lines.length * (1 + 1e-12), side="right") - 1
     blocks = rows_of(ring, ring.limb, moved, first, last)
@@ -66,11 +66,13 @@ def _stride(ring) -> float:
     return 2.0 * float(ring.s.max(initial=0.0)) + 1.0
 
 
-def _wanted(o: Outlines) -> Forks:
-    """A ring below and one above every outline."""
+def _wanted(o: Outlines, lines: CentreLines) -> Forks:
+    """A ring below and one above every outline, unless the limb ends about there."""
     _, _, low, high = o.box()
-    margin = margins(o)
-    return Forks(np.r_[o.parent, o.parent], np.r_[low - _BESIDE * margin, high + _BESIDE * margin], _CLOSE * np.r_[margin, margin])
+    margin = np.r_[margins(o), margins(o)]
+    limb, s = np.r_[o.parent, o.parent], np.r_[low, high] + _BESIDE * margin * np.repeat([-1.0, 1.0], len(low))
+    on = (s > margin) & (s < lines.length[limb] - margin)
+    return Forks(limb[on], s[on], _CLOSE * margin[on])
 
 
 def _sides(ring, foot, size, tolerance: float, detail: Detail):
