@@ -24,7 +24,7 @@ from scipy import ndimage
 
 from sketchtree.foliage.painting import to_srgb
 from sketchtree.geometry.mesh import Material, Mesh
-from sketchtree.levels.raster import Seen, View, render, silhouette
+from sketchtree.levels.raster import Seen, View, render_both, silhouette
 
 SIDES = 8
 _BORDER = 4  # clear pixels round each picture
@@ -33,7 +33,7 @@ _APART = 1e-4  # the two sides of a card stand apart, / the tree's width: progra
 _ROUND = 16  # widths of pictures are multiples of it
 _THINNEST = 0.5  # least κ
 _SOFT = 0.6  # pixels, by which coverage is blurred
-_TRIES = 6  # of finding κ
+_TRIES = 5  # of finding κ
 
 
 def impostor(meshes: Sequence[Mesh], *, pixels: int = 512) -> Mesh:
@@ -52,18 +52,19 @@ def impostor(meshes: Sequence[Mesh], *, pixels: int = 512) -> Mesh:
     wide = min(int(_ROUND * np.ceil((across / half * pixels + 2 * _BORDER) / _ROUND)), pixels)
     views = [View.round(2.0 * np.pi * k / SIDES, centre, half, _FINE * pixels) for k in range(SIDES)]
     reach = wide / pixels * half, half
-    pictures = [_Picture.of(render(meshes, view), view, wide, reach) for view in views]
+    both = [render_both(meshes, view) for view in views[: SIDES // 2]]
+    pictures = [_Picture.of(both[k % len(both)][k // len(both)], view, wide, reach) for k, view in enumerate(views)]
     kept = 1.0
     for _ in range(_TRIES):
         made = _cards(pictures, views, reach, wide, pixels, across, kept)
-        covered = sum(_area([made], view) for view in views[: SIDES // 2])
-        kept = float(np.clip(kept * sum(picture.area for picture in pictures[: SIDES // 2]) / max(covered, 1), _THINNEST, 1.0))
+        covered = sum(_area(made, view, pixels) for view in views[:2])
+        kept = float(np.clip(kept * sum(picture.area for picture in pictures[:2]) / max(covered, 1.0), _THINNEST, 1.0))
     return _cards(pictures, views, reach, wide, pixels, across, kept)
 
 
-def _area(meshes, view: View) -> float:
-    """Pixels that are covered, as many as in a picture."""
-    return float(silhouette(meshes, replace(view, pixels=view.pixels // _FINE)).sum())
+def _area(card: Mesh, view: View, pixels: int) -> float:
+    """What a side shows of the cards, in pixels of their pictures."""
+    return float(silhouette([card], replace(view, pixels=pixels)).sum())
 
 
 @dataclass(frozen=True, eq=False)

@@ -82,17 +82,28 @@ def silhouette(meshes: Sequence[Mesh], view: View) -> Bool[np.ndarray, "row colu
 
 def render(meshes: Sequence[Mesh], view: View) -> Seen:
     """The nearest surface at each pixel: its own colour and which way it looks."""
+    return _seen(meshes, view, (1.0,))[0]
+
+
+def render_both(meshes: Sequence[Mesh], view: View) -> tuple[Seen, Seen]:
+    """The same from this side and from the opposite one: what covers a pixel from one covers its mirror image from the other."""
+    front, back = _seen(meshes, view, (1.0, -1.0))
+    return front, Seen(*(getattr(back, name)[:, ::-1] for name in Seen.__dataclass_fields__))
+
+
+def _seen(meshes: Sequence[Mesh], view: View, sides: Sequence[float]) -> list[Seen]:
     size = view.pixels**2
-    depth, color, normal, facing = np.full(size, -np.inf), np.zeros((size, 3)), np.zeros((size, 3)), np.zeros(size, bool)
+    found = [Seen(np.full(size, -np.inf), np.zeros((size, 3)), np.zeros((size, 3)), np.zeros(size, bool)) for _ in sides]
     for mesh in meshes:
         texels = Pyramid.of(mesh.material)
-        for found in _fragments(mesh, view, texels):
-            near = _nearest(found, depth)
-            depth[near.pixel] = near.depth
-            color[near.pixel] = _colors(mesh, near, texels, view)
-            normal[near.pixel], facing[near.pixel] = _normals(mesh, near, view)
+        for fragments in _fragments(mesh, view, texels):
+            for side, seen in zip(sides, found, strict=True):
+                near = _nearest(fragments, seen.depth, side)
+                seen.depth[near.pixel] = side * near.depth
+                seen.color[near.pixel] = _colors(mesh, near, texels, view)
+                seen.normal[near.pixel], seen.facing[near.pixel] = _normals(mesh, near, side * view.towards)
     shape = view.pixels, view.pixels
-    return Seen(depth.reshape(shape), color.reshape(*shape, 3), normal.reshape(*shape, 3), facing.reshape(shape))
+    return [Seen(seen.depth.reshape(shape), seen.color.reshape(*shape, 3), seen.normal.reshape(*shape, 3), seen.facing.reshape(shape)) for seen in found]
 
 
 def _fragments(mesh: Mesh, view: View, texels: Pyramid) -> Iterator[Fragments]:
@@ -152,10 +163,12 @@ def _ragged(first, count):
     return which, np.arange(len(which)) - np.repeat(np.cumsum(count) - count, count) + first[which]
 
 
-def _nearest(found: Fragments, depth: Float[np.ndarray, " pixel"]) -> Fragments:
-    """Of each pixel's fragments the nearest, where it is nearer than `depth`; the later one where two are equally near."""
-    rows = np.flatnonzero(found.depth > depth[found.pixel])
-    rows = rows[np.argsort(found.depth[rows], kind="stable")]
+def _nearest(found: Fragments, depth: Float[np.ndarray, " pixel"], side: float) -> Fragments:
+    """Of each pixel's fragments the nearest as seen from in front (1) or behind (−1), where it is nearer than `depth`; the later one
+    where two are equally near."""
+    near = side * found.depth
+    rows = np.flatnonzero(near > depth[found.pixel])
+    rows = rows[np.argsort(near[rows], kind="stable")]
     winner = np.full(len(depth), -1)
     winner[found.pixel[rows]] = rows  # the last one written stays
     return _rows(found, winner[winner >= 0])
@@ -188,10 +201,10 @@ def _colors(mesh: Mesh, found: Fragments, texels: Pyramid, view: View):
     return color
 
 
-def _normals(mesh: Mesh, found: Fragments, view: View):
+def _normals(mesh: Mesh, found: Fragments, towards):
     corner = mesh.triangle[found.triangle]
     normal = np.einsum("fk,fkc->fc", found.weight, mesh.normal[corner])
     normal /= np.maximum(np.linalg.norm(normal, axis=1, keepdims=True), 1e-12)
     a, b, c = (mesh.position[corner[:, k]] for k in range(3))
-    front = np.cross(b - a, c - a) @ view.towards > 0
+    front = np.cross(b - a, c - a) @ towards > 0
     return np.where(front[:, None] | (not mesh.material.double_sided), normal, -normal), front

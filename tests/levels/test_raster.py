@@ -4,7 +4,7 @@ import numpy as np
 import pytest
 
 from sketchtree.geometry.mesh import Material, Mesh
-from sketchtree.levels.raster import View, render, silhouette
+from sketchtree.levels.raster import Seen, View, render, render_both, silhouette
 from sketchtree.levels.texels import Pyramid
 
 FRONT = View.round(0.0, [0.0, 0.0, 0.0], 1.0, 100)
@@ -101,3 +101,14 @@ def test_colours_are_averaged_in_linear_light_and_multiplied_by_the_tint():
 def test_odd_textures_have_levels_too():
     texels = Pyramid.of(Material("wood", base_color_texture=np.full((7, 3, 4), 128, np.uint8)))
     assert texels.height.tolist() == [7, 3, 1] and texels.width.tolist() == [3, 1, 1] and texels.has_alpha
+
+
+def test_both_sides_at_once_are_those_seen_one_by_one():
+    rng = np.random.default_rng(3)
+    cloud = mesh(rng.uniform(-0.8, 0.8, (90, 3)), np.arange(90).reshape(-1, 3), material=Material("leaf", double_sided=True), color=rng.random((90, 4)))
+    for azimuth in (0.0, 0.7):
+        views = [View.round(azimuth + turn, [0.0, 0, 0], 1.0, 80) for turn in (0.0, np.pi)]
+        for seen, both in zip((render([cloud], view) for view in views), render_both([cloud], views[0]), strict=True):
+            for name in Seen.__dataclass_fields__:
+                same = np.isclose(getattr(seen, name), getattr(both, name))
+                assert same.mean() > 0.995, name  # pixels on an edge may fall to either side
