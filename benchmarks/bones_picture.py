@@ -44,7 +44,7 @@ def main(argv=None) -> None:
         "bent": [bent(mesh, bones) for mesh in meshes],
         f"{len(rigging.pivots)} pivots": [false_colour(mesh, hue(element(mesh) * GOLDEN % 1.0)) for mesh in wood],
     }
-    sheet([*panes.values()], [*panes], columns=3, output=arguments.output, parser=parser, around=meshes)
+    sheet([*panes.values()], [*panes], columns=3, output=arguments.output, parser=parser, around=[*meshes, *panes["bent"]])
 
 
 def weighted(mesh: Mesh, joints: int) -> np.ndarray:

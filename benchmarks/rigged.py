@@ -48,7 +48,7 @@ def sheet(panes, titles, *, columns: int, output: Path, parser, around, azimuth:
     """All panes on one picture, each a list of meshes, all seen by one camera: that which sees the meshes `around` whole."""
     first = np.vstack([mesh.position for mesh in around])
     low, high = first.min(axis=0), first.max(axis=0)
-    focus = (tuple(0.5 * (low + high)), 0.56 * max(high[1] - low[1], high[0] - low[0], high[2] - low[2]))
+    focus = (tuple(0.5 * (low + high)), 0.52 * max(high[1] - low[1], high[0] - low[0], high[2] - low[2]))
     pictures = [_picture(meshes, azimuth, focus, parser) for meshes in panes]
     rows = -(-len(pictures) // columns)
     whole = Image.new("RGB", (columns * SIZE[0], rows * SIZE[1]), "white")

@@ -23,7 +23,7 @@ MOMENTS = (None, 0.35, 1.1, 2.3)  # seconds
 def main(argv=None) -> None:
     """Draws both rows on one sheet."""
     parser = argparse.ArgumentParser(description=__doc__.splitlines()[0])
-    parser.add_argument("sketch", nargs="?", type=Path, default=ROOT / "examples" / "willow.svg")
+    parser.add_argument("sketch", nargs="?", type=Path, default=ROOT / "examples" / "oak.svg")
     parser.add_argument("-o", "--output", type=Path, default=ROOT / "docs" / "pictures" / "wind.png")
     arguments = parser.parse_args(argv)
     rigging, meshes = dressed(arguments.sketch)

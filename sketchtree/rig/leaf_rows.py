@@ -14,7 +14,7 @@ from sketchtree.foliage.leaves import Leaves
 from sketchtree.geometry.mesh import Mesh
 
 _SHOOT = 6  # vertices of a short shoot
-_AT_FOOT = 0.25  # a leaf's own block comes as near to its foot as this, leaf sizes
+_AT_FOOT = 0.25  # a leaf's foot is in its block's box, or as near to it as this, leaf sizes
 _AT_MIDDLE = 0.1  # a short shoot's piece has its middle as near to the shoot's as this, shoot lengths
 
 
@@ -37,10 +37,10 @@ def leaf_rows(mesh: Mesh, leaves: Leaves) -> LeafRows:
     """The leaf of every vertex of a mesh of these leaves; there is at least one leaf."""
     cut = _by_block(mesh, leaves)
     cut = _by_triangles(mesh, leaves) if cut is None else cut
-    away = np.linalg.norm(mesh.position - leaves.position[cut.leaf][cut.piece], axis=1)
-    nearest, farthest = np.full(len(cut.leaf), np.inf), np.zeros(len(cut.leaf))
-    np.minimum.at(nearest, cut.piece, away)
-    np.maximum.at(farthest, cut.piece, away)
+    away = np.linalg.norm(mesh.position - leaves.position[cut.leaf[cut.piece]], axis=1)
+    order = np.argsort(cut.piece, kind="stable")
+    first = np.searchsorted(cut.piece[order], np.arange(len(cut.leaf)))
+    nearest, farthest = np.minimum.reduceat(away[order], first), np.maximum.reduceat(away[order], first)
     long = np.where(cut.is_shoot | (farthest <= nearest), np.inf, farthest - nearest)
     return LeafRows(cut.leaf[cut.piece], np.where(cut.is_shoot[cut.piece], 0.0, (away - nearest[cut.piece]) / long[cut.piece]))
 
@@ -52,8 +52,8 @@ def _by_block(mesh: Mesh, leaves: Leaves) -> _Cut | None:
     if rest or size < 3:
         return None
     block = mesh.position[: size * count].reshape(count, size, 3)
-    away = block - leaves.position[:, None]
-    if not (np.einsum("lvi,lvi->lv", away, away).min(axis=1) <= (_AT_FOOT * leaves.size) ** 2 + 1e-12).all():
+    room = _AT_FOOT * leaves.size[:, None] + 1e-9
+    if not ((block.min(axis=1) - room <= leaves.position) & (leaves.position <= block.max(axis=1) + room)).all():
         return None
     piece = np.concatenate([np.repeat(np.arange(count), size), count + np.repeat(np.arange(shoots), _SHOOT)])
     return _Cut(piece, np.concatenate([np.arange(count), _leaf_on(leaves)]), np.arange(count + shoots) >= count)

@@ -13,6 +13,7 @@ thickness share one. The best few spheres give the spans of line on which the tr
 Leaves: by their own row, since a leaf's vertices are nearer to other twigs than to its own more often than not.
 """
 
+from functools import lru_cache
 from typing import NamedTuple
 
 import numpy as np
@@ -67,19 +68,26 @@ def wood_places(lines: CentreLines, position: Float[np.ndarray, "vertex 3"]) -> 
 
 
 def places_on(lines: CentreLines, limb: Int[np.ndarray, " point"], position: Float[np.ndarray, "point 3"]) -> Places:
-    """The nearest place on the limb that each point belongs to."""
-    from scipy.spatial import cKDTree
-
+    """The nearest place on the limb that each point belongs to: on the two spans at that limb's nearest point."""
     if not len(position):
         return Places(np.zeros(0, np.int64), np.zeros(0))
-    apart = 4.0 * (np.ptp(np.vstack([lines.point, position]), axis=0).max() + 1.0)
-    known = cKDTree(np.column_stack([lines.point, apart * lines.of_point]))
+    known, apart = _by_limb(lines)
     _, here = known.query(np.column_stack([position, apart * limb]))
     best = _Best(np.full(len(position), np.inf), np.zeros(len(position), np.int64), np.zeros(len(position)))
+    every = np.arange(len(position))
     for span in (here - 1, here):
-        span = np.clip(span, lines.start[limb], lines.start[limb + 1] - 2)
-        _closer(lines, span, np.arange(len(position)), position, best, by_power=False)
+        _closer(lines, np.clip(span, lines.start[limb], lines.start[limb + 1] - 2), every, position, best, by_power=False)
     return Places(limb, best.s)
+
+
+@lru_cache(maxsize=2)
+def _by_limb(lines: CentreLines):
+    """The points of the lines in a k-d tree whose fourth axis holds the limbs, and how far apart they stand on it: no limb is mistaken for
+    the next, unless a point is as far from its own as the tree is wide, and more."""
+    from scipy.spatial import cKDTree
+
+    apart = 4.0 * (float(np.ptp(lines.point, axis=0).max()) + 1.0)
+    return cKDTree(np.column_stack([lines.point, apart * lines.of_point])), apart
 
 
 class _Spheres(NamedTuple):
