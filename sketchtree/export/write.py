@@ -2,9 +2,10 @@
 
 import os
 from collections.abc import Mapping, Sequence
+from dataclasses import replace
 from pathlib import Path
 
-from sketchtree.asset import Asset
+from sketchtree.asset import Asset, Level
 from sketchtree.export.files import MESHES, SKELETONS, check_extension, check_program, check_writable, write_set
 from sketchtree.geometry.instances import Instances
 from sketchtree.skeleton import TreeSkeleton
@@ -13,26 +14,42 @@ from sketchtree.skeleton import TreeSkeleton
 def write_asset(path: str | os.PathLike, asset: Asset, *, separate: bool = False, collision: Sequence[str] = ()) -> tuple[str, ...]:
     """Write the asset as the extension says; returns what a person should know about what the format could not hold.
 
-    Of several levels of detail OBJ, PLY, STL and 3MF hold the finest, glTF and USD all, in one file or, if `separate`, glTF in one each.
+    Of several levels of detail OBJ, PLY, STL and 3MF hold the finest, glTF and USD all; if `separate`, each level is in a file of its own.
     `collision` names a node for each capsule in glTF, where they are to be meshes. Raises `ExportError`.
     """
-    suffix = check_extension(path, MESHES)
+    check_extension(path, MESHES)
     check_program(path)
     path = check_writable(path)
+    write_set(asset_files(path, asset, separate=separate, collision=collision))
+    return () if separate else _left_out(path, asset)
+
+
+def asset_files(path: Path, asset: Asset, *, separate: bool = False, collision: Sequence[str] = ()) -> dict[Path, bytes]:
+    """Every file that `write_asset` writes, by its path. If `separate`, several levels become NAME_LOD0, NAME_LOD1 …, an impostor NAME_impostor."""
+    if separate and len(asset.levels) > 1:
+        files: dict[Path, bytes] = {}
+        for number, level in enumerate(asset.levels):
+            one = replace(asset, levels=(level,)) if number == 0 else Asset((level,), name=asset.name, armature=asset.armature, about=asset.about)
+            files |= asset_files(level_path(path, number, level), one, collision=collision)
+        return files
+    suffix = path.suffix.lower()
     if suffix in (".glb", ".gltf"):
         from sketchtree.export.gltf.write import gltf_files
 
-        write_set(gltf_files(path, asset, separate=separate, collision=collision))
-        return ()
+        return gltf_files(path, asset, collision=collision)
     if suffix.startswith(".usd"):
         from sketchtree.export.usd.write import usd_files
 
-        write_set(usd_files(path, asset))
-        return ()
+        return usd_files(path, asset)
     from sketchtree.export.meshes import mesh_files
 
-    write_set(mesh_files(path, [part.merged() if isinstance(part, Instances) else part for part in asset.parts]))
-    return _left_out(path, asset)
+    return mesh_files(path, [part.merged() if isinstance(part, Instances) else part for part in asset.parts])
+
+
+def level_path(path: Path, number: int, level: Level) -> Path:
+    """Where a level of a set stands: NAME_LOD1.glb, or NAME_impostor.glb."""
+    kind = "impostor" if [part.name for part in level.parts] == ["impostor"] else f"LOD{number}"
+    return path.with_name(f"{path.stem}_{kind}{path.suffix}")
 
 
 def write_skeleton(path: str | os.PathLike, tree: TreeSkeleton, *, header: Mapping[str, object]) -> None:

@@ -79,6 +79,16 @@ def test_a_plain_mesh_is_read_back(tmp_path, suffix):
     assert len(mesh.triangle) == 4 and (mesh.color is not None) == (suffix == "ply")
 
 
+def test_the_mean_tint_is_in_the_texture_of_an_obj(tmp_path):
+    write_meshes(tmp_path / "t.obj", [leafy()])
+    (leaf,) = read_meshes(tmp_path / "t.obj").parts
+    white = leaf.material.base_color_texture[..., :3].reshape(-1, 3).max(axis=0) / 255.0
+    np.testing.assert_allclose(white**2.2, [0.5, 1.0, 0.25], atol=0.01)
+    plain = dataclasses.replace(leafy(), material=dataclasses.replace(square().material, name="plain", base_color=(1.0, 0.5, 1.0, 1.0)))
+    write_meshes(tmp_path / "u.obj", [plain])
+    assert "Kd 0.5 0.5 0.25" in (tmp_path / "u.mtl").read_text()
+
+
 def test_an_obj_of_another_program_is_read(tmp_path):
     (tmp_path / "t.obj").write_text("# quads, from the end, without normals\nv 0 0 0\nv 1 0 0\nv 1 1 0\nv 0 1 0\nvt 0 0\nl 1 2\nf -4/1 -3/1 -2/1 -1/1\nf 1 2 3\n")
     (mesh,) = read_meshes(tmp_path / "t.obj").parts

@@ -98,6 +98,8 @@ def test_a_leaf_is_cut_out_two_sided_and_tinted(tmp_path):
     assert UsdGeom.Mesh(leaf).GetDoubleSidedAttr().Get() and surface.GetInput("opacityThreshold").Get() == 0.5
     albedo = UsdShade.Shader(surface.GetInput("diffuseColor").GetConnectedSources()[0][0].source.GetPrim())
     np.testing.assert_allclose(albedo.GetInput("scale").Get(), (0.5, 1.0, 0.25, 1.0))
+    cut = UsdShade.Shader(surface.GetInput("opacity").GetConnectedSources()[0][0].source.GetPrim())
+    assert not cut.GetInput("scale")  # Blender takes the alpha of a scaled texture for its colour
     assert np.allclose(UsdGeom.PrimvarsAPI(leaf).GetPrimvar("displayColor").Get(), (0.5, 1.0, 0.25))
 
 

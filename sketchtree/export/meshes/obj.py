@@ -1,11 +1,14 @@
 """OBJ with its `.mtl` and its textures beside it, all named after it. Metres, y up.
 
 What OBJ has no word for, MTL's physically based extension says as Blender writes and reads it: `Pr` and `map_Pr` roughness,
-`norm` a tangent-space normal map. The tint of a leaf has no place in it and is left out.
+`norm` a tangent-space normal map. The tint of each leaf has no place in it: the mean of all is in the texture.
 """
 
+import dataclasses
 from collections.abc import Sequence
 from pathlib import Path
+
+import numpy as np
 
 from sketchtree.export.images import COLOR, NORMAL, encode, ending
 from sketchtree.geometry.mesh import Material, Mesh
@@ -13,11 +16,25 @@ from sketchtree.geometry.mesh import Material, Mesh
 
 def obj_files(path: Path, meshes: Sequence[Mesh]) -> dict[Path, bytes]:
     """The textures, the materials, and the mesh that names them, by their paths."""
-    materials = {mesh.material.name: mesh.material for mesh in meshes}
+    materials = {mesh.material.name: _mean_tinted(mesh.material, meshes) for mesh in meshes}
     files: dict[Path, bytes] = {}
     library = path.with_suffix(".mtl")
     blocks = [_material(path, material, files) for material in materials.values()]
     return files | {library: "\n".join(blocks).encode(), path: _geometry(library.name, meshes)}
+
+
+def _mean_tinted(material: Material, meshes: Sequence[Mesh]) -> Material:
+    """The material with the mean tint of the meshes that wear it in its texture, or in its colour where it has none."""
+    tints = [mesh.color[:, :3] for mesh in meshes if mesh.material is material and mesh.color is not None]
+    if not tints:
+        return material
+    mean = np.concatenate(tints).mean(axis=0)
+    image = material.base_color_texture
+    if image is None:
+        return dataclasses.replace(material, base_color=(*(np.array(material.base_color[:3]) * mean).tolist(), material.base_color[3]))
+    tinted = image.copy()
+    tinted[..., :3] = np.round(image[..., :3] * np.clip(mean, 0.0, 1.0) ** (1 / 2.2))  # a factor of light, on sRGB bytes
+    return dataclasses.replace(material, base_color_texture=tinted)
 
 
 def _geometry(library: str, meshes: Sequence[Mesh]) -> bytes:

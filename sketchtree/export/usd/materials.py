@@ -48,19 +48,20 @@ class Materials:
             normal = self._texture(home, material, "normal", material.normal_texture, NORMAL, "raw", scale=(2, 2, 2, 1), bias=(-1, -1, -1, 0))
             _set(surface, "normal", Sdf.ValueTypeNames.Normal3f, None, normal, "rgb")
         if material.alpha_cutoff is not None:
-            _set(surface, "opacity", Sdf.ValueTypeNames.Float, alpha, albedo, "a")
+            cut = self._texture(home, material, "albedo", material.base_color_texture, COLOR, "sRGB", node="opacity")  # Blender scales what it shares
+            _set(surface, "opacity", Sdf.ValueTypeNames.Float, alpha, cut, "a")
             _set(surface, "opacityThreshold", Sdf.ValueTypeNames.Float, material.alpha_cutoff)
         made.GetPrim().SetCustomData({"name": material.name, "base_color": Gf.Vec4f(*map(float, material.base_color)), "translucency": float(material.translucency)})
         return made
 
-    def _texture(self, home, material: Material, part: str, image, quality: int, space: str, *, scale=None, bias=None):
-        """A texture's shader, or None without an image."""
+    def _texture(self, home, material: Material, part: str, image, quality: int, space: str, *, scale=None, bias=None, node: str = ""):
+        """A texture's shader, named after the part or as `node` says; None without an image."""
         if image is None:
             return None
         data, media = encode(image, quality)
         name = str(PurePosixPath(self.folder) / f"{material.name}_{part}{ending(media)}")
         self.files[name] = data
-        shader = _shader(self.stage, f"{home}/{part}", "UsdUVTexture")
+        shader = _shader(self.stage, f"{home}/{node or part}", "UsdUVTexture")
         _set(shader, "file", Sdf.ValueTypeNames.Asset, Sdf.AssetPath(name))
         _set(shader, "sourceColorSpace", Sdf.ValueTypeNames.Token, space)
         _set(shader, "wrapS", Sdf.ValueTypeNames.Token, "repeat")
