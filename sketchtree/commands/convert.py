@@ -4,6 +4,7 @@ import time
 from pathlib import Path
 
 import click
+from click.core import ParameterSource
 
 from sketchtree.commands import options
 from sketchtree.commands.progress import Progress
@@ -92,7 +93,8 @@ def _dressed(source: Path, contents, seed: int, db: Path | None, wanted: dict):
     from sketchtree.version import __version__
 
     made_of = _project_dress(source)
-    seed = made_of.get("seed", seed)
+    chosen = click.get_current_context().get_parameter_source("seed") is not ParameterSource.DEFAULT
+    seed = seed if chosen else made_of.get("seed", seed)
     template, leaf = made_of.get("template"), wanted["leaf"] or made_of.get("leaf")
     templates = _templates(db) if template or leaf not in (None, "none") else None
     habit = templates.exemplar(template).habit if template and template in templates.names else Habit()

@@ -117,6 +117,12 @@ def test_a_project_wears_what_it_was_built_with(project, tmp_path):
     assert (tmp_path / "b.glb").read_bytes() == (project / "built.glb").read_bytes()
 
 
+def test_another_seed_turns_the_leaves_of_a_project(project, tmp_path):
+    converted(project / "t.sketchtree", tmp_path / "b.glb", "--seed", "6")
+    assert read_asset(tmp_path / "b.glb").about["seed"] == 6
+    assert (tmp_path / "b.glb").read_bytes() != (project / "built.glb").read_bytes()
+
+
 def test_a_project_can_be_built_again(project, tmp_path):
     how = ["--template", "english_oak", "--method", "flat", "--generations", "0", "--season", "autumn", "--seed", "5", "--quiet"]
     assert run(["build", str(project / "t.sketchtree"), "-o", str(tmp_path / "b.glb"), *how]) == 0

@@ -11,6 +11,7 @@ from shapes import bars, bending, bones, curved, detailed, leafy, scattered, squ
 from sketchtree.asset import Armature, Asset, Level
 from sketchtree.errors import ExportError
 from sketchtree.export.gltf import asset_bytes, read_asset, read_glb, read_glb_skeleton, write_gltf
+from sketchtree.export.write import write_asset
 
 
 def document(asset, **options):
@@ -68,7 +69,7 @@ def test_levels_are_read_back(tmp_path):
 
 
 def test_levels_may_stand_in_files_of_their_own(tmp_path):
-    write_gltf(tmp_path / "t.glb", detailed(), separate=True)
+    write_asset(tmp_path / "t.glb", detailed(), separate=True)
     assert sorted(path.name for path in tmp_path.iterdir()) == ["t_LOD0.glb", "t_LOD1.glb", "t_LOD2.glb"]
     assert [sum(len(mesh.triangle) for mesh in read_glb(tmp_path / f"t_LOD{k}.glb")) for k in range(3)] == [12, 4, 2]
     assert len(read_glb_skeleton(tmp_path / "t_LOD0.glb")) == len(curved())

@@ -207,3 +207,12 @@ def test_names_that_usd_does_not_allow_are_made_so(tmp_path):
     made = stage(tmp_path, Asset.of(odd, name="7 trees"))
     assert made.GetDefaultPrim().GetName() == "_7_trees"
     assert [prim.GetName() for prim in made.GetDefaultPrim().GetChildren() if prim.IsA(UsdGeom.Mesh)] == ["wood_1", "wood_1_2"]
+
+
+def test_a_full_folder_for_temporary_files_is_named(tmp_path, monkeypatch):
+    from sketchtree.export.usd import write
+
+    monkeypatch.setattr(write.Path, "read_bytes", lambda path: (_ for _ in ()).throw(OSError(28, "No space left on device")))
+    with pytest.raises(ExportError, match="USD could not be written to the folder for temporary files, .*Free some space there, or name another folder in TMPDIR."):
+        write_asset(tmp_path / "t.usdz", ASSETS["plain"]())
+    assert list(tmp_path.iterdir()) == []

@@ -21,16 +21,16 @@ from sketchtree.version import __version__
 GENERATOR = f"SketchTree {__version__}"
 
 
-def write_gltf(path: str | os.PathLike, asset: Asset, *, separate: bool = False, collision: Sequence[str] = ()) -> None:
+def write_gltf(path: str | os.PathLike, asset: Asset, *, collision: Sequence[str] = ()) -> None:
     """Write the asset as `.glb` or `.gltf`, all its files or none.
 
-    Several levels of detail stand in one file (MSFT_lod) or, if `separate`, in one each: `NAME_LOD0.glb` …. `collision` names
+    Several levels of detail stand in one file (MSFT_lod). `collision` names
     a node for each capsule, where they are to be meshes too. Parts without triangles are left out.
     Raises `ExportError` where a number is not finite or a file can't be written.
     """
     check_extension(path, (".glb", ".gltf"))
     check_writable(path)
-    write_set(gltf_files(Path(path), asset, separate=separate, collision=collision))
+    write_set(gltf_files(Path(path), asset, collision=collision))
 
 
 def write_glb(path: str | os.PathLike, meshes: Sequence[Mesh], *, extras: dict | None = None) -> None:
@@ -53,14 +53,8 @@ def asset_bytes(asset: Asset, *, collision: Sequence[str] = (), extras: dict | N
     return _packed(_whole(content, tables), tables)
 
 
-def gltf_files(path: Path, asset: Asset, *, separate: bool = False, collision: Sequence[str] = ()) -> dict[Path, bytes]:
+def gltf_files(path: Path, asset: Asset, *, collision: Sequence[str] = ()) -> dict[Path, bytes]:
     """Every file that `write_gltf` writes, by its path."""
-    if separate and len(asset.levels) > 1:
-        files = {}
-        for number, level in enumerate(asset.levels):
-            alone = Asset((level,), asset.skeleton if number == 0 else None, asset.name, asset.armature, asset.capsules if number == 0 else None, asset.about)
-            files |= gltf_files(path.with_name(f"{path.stem}_LOD{number}{path.suffix}"), alone, collision=collision if number == 0 else ())
-        return files
     if path.suffix.lower() == ".glb":
         return {path: asset_bytes(asset, collision=collision)}
     return _loose(path, asset, collision)

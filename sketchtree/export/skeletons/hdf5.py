@@ -22,6 +22,7 @@ from sketchtree.export.files import check_extension, write_whole
 from sketchtree.skeleton import TreeSkeleton
 from sketchtree.skeleton_hdf5 import PROJECT, SCHEMA, put, put_columns, write_skeleton_hdf5
 from sketchtree.sketch.files.sketch_json import sketch_json
+from sketchtree.sketch.formats import check_writable as check_drawing
 from sketchtree.version import __version__
 
 
@@ -34,10 +35,13 @@ def write_hdf5(path: str | os.PathLike, tree: TreeSkeleton) -> None:
 
 
 def write_project(path: str | os.PathLike, model, *, seed: int, options: dict) -> None:
-    """Write a `TreeModel` with the drawing it was made of as `.sketchtree`, all or nothing. `options` are JSON."""
+    """Write a `TreeModel` with the drawing it was made of as `.sketchtree`, all or nothing. `options` are JSON.
+
+    Raises `SketchError` for a drawing that a file could not give back, `ExportError` where it can't be written."""
     import h5py
 
     check_extension(path, (".sketchtree",))
+    check_drawing(model.drawn.sketch)
     whole = io.BytesIO()
     with h5py.File(whole, "w", libver=("v110", "v110")) as file:
         file.attrs["format"], file.attrs["schema"], file.attrs["version"], file.attrs["seed"] = PROJECT, SCHEMA, __version__, seed

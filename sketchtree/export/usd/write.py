@@ -105,15 +105,19 @@ def _told(asset: Asset) -> dict:
 
 def _exported(layer, suffix: str) -> bytes:
     """The layer's bytes; USD writes files only by their path."""
-    with tempfile.TemporaryDirectory() as folder:
-        path = Path(folder) / f"layer{suffix}"
-        try:
-            done = layer.Export(str(path))
-        except Exception as error:  # pxr raises Tf.ErrorException where the disk is full
-            raise ExportError(f"Can't write USD: {str(error).strip().splitlines()[-1]}", remedy="Free some space for temporary files.") from error
-        if not done:
-            raise ExportError("Can't write USD: its library gave up.", remedy="Free some space for temporary files.")
-        return path.read_bytes()
+    try:
+        with tempfile.TemporaryDirectory() as folder:
+            path = Path(folder) / f"layer{suffix}"
+            if layer.Export(str(path)):
+                return path.read_bytes()
+    except Exception as error:  # pxr raises Tf.ErrorException where the disk is full
+        raise _no_room() from error
+    raise _no_room()
+
+
+def _no_room() -> ExportError:
+    where = tempfile.gettempdir()
+    return ExportError(f"USD could not be written to the folder for temporary files, {where}.", remedy="Free some space there, or name another folder in TMPDIR.")
 
 
 def _package(files: dict[str, bytes]) -> bytes:
