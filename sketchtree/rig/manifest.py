@@ -16,11 +16,15 @@ from sketchtree.rig.engines import notes
 from sketchtree.rig.pivots import Pivots
 from sketchtree.rig.rigging import Rigging
 from sketchtree.rig.sway import Sway
-from sketchtree.rig.wind import CHANNELS
 from sketchtree.version import __version__
 
 FORMAT = 1
-_WHERE = {"sway": ("TEXCOORD_2", 0), "branch": ("TEXCOORD_2", 1), "phase": ("TEXCOORD_3", 0), "flutter": ("TEXCOORD_3", 1)}
+_WHERE = {  # in the order of COLOR_1
+    "sway": ("TEXCOORD_2", 0),
+    "branch": ("TEXCOORD_2", 1),
+    "phase": ("TEXCOORD_3", 0),
+    "flutter": ("TEXCOORD_3", 1),
+}
 
 
 def pack_schema() -> dict:
@@ -65,8 +69,8 @@ def _bounds(asset: Asset) -> dict:
 def _wind(asset: Asset, rigging: Rigging) -> dict:
     wind = np.vstack([part.extra["COLOR_1"] for part in asset.parts])
     channels = {
-        name: {"texture_set": _WHERE[name][0], "component": _WHERE[name][1], "color_component": k, "min": _short(wind[:, k].min()), "max": _short(wind[:, k].max())}
-        for k, name in enumerate(CHANNELS)
+        name: {"texture_set": texture_set, "component": component, "color_component": k, "min": _short(wind[:, k].min()), "max": _short(wind[:, k].max())}
+        for k, (name, (texture_set, component)) in enumerate(_WHERE.items())
     }
     amounts = {"ground": rigging.wind.ground, "height": rigging.wind.height, "reach": rigging.wind.reach}
     return {"color_set": "COLOR_1", "channels": channels} | {name: _short(value) for name, value in amounts.items()} | {"formula": dataclasses.asdict(Sway())}

@@ -9,14 +9,16 @@ Four numbers a vertex, 0-1, made so that no shader need know the tree:
 
     beam(u) = u² (6 − 4u + u²) / 3                    bending of an even beam, fixed at one end, under an even load
                                                       (Timoshenko & Gere, "Theory of elastic stability"), 1 at u = 1
-    B(limb, s) = B(parent, where the limb comes out) + L k^(d − 1) beam((s − b) / (L − b))
+    B(limb, s) = B_p + B'_p a tanh(x·t / a) + L k^(d − 1) beam((s − b) / (L − b))
 
+    B_p, B'_p   of the parent where the limb comes out of it, and its slope there: what grows from a branch turns with it
+    x, t, a   from there to the point; the parent's direction; how far a limb goes along, four of the parent's radii
     L   length of the limb       b   what of it is buried in its parent       d   limbs between it and the stem, from 1
     k   how much less twigs add: they are short, but many lie behind each other
 
 Main bending by height, bending of branches by how far out, and leaves by their edges is the scheme of Sousa 2007 ("Vegetation
-procedural animation and shading in Crysis", GPU Gems 3, chapter 16); painted there, computed here. Since B starts at its parent's
-value where the limb leaves the parent's wood, the surface stays in one piece at forks; since it starts level, phases may differ.
+procedural animation and shading in Crysis", GPU Gems 3, chapter 16); painted there, computed here. Since B goes on at forks, in value
+and slope, the surface stays in one piece; since its own part starts level, phases may differ.
 """
 
 from dataclasses import dataclass
@@ -36,6 +38,7 @@ from sketchtree.skeleton import TreeSkeleton
 from sketchtree.traverse import generations
 
 _LESS = 0.75  # k
+_ALONG = 4.0  # radii of the parent: a
 CHANNELS = ("sway", "branch", "phase", "flutter")
 
 
@@ -115,11 +118,24 @@ def _branch(lines: CentreLines, limbs: Boughs) -> Float[np.ndarray, " point"]:
     branch = own * scale[limb]
     for among in generations(lines.parent)[1:]:
         among = among[~still[among]]
-        foot = along(lines, branch, Places(lines.parent[among], limbs.exit_s[among]))
-        added = np.zeros(len(lines))
-        added[among] = foot
-        branch += added[limb]
-    return branch
+        rows = np.flatnonzero(np.isin(limb, among))
+        branch[rows] += _carried(lines, limbs, branch, rows)
+    return np.maximum(branch, 0.0)
+
+
+def _carried(lines: CentreLines, limbs: Boughs, branch, rows) -> Float[np.ndarray, " row"]:
+    """What points of limbs have of their parents' B: its value where the limb comes out, and its slope while they run along."""
+    limb = np.arange(len(lines))
+    above, at = np.maximum(lines.parent, 0), limbs.exit_s
+    point, radius = lines.at(above, at)
+    low, high = np.maximum(at - radius, 0.0), np.minimum(at + radius, lines.length[above])
+    rise = along(lines, branch, Places(above, high)) - along(lines, branch, Places(above, low))
+    chord = lines.at(above, high)[0] - lines.at(above, low)[0]
+    chord /= np.maximum(np.linalg.norm(chord, axis=1, keepdims=True), 1e-12)
+    slope, value, reach = rise / np.maximum(high - low, 1e-12), along(lines, branch, Places(above, at)), _ALONG * radius
+    limb = lines.of_point[rows]
+    ahead = np.einsum("ij,ij->i", lines.point[rows] - point[limb], chord[limb])
+    return value[limb] + slope[limb] * reach[limb] * np.tanh(ahead / reach[limb])
 
 
 def _phase(lines: CentreLines, limbs: Boughs) -> Float[np.ndarray, " limb"]:
