@@ -6,7 +6,7 @@ import time
 from dataclasses import dataclass
 from pathlib import Path
 
-from sketchtree.errors import ExportError
+from sketchtree.errors import ExportError, OptionError
 from sketchtree.export.files import MESHES, PROJECTS, SKELETONS, check_extension, check_program, check_writable, write_whole
 
 PICTURES = (".png",)
@@ -51,14 +51,30 @@ def split_options(wanted: dict, *records: type) -> list:
     return [record(**{f.name: wanted[f.name] for f in dataclasses.fields(record) if f.name in wanted}) for record in records]
 
 
-def write_tree(model, output: Path, run: Run, *, skeleton: Path | None, preview: Path | None) -> tuple[str, ...]:
-    """Write the tree and what else was asked for; returns warnings (a picture that could not be made)."""
+def check_files(output: Path, files) -> None:
+    """Refuse, before any work, what the file can't hold. `files` is a `FileOptions`. Raises OptionError."""
+    kind = output.suffix.lower()
+    scene = kind in (".glb", ".gltf") or kind.startswith(".usd")
+    if files.pack and kind != ".glb":
+        raise OptionError(f"`--pack {files.pack}` writes GLB files, not `{kind}`.", remedy=f"Name the output {output.stem}.glb.")
+    if files.levels == "together" and not scene:
+        raise OptionError(f"`{kind}` files hold one level of detail.", remedy="Write .glb, .gltf or .usd, or ask for `--levels apart`.")
+    if files.leaves == "instanced" and not scene:
+        raise OptionError(f"`{kind}` files can't hold instanced leaves.", remedy="Write .glb, .gltf or .usd, or leave `--leaves instanced` out.")
+    if (files.lod or files.levels != "one") and kind not in MESHES:
+        raise OptionError(f"`{kind}` files hold no mesh, and so no level of detail.", remedy="Leave `--lod` and `--levels` out, or write a mesh.")
+
+
+def write_tree(model, output: Path, run: Run, *, skeleton: Path | None, preview: Path | None, files=None) -> tuple[str, ...]:
+    """Write the tree and what else was asked for; returns warnings (a picture that could not be made). `files` is a `FileOptions`: of one tree."""
     kind = output.suffix.lower()
     warnings: tuple[str, ...] = ()
-    if kind in MESHES:
+    if files is not None and files.pack:
+        _write_pack(model, output, run, files)
+    elif kind in MESHES:
         from sketchtree.export.write import write_asset
 
-        warnings += write_asset(output, asset_of(model, run))
+        warnings += write_asset(output, asset_of(model, run, files), separate=files is not None and files.levels == "apart")
     elif kind in SKELETONS:
         _write_skeleton(output, model.skeleton, run)
     elif kind in PROJECTS:
@@ -71,15 +87,32 @@ def write_tree(model, output: Path, run: Run, *, skeleton: Path | None, preview:
     return warnings + tuple(warning for path in pictures for warning in _picture(model, path))
 
 
-def asset_of(model, run: Run):
-    """What a mesh file holds of the tree (or of a forest): one level, the skeleton, and what it was made with."""
+def asset_of(model, run: Run, files=None):
+    """What a mesh file holds of the tree (or of a forest): its levels, the skeleton, and what it was made with."""
     from sketchtree.asset import Asset
+
+    if files is None:
+        return Asset.of(model.meshes, skeleton=model.skeleton, about=_about(model, run))
+    from sketchtree.tree_asset import tree_asset
+
+    return tree_asset(model, files, about=_about(model, run))
+
+
+def _about(model, run: Run) -> dict:
     from sketchtree.version import __version__
 
     drawn = getattr(model, "drawn", None)
     template = {} if drawn is None else {"template": drawn.exemplar.name if drawn.exemplar else None}
-    about = {"program": "SketchTree", "version": __version__, "seed": run.seed, "units": "metres", "up": "y"} | template
-    return Asset.of(model.meshes, skeleton=model.skeleton, about=about)
+    return {"program": "SketchTree", "version": __version__, "seed": run.seed, "units": "metres", "up": "y"} | template
+
+
+def _write_pack(model, output: Path, run: Run, files) -> None:
+    from sketchtree.levels.make import make_levels
+    from sketchtree.rig.pack import game_pack, write_pack
+
+    levels = make_levels(model, pixel_error=files.pixel_error)
+    far = levels[-1].parts[0] if levels[-1].parts and levels[-1].parts[0].name == "impostor" else None
+    write_pack(output.parent, game_pack(model, levels if far is None else levels[:-1], far, name=output.stem, about=_about(model, run)))
 
 
 def _picture(model, path: Path) -> tuple[str, ...]:

@@ -21,7 +21,8 @@ def write_asset(path: str | os.PathLike, asset: Asset, *, separate: bool = False
     check_program(path)
     path = check_writable(path)
     write_set(asset_files(path, asset, separate=separate, collision=collision))
-    return () if separate else _left_out(path, asset)
+    scene = path.suffix.lower() in (".glb", ".gltf") or path.suffix.lower().startswith(".usd")
+    return () if scene or separate else _left_out(path, asset)
 
 
 def asset_files(path: Path, asset: Asset, *, separate: bool = False, collision: Sequence[str] = ()) -> dict[Path, bytes]:
