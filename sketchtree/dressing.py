@@ -12,7 +12,7 @@ from sketchtree.foliage.blossom import blossom
 from sketchtree.foliage.cards import leaf_mesh
 from sketchtree.foliage.populate import populate
 from sketchtree.geometry.mesh import Mesh
-from sketchtree.geometry.wood import wood_meshes
+from sketchtree.geometry.wood import Wood, wood_of
 from sketchtree.keys import stage_key
 from sketchtree.parameters import Habit
 from sketchtree.skeleton import TreeSkeleton
@@ -26,13 +26,23 @@ class Dress:
     leaf: str | None  # a name of `leaf_names()`; None: no leaves
     season: str = "summer"
     habit: Habit = Habit()
+    wood: str | None = None  # one-piece | tubes; None: as `wood_of` chooses
 
 
 def dressed(tree: TreeSkeleton, dress: Dress, *, key: Key[Array, ""]) -> tuple[Mesh, ...]:
     """Wood, then leaves and blossoms if there are any. Metres."""
-    meshes = [*wood_meshes(tree, bark=dress.bark, habit=dress.habit, key=stage_key(key, "mesh"))]
-    if dress.leaf is not None:
-        how = {"key": stage_key(key, "foliage"), "model": dress.leaf, "season": dress.season}
-        worn = [populate(tree, dress.habit, **how), blossom(tree, dress.habit, **how)]
-        meshes += [leaf_mesh(leaves, season=dress.season) for leaves in worn if leaves is not None and len(leaves)]
-    return tuple(meshes)
+    return (*wood_worn(tree, dress, key=key).meshes, *leaves_worn(tree, dress, key=key))
+
+
+def wood_worn(tree: TreeSkeleton, dress: Dress, *, key: Key[Array, ""]) -> Wood:
+    """The wood, how it was made, and what a person should know about that."""
+    return wood_of(tree, bark=dress.bark, habit=dress.habit, key=stage_key(key, "mesh"), wood=dress.wood)
+
+
+def leaves_worn(tree: TreeSkeleton, dress: Dress, *, key: Key[Array, ""]) -> tuple[Mesh, ...]:
+    """The leaves, and the blossoms of a spring; nothing where the dress has none."""
+    if dress.leaf is None:
+        return ()
+    how = {"key": stage_key(key, "foliage"), "model": dress.leaf, "season": dress.season}
+    worn = [populate(tree, dress.habit, **how), blossom(tree, dress.habit, **how)]
+    return tuple(leaf_mesh(leaves, season=dress.season) for leaves in worn if leaves is not None and len(leaves))

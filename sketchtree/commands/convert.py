@@ -87,7 +87,7 @@ def _dressed(source: Path, contents, seed: int, db: Path | None, wanted: dict):
     """(the skeleton as meshes, what the summary says of its dress, warnings)."""
     from sketchtree.asset import Asset
     from sketchtree.choose import bark_model, leaf_model
-    from sketchtree.dressing import Dress, dressed
+    from sketchtree.dressing import Dress, leaves_worn, wood_worn
     from sketchtree.keys import root_key
     from sketchtree.parameters import Habit
     from sketchtree.version import __version__
@@ -100,13 +100,14 @@ def _dressed(source: Path, contents, seed: int, db: Path | None, wanted: dict):
     habit = templates.exemplar(template).habit if template and template in templates.names else Habit()
     season = wanted["season"] or made_of.get("season") or "summer"
     leaf = leaf_model(leaf, habit, templates) if leaf or template else None
-    dress = Dress(bark_model(wanted["bark"] or made_of.get("bark"), habit), leaf, season, habit)
+    dress = Dress(bark_model(wanted["bark"] or made_of.get("bark"), habit), leaf, season, habit, made_of.get("wood"))
     about = {"program": "SketchTree", "version": __version__, "seed": seed, "units": "metres", "up": "y"} | ({"template": template or None} if made_of else {})
-    asset = Asset.of(dressed(contents.skeleton, dress, key=root_key(seed)), skeleton=contents.skeleton, about=about)
-    worn = f", bark {dress.bark}, " + (f"leaves {leaf}" if leaf else "no leaves (`--leaf MODEL` adds them)")
-    if leaf is None or any(part.name.startswith("leaf") for part in asset.parts):
-        return asset, worn, ()
-    return asset, worn, (f"No leaf grew: no branch of {source} is thin enough to bear them, or the season is bare.",)
+    wood, leaves = wood_worn(contents.skeleton, dress, key=root_key(seed)), leaves_worn(contents.skeleton, dress, key=root_key(seed))
+    asset = Asset.of((*wood.meshes, *leaves), skeleton=contents.skeleton, about=about)
+    worn = f", wood {wood.made}, bark {dress.bark}, " + (f"leaves {leaf}" if leaf else "no leaves (`--leaf MODEL` adds them)")
+    if leaf is None or leaves:
+        return asset, worn, wood.warnings
+    return asset, worn, (*wood.warnings, f"No leaf grew: no branch of {source} is thin enough to bear them, or the season is bare.")
 
 
 def _project_dress(source: Path) -> dict:
