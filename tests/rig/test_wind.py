@@ -180,3 +180,17 @@ def test_a_tree_without_boughs_only_sways():
     tree = stick([[0, 0, 0], [0, 1, 0], [0, 2, 0]], 0.1)
     mesh = Rigging.of(tree).wood(wood_mesh(tree, bark="oak", key=KEY))
     assert mesh.extra["COLOR_1"][:, SWAY].max() == 1.0 and not mesh.extra["COLOR_1"][:, 1:].any()
+
+
+def test_roots_neither_sway_nor_swing():
+    from sketchtree.skeleton import Kind
+
+    tree = grown()
+    rooted = tree.append({"parent": np.array([0, len(tree)]), "tip": np.array([[0.4, -0.2, 0.0], [0.9, -0.3, 0.1]]), "radius": np.array([0.06, 0.02]), "limb": np.array([7, 7]), "kind": np.full(2, int(Kind.ROOT))})
+    rigging = Rigging.of(rooted)
+    assert rigging.limbs.is_root.sum() == 1 and rigging.limbs.is_stem.sum() == 1
+    root = int(np.flatnonzero(rigging.limbs.is_root)[0])
+    mesh = rigging.wood(wood_mesh(rooted, bark="oak", key=KEY))
+    below = mesh.position[:, 1] < -0.1
+    assert below.sum() > 5 and not mesh.extra["COLOR_1"][below].any()
+    assert rigging.bones.count[root] == 0 and np.all(mesh.extra["JOINTS_0"][below, 0] == 0)
