@@ -17,6 +17,7 @@ from jaxtyping import Bool, Float, Int
 from scipy.spatial import cKDTree
 
 from sketchtree.axes import NULL
+from sketchtree.geometry.chains import chains
 from sketchtree.geometry.limbs import CentreLines, centre_lines
 from sketchtree.skeleton import TreeSkeleton
 from sketchtree.traverse import generations, sum_to_root
@@ -153,13 +154,13 @@ def _follows(tree: TreeSkeleton) -> Bool[np.ndarray, " segment"]:
 def _row_of_point(tree: TreeSkeleton, lines: CentreLines) -> Int[np.ndarray, " point"]:
     """The row whose wood ends at or after each point of the centre lines: a row's tip is a point of its limb's
     line, never the first one."""
-    names = np.unique(np.concatenate([lines.limb_id, tree.limb]))
     apart = 10.0 * (1.0 + np.abs(lines.point).max())
     of_point = lines.of_point
     inner = np.setdiff1d(np.arange(len(of_point)), lines.start[:-1])
-    place = np.column_stack([lines.point, apart * np.searchsorted(names, lines.limb_id)[of_point]])
+    place = np.column_stack([lines.point, apart * lines.first_row[of_point]])
     rows = np.flatnonzero(~tree.is_base)
-    tips = np.column_stack([tree.tip[rows], apart * np.searchsorted(names, tree.limb[rows])])
+    cut = chains(tree)  # one line may hold limbs that were drawn end to end
+    tips = np.column_stack([tree.tip[rows], apart * cut.row[cut.start[cut.of_row[rows]]]])
     gap, near = cKDTree(place[inner]).query(tips)
     found = gap < 1e-6 * apart
     row = np.full(len(of_point), NULL)

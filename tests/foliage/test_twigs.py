@@ -79,3 +79,9 @@ def test_a_lonely_base_has_no_wood():
 def test_a_limb_knows_the_wood_it_stands_on():
     pieces = wood_pieces(single_twig())
     assert np.allclose(pieces.foot_radius[pieces.row > 1], 0.05, rtol=0.3)
+
+
+def test_limbs_drawn_end_to_end_are_one_line_and_all_of_its_pieces_are_known():
+    tips = np.array([[0, 0, 0], [0, 1, 0], [0.1, 1.5, 0], [0.2, 2, 0]], float)
+    tree = TreeSkeleton.from_columns([-1, 0, 1, 2], tips, [0.01] * 4, limb=[1, 1, 7, 7], order=[0, 0, 1, 1])
+    assert set(wood_pieces(tree).row) == {1, 2, 3}

@@ -5,12 +5,31 @@ from sketchtree.errors import OptionError
 from sketchtree.geometry.bark import bark_material, bark_names
 from sketchtree.geometry.bark_noise import clouds, dashes, scales
 from sketchtree.geometry.bark_relief import Relief, normal_map
+from sketchtree.geometry.bark_young import YOUNG
 
 every_bark = pytest.mark.parametrize("name", bark_names())
 
 
-def test_nine_barks():
-    assert bark_names() == ("oak", "beech", "birch", "willow", "poplar", "apple", "spruce", "pine", "palm")
+def test_twenty_three_barks():
+    assert bark_names() == (
+        "oak", "beech", "birch", "willow", "poplar", "apple", "spruce", "pine", "palm", "ash", "lime", "elm", "maple", "plane", "cherry", "chestnut",
+        "cypress", "cedar", "larch", "coconut", "fan_palm", "dragon_tree", "dead",
+    )  # fmt: skip
+
+
+def test_every_bark_has_a_skin_for_its_young_twigs():
+    assert set(YOUNG) == set(bark_names())
+
+
+def test_no_two_barks_look_alike():
+    """By mean colour and by how rough they are across and along the stem, some difference is plain between any two."""
+    looks = []
+    for name in bark_names():
+        image = bark_material(name, 128).base_color_texture.astype(float)
+        rough = [10 * np.log2(np.abs(np.diff(image.mean(axis=2), axis=axis)).mean()) for axis in (0, 1)]
+        looks.append([*image.mean(axis=(0, 1)), image.mean(axis=2).std(), *rough])
+    apart = np.linalg.norm(np.array(looks)[:, None] - np.array(looks)[None], axis=2)
+    assert apart[np.triu_indices(len(looks), 1)].min() > 5
 
 
 @every_bark

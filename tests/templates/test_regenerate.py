@@ -7,6 +7,8 @@ import numpy as np
 import pytest
 
 from sketchtree.errors import TemplateError
+from sketchtree.foliage.models import leaf_names
+from sketchtree.geometry.bark import bark_names
 from sketchtree.parameters import TreeParameters
 from sketchtree.templates.store import database
 from sketchtree.templates.store.database import Database
@@ -78,10 +80,6 @@ def test_unknown_or_doubled_recipes_are_refused(tmp_path, minimal):
         orders(tmp_path)
 
 
-LEAVES = {"oak", "beech", "maple", "birch", "willow", "poplar", "apple", "hazel", "spruce", "pine", "palm"}
-BARKS = {"oak", "beech", "birch", "willow", "poplar", "apple", "spruce", "pine", "palm"}
-
-
 def test_every_exemplar_is_a_sound_tree_of_its_size(shipped):
     for name in shipped.names:
         e = shipped.exemplar(name)
@@ -97,7 +95,7 @@ def test_every_exemplar_is_a_sound_tree_of_its_size(shipped):
         assert (step[continued & ~on_base] == 0).all() and (step[~continued & ~on_base] == 1).all(), name
         thinner = tree.radius[1:] <= tree.radius[tree.parent[1:]] * (1 + 1e-6)
         assert thinner[~tree.is_base[1:]].all(), name
-        assert habit.leaf in LEAVES and habit.bark in BARKS, name
+        assert habit.leaf in leaf_names() and habit.bark in bark_names(), name
         assert e.source.endswith("estimated") and e.title
         assert e.thumbnail.shape == (128, 128) and 0.02 < (e.thumbnail < 128).mean() < 0.5, name
         assert all(isinstance(theta, TreeParameters) for theta in (e.theta, *e.theta_order))
