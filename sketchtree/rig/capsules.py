@@ -131,10 +131,11 @@ def _balanced(lines: CentreLines, limbs: Boughs, piece: _Piece, flare: float) ->
 
 
 def _piece(lines: CentreLines, limbs: Boughs, limb: int, low: float, high: float, flare: float) -> _Piece:
-    s = np.linspace(low, high, _SAMPLES)
-    own = lines.s[lines.start[limb] : lines.start[limb + 1]]
-    s = np.sort(np.r_[s, own[(own > low) & (own < high)]])
-    point, radius = lines.at(np.full(len(s), limb), s)
+    own = slice(lines.start[limb], lines.start[limb + 1])
+    known = lines.s[own]
+    s = np.sort(np.r_[np.linspace(low, high, _SAMPLES), known[(known > low) & (known < high)]])
+    point = np.column_stack([np.interp(s, known, lines.point[own, axis]) for axis in range(3)])
+    radius = np.interp(s, known, lines.radius[own])
     if limbs.is_stem[limb]:
         foot = lines.radius[lines.start[limb]]
         radius = radius * (1.0 + flare * np.exp(-np.maximum(s - lines.ground[limb], 0.0) / (_FLARE * foot)))

@@ -110,11 +110,9 @@ def pack_roles(name: str, levels: int, impostor: bool) -> dict[str, str]:
 
 def _rigged(rigging: Rigging, model: Model, part: Mesh | Instances) -> Mesh:
     mesh = part.merged() if isinstance(part, Instances) else part
-    if not mesh.name.startswith("leaf"):
-        return rigging.wood(mesh)
     blossom = getattr(model, "blossom", None)
-    leaves = blossom if blossom is not None and len(blossom) and "blossom" in mesh.name else model.leaves
-    return rigging.leaves(mesh, leaves)
+    leaves = blossom if blossom is not None and "blossom" in mesh.name else model.leaves
+    return rigging.leaves(mesh, leaves) if mesh.name.startswith("leaf") and len(leaves) else rigging.wood(mesh)
 
 
 def _collision_bytes(pack: Pack) -> bytes:
