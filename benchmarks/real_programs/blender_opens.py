@@ -41,7 +41,8 @@ def main(paths: list[str]) -> int:
         seen = seen_by_blender(path)
         wrong = differences(seen, path)
         failed += bool(wrong)
-        print(f"{path.name}: {seen['program']}, {seen['triangles']} triangles, {len(seen['materials'])} materials, {seen['bones']} bones: {'; '.join(wrong) or 'as we see it'}")
+        found = f"{seen['triangles']} triangles, {len(seen['materials'])} materials, {seen['bones']} bones"
+        print(f"{path.name}: {seen['program']}, {found}: {'; '.join(wrong) or 'as we see it'}")
     return 1 if failed else 0
 
 

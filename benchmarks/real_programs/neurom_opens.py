@@ -23,7 +23,8 @@ import neurom
 import neurom.features as features
 cell = neurom.load_morphology(sys.argv[1])
 length = sum(float(value) for value in features.get("section_lengths", cell))
-print("SEEN " + json.dumps({"points": int(len(cell.points)), "length": length, "forks": int(features.get("number_of_bifurcations", cell)), "version": neurom.__version__}))
+forks = int(features.get("number_of_bifurcations", cell))
+print("SEEN " + json.dumps({"points": len(cell.points), "length": length, "forks": forks, "version": neurom.__version__}))
 """
 
 

@@ -52,7 +52,8 @@ def main(arguments: list[str]) -> int:
     for path, seen in zip(chosen.files, seen_by_three(chosen.files, chosen.pictures), strict=True):
         wrong = [seen["error"]] if "error" in seen else differences(seen, path) + seen["said"]
         failed += bool(wrong)
-        print(f"{path.name}: {seen.get('program')}, {seen.get('triangles')} triangles in {seen.get('draws')} draws, {seen.get('bones')} bones: {'; '.join(wrong) or 'as we see it'}")
+        found = f"{seen.get('triangles')} triangles in {seen.get('draws')} draws, {seen.get('bones')} bones"
+        print(f"{path.name}: {seen.get('program')}, {found}: {'; '.join(wrong) or 'as we see it'}")
     return 1 if failed else 0
 
 

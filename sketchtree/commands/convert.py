@@ -18,7 +18,10 @@ from sketchtree.commands.progress import Progress
 @click.option("--bark", metavar="NAME", help="From a skeleton to a mesh: its bark (default: oak; of a project, its own).")
 @options.common
 def convert(source: Path, target: Path, seed: int, quiet: bool, json_log: bool, report: Path | None, db: Path | None, **wanted) -> None:
-    """Write the tree in file A as file B: .glb .gltf .usd .usdz .obj .ply .stl (meshes), .swc .mtg .json .h5 .sketchtree (skeletons; A only: .sketchtree, B only: .3mf .png)."""
+    """Write the tree in file A as file B, each told by its extension.
+
+    Meshes: .glb .gltf .usd .usdz .obj .ply .stl; skeletons: .swc .mtg .json .h5. A may also be a project, .sketchtree; B .3mf or .png.
+    """
     began = time.perf_counter()
     from sketchtree.commands import writing
     from sketchtree.errors import ExportError

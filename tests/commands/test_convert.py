@@ -1,7 +1,6 @@
 """`sketchtree convert A B`: every kind of file into every other, and what it refuses."""
 
 import json
-import sys
 from pathlib import Path
 
 import numpy as np
@@ -13,9 +12,7 @@ from sketchtree.export.gltf import read_asset, read_glb
 from sketchtree.export.read import read_contents
 from sketchtree.export.write import write_asset, write_skeleton
 from sketchtree.skeleton import TreeSkeleton
-
-sys.path.insert(0, str(Path(__file__).parents[1] / "export"))
-from shapes import curved, detailed, leafy, textured  # noqa: E402
+from tests.export.shapes import curved, detailed, leafy, textured
 
 OAK = Path(__file__).parents[2] / "examples" / "oak.svg"
 READ_MESHES = [suffix for suffix in MESHES if suffix != ".3mf"]

@@ -44,7 +44,8 @@ class Tables:
     def column(self, array, target: int | None = VERTEX, *, bounds: bool = False, normalized: bool = False) -> int:
         """The number of an accessor of the array, [row] or [row channel], of the component type that its dtype has."""
         width = array.shape[1] if array.ndim == 2 else 1
-        entry = {"bufferView": self.view(array.tobytes(), target), "componentType": COMPONENT[array.dtype.char.replace("L", "I")], "count": len(array), "type": _KIND[width]}
+        component = COMPONENT[array.dtype.char.replace("L", "I")]
+        entry = {"bufferView": self.view(array.tobytes(), target), "componentType": component, "count": len(array), "type": _KIND[width]}
         if normalized:
             entry["normalized"] = True
         if bounds:

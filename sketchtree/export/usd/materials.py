@@ -43,7 +43,8 @@ class Materials:
         albedo = self._texture(home, material, "albedo", material.base_color_texture, COLOR, "sRGB", scale=(*colour, alpha))
         _set(surface, "diffuseColor", Sdf.ValueTypeNames.Color3f, colour, albedo, "rgb")
         _set(surface, "metallic", Sdf.ValueTypeNames.Float, 0.0)
-        _set(surface, "roughness", Sdf.ValueTypeNames.Float, material.roughness, self._texture(home, material, "roughness", material.roughness_texture, COLOR, "raw"), "r")
+        rough = self._texture(home, material, "roughness", material.roughness_texture, COLOR, "raw")
+        _set(surface, "roughness", Sdf.ValueTypeNames.Float, material.roughness, rough, "r")
         if material.normal_texture is not None:
             normal = self._texture(home, material, "normal", material.normal_texture, NORMAL, "raw", scale=(2, 2, 2, 1), bias=(-1, -1, -1, 0))
             _set(surface, "normal", Sdf.ValueTypeNames.Normal3f, None, normal, "rgb")
