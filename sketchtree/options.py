@@ -57,6 +57,8 @@ class TreeOptions:
     leaf: str | None = None  # leaf model, exemplar whose leaf to take, or "none"; None: the template's
     season: str = "summer"
     bark: str | None = None  # None: the template's
+    wood: str | None = None  # one-piece | tubes; None: one piece up to 2,000 limbs
+    solid: bool = False  # the wood's tubes united into one surface that meets itself nowhere
 
     def __post_init__(self):
         _whole(self, "generations")

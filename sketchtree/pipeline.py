@@ -20,7 +20,7 @@ from sketchtree.foliage.leaves import Leaves
 from sketchtree.foliage.populate import populate
 from sketchtree.geometry.mesh import Mesh
 from sketchtree.geometry.radii import PipeRadii
-from sketchtree.geometry.wood import wood_meshes
+from sketchtree.geometry.wood import check_wood, wood_of
 from sketchtree.keys import stage_key
 from sketchtree.mrf.factor_graph import factor_graph
 from sketchtree.mrf.infer import Fit, infer
@@ -92,6 +92,7 @@ class TreeModel:
     warnings: tuple[str, ...]
     blossom: Leaves | None = None  # in spring, where the species has one
     dress: Dress = Dress("oak", None)  # what it wears
+    wood_used: str = "tubes"  # how the wood was made: one-piece | tubes | solid
 
 
 def sketch_to_tree(
@@ -106,7 +107,7 @@ def sketch_to_tree(
     """Every stage in order (Chen et al. 2008, Figure 2). `sketch` may be a path to a file."""
     watch = watch or Watch()
     leaf_model(tree.leaf, Habit(), templates), bark_model(tree.bark, Habit())  # refuse a wrong name before the work
-    Prune(tree.prune)  # and a mesh that can't be used
+    Prune(tree.prune), check_wood(tree.wood, tree.solid)  # and a mesh that can't be used, and what isn't installed
     obstacles = read_obstacles(tree)
     drawn = draw_out(sketch, templates, key=key, options=reading, watch=watch)
     return complete(drawn, templates, key=key, options=tree, obstacles=obstacles, watch=watch)
@@ -201,9 +202,11 @@ def finish(
     if leaves.kept < 1:
         warnings += (f"Only {leaves.kept:.1%} of the leaves were kept (at most {len(leaves)}), each larger, so that their area is right.",)
     with watch("mesh"):
-        meshes = [*wood_meshes(skeleton, bark=bark, habit=habit, key=stage_key(key, "mesh"))]
+        wood = wood_of(skeleton, bark=bark, habit=habit, key=stage_key(key, "mesh"), wood=options.wood, solid=options.solid)
+        meshes = [*wood.meshes]
         meshes += [leaf_mesh(worn, season=options.season) for worn in (leaves, flowers) if worn is not None and len(worn)]
-    return TreeModel(drawn, skeleton, leaves, tuple(meshes), drawn.warnings + warnings, flowers, Dress(bark, leaf, options.season, habit))
+    warnings = drawn.warnings + warnings + wood.warnings
+    return TreeModel(drawn, skeleton, leaves, tuple(meshes), warnings, flowers, Dress(bark, leaf, options.season, habit), wood.made)
 
 
 def _foliage(tree: TreeSkeleton, habit: Habit, leaf: str | None, season: str, key: Key[Array, ""]) -> tuple[Leaves, Leaves | None]:

@@ -33,6 +33,7 @@ def frame(command: str, seed: int, seconds: dict[str, float], options: dict, war
         "height": None,
         "leaves": None,
         "triangles": None,
+        "wood_used": None,
         "transform": None,
         "infer": None,
         "seconds": {name: seconds.get(name) for name in SECONDS},

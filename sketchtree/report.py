@@ -45,6 +45,7 @@ def of_tree(drawn: DrawnTree, model: TreeModel | None) -> dict:
         "height": drawn.skeleton.height if model is None else model.skeleton.height,
         "leaves": None if model is None else len(model.leaves),
         "triangles": None if model is None else _triangles(model),
+        "wood_used": None if model is None else model.wood_used,
         "transform": {"scale": drawn.similarity.scale, "translate": list(drawn.similarity.translate)},
         "infer": _inference(drawn),
     }

@@ -10,7 +10,6 @@ from sketchtree.commands.planned import not_yet
 from sketchtree.commands.progress import Progress
 
 _LATER = {
-    "solid": ("--solid", "Files that drop into real tools"),
     "pack": ("--pack", "Files that drop into real tools"),
 }
 
@@ -20,10 +19,8 @@ _LATER = {
 @click.option("-o", "--output", required=True, type=click.Path(path_type=Path), metavar="TREE", help=".glb .gltf .usd .usdz .obj .ply .stl .3mf, .swc .mtg .json .h5, .sketchtree, or .png")
 @options.reading
 @options.tree(200_000, "the tree")
-@click.option("--wood", type=click.Choice(["one-piece", "tubes"]), default="tubes", show_default=True)
 @click.option("--lod", type=click.IntRange(0, 3), default=0, show_default=True)
 @click.option("--leaves", type=click.Choice(["merged", "instanced"]), default="merged", show_default=True)
-@click.option("--solid", is_flag=True, hidden=True)
 @click.option("--pack", hidden=True)
 @options.common
 def build(sketch: Path, output: Path, seed: int, quiet: bool, json_log: bool, report: Path | None, db: Path | None, **wanted) -> None:
@@ -58,8 +55,6 @@ def _refuse_planned(wanted: dict) -> None:
     for name, (option, section) in _LATER.items():
         if wanted.pop(name):
             raise not_yet(option, section)
-    if wanted.pop("wood") == "one-piece":
-        raise not_yet("--wood one-piece", "Files that drop into real tools", "Use `--wood tubes`, the default here.")
     if wanted.pop("lod"):
         raise not_yet("--lod", "Files that drop into real tools", "Use `--lod 0`, the default.")
     if wanted.pop("leaves") == "instanced":

@@ -42,6 +42,8 @@ _TREE = (
     click.option("--leaf", metavar="MODEL|EXEMPLAR|none", help="Leaf model (default: the template's)."),
     click.option("--season", type=click.Choice(SEASONS), default="summer", show_default=True),
     click.option("--bark", metavar="NAME", help="Bark (default: the template's)."),
+    click.option("--wood", type=click.Choice(["one-piece", "tubes"]), help="Limbs joined into one closed surface, or a light tube each (default: one-piece up to 2,000 limbs)."),
+    click.option("--solid", is_flag=True, help="Unite the wood into one solid for printing (needs sketchtree[solid])."),
 )  # fmt: skip
 _BESIDE = (
     click.option("--skeleton", type=click.Path(path_type=Path), metavar="T.swc", help="Write the complete skeleton too."),

@@ -142,10 +142,10 @@ def _lines(tree: TreeSkeleton, cut: Chains, used, renumber, knots: _Knots) -> Ce
 
 def _attachment(tree, cut, used, renumber, rows, s, start):
     """Parent limb, place on it, and where a stem leaves the ground."""
-    s_of_row = np.zeros(len(tree))
     known = rows != NULL
+    foot = _carried(tree, rows[known], cut.foot[used])
+    s_of_row = np.zeros(len(tree))
     s_of_row[rows[known]] = s[known]
-    foot = cut.foot[used]
     stem = cut.is_stem[used]
     parent = np.where(stem, NULL, renumber[np.where(stem, NULL, cut.of_row[foot])])
     is_ground = known & np.isin(rows, np.flatnonzero(tree.is_base))
@@ -153,6 +153,16 @@ def _attachment(tree, cut, used, renumber, rows, s, start):
     limb = np.repeat(np.arange(len(used)), np.diff(start))
     ground[limb[is_ground]] = s[is_ground]
     return parent, np.where(parent == NULL, 0.0, s_of_row[foot]), ground
+
+
+def _carried(tree: TreeSkeleton, known, foot):
+    """The rows at whose tips limbs start, or the nearest below that their lines have: a row of no length stands on its parent's tip."""
+    has = tree.is_base.copy()
+    has[known] = True
+    foot = foot.copy()
+    while len(foot) and not has[foot].all():
+        foot = np.where(has[foot], foot, tree.parent[foot])
+    return foot
 
 
 def _knots(tree: TreeSkeleton, cut: Chains, underground: float) -> _Knots:

@@ -17,6 +17,7 @@ from sketchtree.geometry.one_piece.joints import joined
 from sketchtree.geometry.radii import is_frond
 from sketchtree.geometry.resolution import collar_rings, halvings, sides
 from sketchtree.geometry.rings import Rings, rings
+from sketchtree.geometry.solid import require_solid, united
 from sketchtree.geometry.stitch import Surface
 from sketchtree.geometry.tubes import sweep
 from sketchtree.parameters import Habit
@@ -36,7 +37,7 @@ class Wood:
     """The wood of a tree, and how it was made."""
 
     meshes: tuple[Mesh, ...]  # `wood` first
-    made: str  # one-piece | tubes
+    made: str  # one-piece | tubes | solid
     warnings: tuple[str, ...] = ()
 
 
@@ -63,19 +64,28 @@ def wood_meshes(
 
 
 def wood_of(
-    tree: TreeSkeleton, *, bark: str, habit: Habit, key: Key[Array, ""], detail: Detail = Detail(), wood: str | None = None  # noqa: B008 (frozen)
+    tree: TreeSkeleton,
+    *,
+    bark: str,
+    habit: Habit,
+    key: Key[Array, ""],
+    detail: Detail = Detail(),  # noqa: B008 (frozen)
+    wood: str | None = None,
+    solid: bool = False,
 ) -> Wood:
     """The same limbs as `wood_mesh`, in up to three meshes: `wood`, which has bark; `wood_twigs`, limbs too young for it;
     and `wood_rachis`, the midribs of a palm's fronds. `wood` comes first and is always there; the others where there are any.
 
     `wood` is "one-piece" (all meshes together, welded, are one closed surface a base), "tubes" (each limb a closed tube that
     dips into its parent) or None: one piece up to `MOST_JOINED` limbs, else tubes, with a warning. `detail.most_triangles` holds for
-    all together. Raises `OptionError` for an unknown bark or way.
+    all together. `solid` unites the tubes, whatever `wood` says: the surface then meets itself nowhere. Raises `OptionError` for an
+    unknown bark or way, and where a solid is wanted without manifold3d.
     """
+    check_wood(wood, solid)
     material = bark_material(bark)
     frond = is_frond(tree) if habit.leaf_arrangement == "frond" else np.zeros(len(tree), bool)
     lines = centre_lines(tree, apart=frond)
-    made = made_as(wood, len(lines))
+    made = WAYS[1] if solid else made_as(wood, len(lines))
     skin, lines, sunk = _skin(tree, lines, made, key, detail)
     midrib = frond[lines.first_row]
     twig = (lines.radius[lines.start[:-1]] < _YOUNG) & (lines.parent != NULL) & ~midrib
@@ -83,7 +93,16 @@ def wood_of(
     for name, among, surface in (("wood_twigs", twig, twig_material(bark)), ("wood_rachis", midrib, rachis_material())):
         if among.any():
             meshes.append(skin(among, name, surface))
+    if solid:
+        return Wood(united(meshes), "solid")
     return Wood(tuple(meshes), made, _warnings(wood, made, len(lines), sunk))
+
+
+def check_wood(wood: str | None, solid: bool) -> None:
+    """Raises `OptionError` for an unknown way, and where a solid is wanted without manifold3d."""
+    made_as(wood, 0)
+    if solid:
+        require_solid()
 
 
 def made_as(wood: str | None, limbs: int) -> str:
