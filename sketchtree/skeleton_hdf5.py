@@ -1,11 +1,12 @@
 """A skeleton in an HDF5 file: one dataset a column of `TreeSkeleton`, without loss.
 
-The root's attributes are `format` ("SketchTree skeleton"), `schema` (1) and `version`; every column's `unit` is an attribute of it. Columns that
+The root's attributes are `format` ("SketchTree skeleton"), `schema` (1), `version` and what the writer adds (units, frame, seed); every column's `unit` is an attribute of it. Columns that
 may be missing have the defaults of `TreeSkeleton.from_columns`; `parent`, `tip` and `radius` are needed. A project file holds the same
 columns in its group `skeleton`.
 """
 
 import os
+from collections.abc import Mapping
 
 import numpy as np
 
@@ -16,7 +17,7 @@ from sketchtree.version import __version__
 
 FORMAT, SCHEMA = "SketchTree skeleton", 1
 PROJECT = "SketchTree project"
-_LENGTHS = ("tip", "radius", "depth_sd", "curve_points")  # columns in metres
+_LENGTHS = ("tip", "radius", "depth_sd", "curve_points")  # columns in the units of length
 _REMEDY = "Give a file that `write_skeleton_hdf5` wrote, or another format."
 
 
@@ -48,19 +49,32 @@ def read_skeleton_hdf5(path: str | os.PathLike) -> TreeSkeleton:
     return TreeSkeleton.from_columns(**shaped(columns))
 
 
-def write_skeleton_hdf5(path: str | os.PathLike, tree: TreeSkeleton) -> None:
-    """Writes every column of the tree, without loss. `path` may be a binary file that is open."""
+def read_header(path: str | os.PathLike) -> dict:
+    """Units, frame and seed that a file of ours names; it stands in metres unless it says otherwise."""
     import h5py
 
+    with h5py.File(path, "r") as file:
+        said = {name: file.attrs[name] for name in ("units", "frame", "seed") if name in file.attrs}
+    return {"units": "metres", "frame": "world"} | {name: value.item() if isinstance(value, np.generic) else value for name, value in said.items()}
+
+
+def write_skeleton_hdf5(path: str | os.PathLike, tree: TreeSkeleton, *, header: Mapping[str, object] | None = None) -> None:
+    """Writes every column of the tree, without loss; lengths are metres unless `header["units"]` says otherwise. `path` may be a binary file that is open."""
+    import h5py
+
+    told = dict(header or {})
+    units = str(told.get("units", "metres"))
     with h5py.File(path, "w", libver=("v110", "v110")) as file:
-        put_columns(file, tree)
+        put_columns(file, tree, "m" if units == "metres" else units)
+        for name, value in told.items():
+            file.attrs[name] = value
         file.attrs["format"], file.attrs["schema"], file.attrs["version"] = FORMAT, SCHEMA, __version__
 
 
-def put_columns(group, tree: TreeSkeleton) -> None:
-    """One dataset a column into an open HDF5 group."""
+def put_columns(group, tree: TreeSkeleton, length: str = "m") -> None:
+    """One dataset a column into an open HDF5 group; `length` is the unit of lengths."""
     for name in INTEGERS + FLOATS:
-        put(group, name, getattr(tree, name), "m" if name in _LENGTHS else "1")
+        put(group, name, getattr(tree, name), length if name in _LENGTHS else "1")
 
 
 def put(group, name: str, column, unit: str) -> None:

@@ -108,9 +108,12 @@ def _dressed(source: Path, contents, seed: int, db: Path | None, wanted: dict):
     wood, leaves = wood_worn(contents.skeleton, dress, key=root_key(seed)), leaves_worn(contents.skeleton, dress, key=root_key(seed))
     asset = Asset.of((*wood.meshes, *leaves), skeleton=contents.skeleton, about=about)
     worn = f", wood {wood.made}, bark {dress.bark}, " + (f"leaves {leaf}" if leaf else "no leaves (`--leaf MODEL` adds them)")
-    if leaf is None or leaves:
-        return asset, worn, wood.warnings
-    return asset, worn, (*wood.warnings, f"No leaf grew: no branch of {source} is thin enough to bear them, or the season is bare.")
+    warnings = wood.warnings
+    if (units := str(contents.header.get("units", "metres"))) not in ("metres", "m"):
+        warnings += (f"{source} is in {units}; they were taken for metres.",)
+    if leaf is not None and not leaves:
+        warnings += (f"No leaf grew: no branch of {source} is thin enough to bear them, or the season is bare.",)
+    return asset, worn, warnings
 
 
 def _project_dress(source: Path) -> dict:

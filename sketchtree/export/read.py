@@ -57,7 +57,9 @@ def _meshes(path: Path, suffix: str) -> Asset:
 def _header(path: Path) -> dict:
     """Units, frame and seed that a text file of ours names in its comments; those of our HDF5 files."""
     if path.suffix.lower() in (".h5", ".sketchtree"):
-        return {"units": "metres", "frame": "world"}
+        from sketchtree.skeleton_hdf5 import read_header
+
+        return read_header(path)
     if path.suffix.lower() == ".json":
         return _json_header(path)
     found = {}

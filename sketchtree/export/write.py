@@ -59,7 +59,7 @@ def write_skeleton(path: str | os.PathLike, tree: TreeSkeleton, *, header: Mappi
     if suffix == ".h5":
         from sketchtree.export.skeletons.hdf5 import write_hdf5
 
-        return write_hdf5(path, tree)
+        return write_hdf5(path, tree, header=header)
     from sketchtree.export.skeletons.columns import write_skeleton_json
     from sketchtree.export.skeletons.mtg import write_mtg
     from sketchtree.export.skeletons.swc import write_swc

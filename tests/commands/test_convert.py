@@ -55,7 +55,7 @@ def test_skeletons_keep_their_nodes(tmp_path, a, b):
 
 def test_units_and_seed_are_carried_over(tmp_path):
     write_skeleton(tmp_path / "a.swc", curved(), header={"units": "sketch units", "frame": "sketch", "seed": 7})
-    for name in ("b.json", "c.mtg", "d.swc"):
+    for name in ("b.json", "c.mtg", "d.swc", "e.h5"):
         converted(tmp_path / "a.swc", tmp_path / name)
         assert read_contents(tmp_path / name).header == {"units": "sketch units", "frame": "sketch", "seed": "7"}
 
@@ -107,6 +107,12 @@ def test_leaves_that_find_no_twig_are_told(tmp_path, capfd):
     write_skeleton(tmp_path / "a.swc", curved(), header={})
     assert run(["convert", str(tmp_path / "a.swc"), str(tmp_path / "b.glb"), "--leaf", "maple"]) == 0
     assert "Note: No leaf grew: no branch of " in capfd.readouterr().err
+
+
+def test_other_units_are_taken_for_metres_and_told(tmp_path, capfd):
+    write_skeleton(tmp_path / "a.swc", curved(), header={"units": "sketch units"})
+    assert run(["convert", str(tmp_path / "a.swc"), str(tmp_path / "b.glb")]) == 0
+    assert "a.swc is in sketch units; they were taken for metres." in capfd.readouterr().err
 
 
 def test_a_project_wears_what_it_was_built_with(project, tmp_path):

@@ -61,4 +61,4 @@ def test_the_report_of_infer_satisfies_the_schema(tmp_path):
 
 def test_only_skeletons_come_out_of_infer(tmp_path, capfd):
     assert run(["infer", str(CURVY), "-o", str(tmp_path / "t.glb")]) == 2
-    assert "writes .swc, .json here" in capfd.readouterr().err
+    assert "writes .swc, .mtg, .json, .h5 here" in capfd.readouterr().err

@@ -42,6 +42,13 @@ def test_every_column_names_its_unit(tmp_path):
     assert set(units) == set(COLUMNS) and {name for name, unit in units.items() if unit == "m"} == {"tip", "radius", "depth_sd", "curve_points"}
 
 
+def test_other_units_are_named(tmp_path):
+    write_hdf5(tmp_path / "t.h5", curved(), header={"units": "sketch units", "frame": "sketch", "seed": 7})
+    with h5py.File(tmp_path / "t.h5") as file:
+        assert file["tip"].attrs["unit"] == "sketch units" and file["parent"].attrs["unit"] == "1"
+        assert (file.attrs["frame"], file.attrs["seed"], file.attrs["format"]) == ("sketch", 7, "SketchTree skeleton")
+
+
 def test_same_tree_same_bytes(tmp_path, model):
     for name in ("a", "b"):
         write_hdf5(tmp_path / f"{name}.h5", curved())

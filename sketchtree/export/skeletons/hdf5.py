@@ -14,6 +14,7 @@ A project (`.sketchtree`) is all that a tree was made of, so that it can be made
 import io
 import json
 import os
+from collections.abc import Mapping
 
 import numpy as np
 
@@ -26,11 +27,13 @@ from sketchtree.sketch.formats import check_writable as check_drawing
 from sketchtree.version import __version__
 
 
-def write_hdf5(path: str | os.PathLike, tree: TreeSkeleton) -> None:
-    """Write every column without loss as `.h5`, all or nothing. Raises `ExportError` where it can't be written."""
+def write_hdf5(path: str | os.PathLike, tree: TreeSkeleton, *, header: Mapping[str, object] | None = None) -> None:
+    """Write every column without loss as `.h5`, all or nothing. Each entry of `header` (units, frame, seed, …) becomes an attribute.
+
+    Raises `ExportError` where it can't be written."""
     check_extension(path, (".h5",))
     whole = io.BytesIO()
-    write_skeleton_hdf5(whole, tree)
+    write_skeleton_hdf5(whole, tree, header=header)
     write_whole(path, whole.getvalue())
 
 
