@@ -27,6 +27,7 @@ class Dress:
     season: str = "summer"
     habit: Habit = Habit()
     wood: str | None = None  # one-piece | tubes; None: as `wood_of` chooses
+    solid: bool = False  # the tubes united
 
 
 def dressed(tree: TreeSkeleton, dress: Dress, *, key: Key[Array, ""]) -> tuple[Mesh, ...]:
@@ -36,7 +37,7 @@ def dressed(tree: TreeSkeleton, dress: Dress, *, key: Key[Array, ""]) -> tuple[M
 
 def wood_worn(tree: TreeSkeleton, dress: Dress, *, key: Key[Array, ""]) -> Wood:
     """The wood, how it was made, and what a person should know about that."""
-    return wood_of(tree, bark=dress.bark, habit=dress.habit, key=stage_key(key, "mesh"), wood=dress.wood)
+    return wood_of(tree, bark=dress.bark, habit=dress.habit, key=stage_key(key, "mesh"), wood=dress.wood, solid=dress.solid)
 
 
 def leaves_worn(tree: TreeSkeleton, dress: Dress, *, key: Key[Array, ""]) -> tuple[Mesh, ...]:

@@ -103,7 +103,7 @@ def _dressed(source: Path, contents, seed: int, db: Path | None, wanted: dict):
     habit = templates.exemplar(template).habit if template and template in templates.names else Habit()
     season = wanted["season"] or made_of.get("season") or "summer"
     leaf = leaf_model(leaf, habit, templates) if leaf or template else None
-    dress = Dress(bark_model(wanted["bark"] or made_of.get("bark"), habit), leaf, season, habit, made_of.get("wood"))
+    dress = Dress(bark_model(wanted["bark"] or made_of.get("bark"), habit), leaf, season, habit, made_of.get("wood"), made_of.get("solid", False))
     about = {"program": "SketchTree", "version": __version__, "seed": seed, "units": "metres", "up": "y"} | ({"template": template or None} if made_of else {})
     wood, leaves = wood_worn(contents.skeleton, dress, key=root_key(seed)), leaves_worn(contents.skeleton, dress, key=root_key(seed))
     asset = Asset.of((*wood.meshes, *leaves), skeleton=contents.skeleton, about=about)

@@ -74,13 +74,13 @@ def _put_posterior(group, fit) -> None:
 
 
 def read_choices(path: str | os.PathLike) -> dict:
-    """What a project was built with: `seed`, `template`, and `leaf`, `season`, `bark`, `wood` where they were chosen. Raises `SkeletonError`."""
+    """What a project was built with: `seed`, `template`, and `leaf`, `season`, `bark`, `wood`, `solid` where they were chosen. Raises `SkeletonError`."""
     import h5py
 
     try:
         with h5py.File(path, "r") as file:
             said = json.loads(file["options"][()].tobytes())
-            chosen = {name: said[name] for name in ("leaf", "season", "bark", "wood") if said.get(name) is not None}
+            chosen = {name: said[name] for name in ("leaf", "season", "bark", "wood", "solid") if said.get(name) is not None}
             return {"seed": int(file.attrs["seed"]), "template": str(file.attrs["template"])} | chosen
     except (OSError, RuntimeError, ValueError, TypeError, KeyError, AttributeError) as error:
         raise SkeletonError(f"{path} is no project of ours, or is damaged.", remedy="Build it again.") from error
