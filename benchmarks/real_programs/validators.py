@@ -61,6 +61,9 @@ def _node(*arguments: str):
 
 def main(paths: list[str]) -> int:
     failed = 0
+    if any(path.lower().endswith((".glb", ".gltf")) for path in paths) and (why := gltf_validator()):
+        print(why)
+        return 2
     for path in map(Path, paths):
         if path.suffix.lower() in (".glb", ".gltf"):
             (issues,) = gltf_issues(path)
