@@ -15,7 +15,7 @@ pxr = pytest.importorskip("pxr", reason="usd-core is not installed")
 from pxr import Usd, UsdGeom, UsdShade, UsdSkel  # noqa: E402
 
 from sketchtree.export.usd.read import read_usd  # noqa: E402
-from sketchtree.export.usd.tints import few_tints  # noqa: E402
+from sketchtree.export.usd.tints import few_tints, nearest  # noqa: E402
 
 ASSETS = {
     "plain": lambda: Asset.of([textured(), leafy()], skeleton=curved(), about={"seed": 3, "template": "oak"}),
@@ -116,11 +116,18 @@ def test_many_tints_become_a_few_materials_whose_faces_are_all_there(tmp_path):
 def test_few_tints_are_kept_as_they_are_and_many_are_near_theirs():
     rng = np.random.default_rng(0)
     given = rng.uniform(0.4, 0.9, (3, 3))
-    which, kept = few_tints(np.repeat(given, 4, axis=0))
-    np.testing.assert_allclose(kept[which], np.repeat(given, 4, axis=0), atol=1e-4)
+    kept = few_tints(np.repeat(given, 4, axis=0))
+    np.testing.assert_allclose(kept[nearest(given, kept)], given, atol=1e-4)
     ramp = np.linspace(0, 1, 400)[:, None] * [0.5, 0.2, -0.1] + [0.4, 0.6, 0.3]  # from green to yellow
-    which, kept = few_tints(ramp)
-    assert len(kept) == 8 and np.abs(kept[which] - ramp).max() < 0.04
+    kept = few_tints(ramp)
+    assert len(kept) == 8 and np.abs(kept[nearest(ramp, kept)] - ramp).max() < 0.04
+
+
+def test_parts_and_levels_that_wear_one_material_share_its_tints(tmp_path):
+    one = scattered(40)
+    two = dataclasses.replace(one, color=one.color * [0.9, 0.8, 1.0, 1.0])
+    made = stage(tmp_path, Asset((Level((one, two), 0.5), Level((one.merged(),)))))
+    assert len(made.GetPrimAtPath("/tree/Materials").GetChildren()) == 8
 
 
 def test_places_are_an_instancer_with_a_prototype_a_tint(tmp_path):

@@ -18,8 +18,9 @@ _PLAIN = (1.0, 1.0, 1.0)
 class Materials:
     """The materials of a stage, each made when it is first asked for. `files` are the textures, by their paths from the stage."""
 
-    def __init__(self, stage, scope: str, folder: str):
+    def __init__(self, stage, scope: str, folder: str, palettes: dict):
         self.stage, self.scope, self.folder = stage, scope, folder
+        self.palettes = palettes  # the tints of each material, by its id
         self.files: dict[str, bytes] = {}
         self._made: dict = {}
         self._taken: set[str] = set()

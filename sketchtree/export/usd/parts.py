@@ -11,24 +11,20 @@ from pxr import Gf, Sdf, Usd, UsdGeom, UsdShade, UsdSkel, Vt
 
 from sketchtree.export.usd.materials import Materials
 from sketchtree.export.usd.names import prim_name
-from sketchtree.export.usd.tints import few_tints
+from sketchtree.export.usd.tints import nearest, tint_of
 from sketchtree.geometry.instances import Instances
 from sketchtree.geometry.mesh import Mesh
-
-_WHITE = np.ones((1, 3))
 
 
 def define_mesh(stage, path: str, mesh: Mesh, materials: Materials, *, skeleton=None) -> None:
     """A UsdGeom.Mesh with its material, bound to the skeleton (its path) where it names joints."""
     made = _shape(stage, path, mesh)
-    if mesh.color is None:
+    tint = tint_of(mesh)
+    if tint is None:
         _bind(made.GetPrim(), materials.of(mesh.material))
     else:
-        color = np.asarray(mesh.color, float)
-        _primvar(made, "displayColor", Sdf.ValueTypeNames.Color3fArray, color[:, :3], "vertex")
-        face = color[mesh.triangle][..., :3].mean(axis=1)
-        which, tints = few_tints(face)
-        _bind_tints(made, mesh, which, tints, materials)
+        _primvar(made, "displayColor", Sdf.ValueTypeNames.Color3fArray, np.asarray(mesh.color, float)[:, :3], "vertex")
+        _bind_tints(made, mesh, tint, materials)
     if skeleton is not None and "JOINTS_0" in mesh.extra:
         _bend(made, mesh, skeleton)
 
@@ -36,17 +32,15 @@ def define_mesh(stage, path: str, mesh: Mesh, materials: Materials, *, skeleton=
 def define_places(stage, path: str, places: Instances, materials: Materials) -> None:
     """A UsdGeom.PointInstancer whose prototypes are the mesh in each of a few tints."""
     made = UsdGeom.PointInstancer.Define(stage, path)
-    own = places.mesh.color
     plain = Mesh(places.mesh.name, places.mesh.position, places.mesh.normal, places.mesh.uv, places.mesh.triangle, places.mesh.material, None, _movable(places.mesh))
-    tint = np.ones((len(places), 3)) if places.color is None else np.asarray(places.color[:, :3], float)
-    if own is not None:  # one tint a mesh here: a prototype has one material
-        tint = tint * np.asarray(own, float)[:, :3].mean(axis=0)
-    which, tints = few_tints(tint) if len(places) else (np.zeros(0, int), _WHITE)
+    tint = tint_of(places)
+    tint = np.ones((len(places), 3)) if tint is None else tint
+    used, which = np.unique(nearest(tint, materials.palettes[id(plain.material)]), return_inverse=True)
     taken: set[str] = set()
     prototypes = []
-    for each in tints:
+    for number in used:
         prototype = f"{path}/{prim_name(places.name, taken)}"
-        _bind(_shape(stage, prototype, plain).GetPrim(), materials.of(plain.material, each))
+        _bind(_shape(stage, prototype, plain).GetPrim(), materials.of(plain.material, materials.palettes[id(plain.material)][number]))
         prototypes.append(Sdf.Path(prototype))
     made.CreatePrototypesRel().SetTargets(prototypes)
     made.CreateProtoIndicesAttr(Vt.IntArray.FromNumpy(which.astype(np.int32)))
@@ -88,16 +82,18 @@ def _bind(prim, material) -> None:
     UsdShade.MaterialBindingAPI.Apply(prim).Bind(material)
 
 
-def _bind_tints(made, mesh: Mesh, which, tints, materials: Materials) -> None:
-    if len(tints) == 1:
-        return _bind(made.GetPrim(), materials.of(mesh.material, tints[0]))
-    binding = UsdShade.MaterialBindingAPI.Apply(made.GetPrim())
-    _bind(made.GetPrim(), materials.of(mesh.material, tints[0]))
-    for number, tint in enumerate(tints):
+def _bind_tints(made, mesh: Mesh, tint, materials: Materials) -> None:
+    palette = materials.palettes[id(mesh.material)]
+    which = nearest(tint, palette)
+    used = np.unique(which)
+    _bind(made.GetPrim(), materials.of(mesh.material, palette[used[0]]))
+    if len(used) == 1:
+        return
+    binding = UsdShade.MaterialBindingAPI(made.GetPrim())
+    for number in used:
         faces = np.flatnonzero(which == number).astype(np.int32)
-        if len(faces):
-            subset = binding.CreateMaterialBindSubset(f"tint_{number + 1}", Vt.IntArray.FromNumpy(faces))
-            _bind(subset.GetPrim(), materials.of(mesh.material, tint))
+        subset = binding.CreateMaterialBindSubset(f"tint_{number + 1}", Vt.IntArray.FromNumpy(faces))
+        _bind(subset.GetPrim(), materials.of(mesh.material, palette[number]))
     binding.SetMaterialBindSubsetsFamilyType(UsdGeom.Tokens.partition)
 
 

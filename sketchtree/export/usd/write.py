@@ -43,6 +43,7 @@ def _stage(asset: Asset, folder: str):
 
     from sketchtree.export.usd.bones import define_bones
     from sketchtree.export.usd.materials import Materials
+    from sketchtree.export.usd.tints import palettes
 
     stage = Usd.Stage.CreateInMemory()
     UsdGeom.SetStageUpAxis(stage, UsdGeom.Tokens.y)
@@ -52,7 +53,7 @@ def _stage(asset: Asset, folder: str):
     stage.SetDefaultPrim(top)
     Usd.ModelAPI(top).SetKind(Kind.Tokens.component)
     stage.GetRootLayer().customLayerData = {"creator": f"SketchTree {__version__}"} | _told(asset)
-    materials = Materials(stage, f"{root}/Materials", folder)
+    materials = Materials(stage, f"{root}/Materials", folder, palettes(part for level in asset.levels for part in level.parts if part.triangle_count))
     skeleton = define_bones(stage, f"{root}/bones", asset.armature) if asset.armature is not None else None
     if len(asset.levels) == 1:
         _parts(stage, root, asset.levels[0], materials, skeleton)
