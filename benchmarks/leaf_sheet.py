@@ -37,16 +37,16 @@ def twig(name: str) -> tuple[TreeSkeleton, Habit]:
     """A twig on a stump, as long as shows the model's arrangement."""
     model = leaf_model(name)
     size, spacing = model.size / model.needle, model.spacing * model.bundle
-    length = 2.0 if model.arrangement == "frond" else float(np.clip(5 * spacing, 1.1 * size, 4.0 * size))
+    length = 2.0 if model.arrangement == "frond" else float(np.clip(5 * spacing, 1.1 * size, 5.0 * size))
     count, rise = 12, np.radians(90 if name == "dragon_tree" else 38)
     t = np.linspace(0, 1, count + 1)[1:, None]
     tips = t * length * [np.cos(rise), np.sin(rise), 0.0] + [0, -0.12 * length, 0] * t**2
-    radius = np.interp(t[:, 0], [0, 1], [0.05, 0.022]) * (0.1 * length if model.arrangement == "frond" else size) ** 1.0
+    radius = np.interp(t[:, 0], [0, 1], [0.022, 0.016]) * (0.1 * length if model.arrangement == "frond" else size) ** 1.0
     parent = np.r_[-1, np.arange(count + 1)]
     tips = np.vstack([[[0, -0.5, 0]], [[0, 0, 0]], tips]) + [0, 0.5, 0]
-    radii = np.r_[[10 * radius[0]] * 2, radius]
+    radii = np.r_[[8.5 * radius[-1]] * 2, radius]
     tree = TreeSkeleton.from_columns(parent, tips, radii, limb=np.r_[1, 1, np.full(count, 11)], order=np.r_[0, 0, np.ones(count, int)])
-    habit = Habit(leaf=name, leaf_arrangement=model.arrangement, leaf_size=model.size, leaf_spacing=model.spacing, twig_radius=float(radius[0]),
+    habit = Habit(leaf=name, leaf_arrangement=model.arrangement, leaf_size=model.size, leaf_spacing=model.spacing, twig_radius=float(radius[-1]),
                   twig_length=length, height=5.0)  # fmt: skip
     return tree, habit
 
@@ -87,7 +87,7 @@ def leaf_row(name: str, cell: int) -> Image.Image:
     row.paste(texture(name, cell), (0, 16))
     tree, habit = twig(name)
     for k, season in enumerate(("spring", "summer", "autumn")):
-        wood = [_above(mesh, 0.5) for mesh in wood_meshes(tree, bark="oak", habit=habit, key=KEY)]
+        wood = [_above(mesh, 0.5, 8.7 * habit.twig_radius if name != "dragon_tree" else 0.0) for mesh in wood_meshes(tree, bark="oak", habit=habit, key=KEY)]
         worn = [populate(tree, habit, key=KEY, season=season), blossom(tree, habit, key=KEY, season=season)]
         meshes = [*wood, *(leaf_mesh(one, season=season) for one in worn if one is not None and len(one))]
         row.paste(picture(meshes, cell - 4, cell - 4, azimuth=0.25, tilt=0.6), ((k + 1) * cell + 2, 18))
@@ -95,9 +95,10 @@ def leaf_row(name: str, cell: int) -> Image.Image:
     return row
 
 
-def _above(mesh, height: float):
-    """What of a mesh stands above a height, metres."""
-    keep = mesh.position[mesh.triangle][..., 1].min(axis=1) > height
+def _above(mesh, height: float, clear: float):
+    """What of a mesh stands above a height and so far from the axis, metres."""
+    corner = mesh.position[mesh.triangle]
+    keep = (corner[..., 1].min(axis=1) > height) & (np.hypot(corner[..., 0], corner[..., 2]).min(axis=1) >= clear)
     used, triangle = np.unique(mesh.triangle[keep], return_inverse=True)
     return replace(mesh, position=mesh.position[used], normal=mesh.normal[used], uv=mesh.uv[used], triangle=triangle.reshape(-1, 3))
 

@@ -79,6 +79,19 @@ def test_bare_trees_have_no_leaves(apple, templates):
     assert len(bare.leaves) == 0 and [mesh.name for mesh in bare.meshes if mesh.name.startswith("leaf")] == []
 
 
+def test_an_evergreen_keeps_its_needles_in_the_bare_season_and_none_strips_it(apple, templates):
+    green = st.complete(apple.drawn, templates, key=KEY, options=st.TreeOptions(season="bare", leaf="spruce"))
+    assert len(green.leaves) > 100 and green.meshes[-1].name == "leaf"
+    stripped = st.complete(apple.drawn, templates, key=KEY, options=st.TreeOptions(leaf="none"))
+    assert len(stripped.leaves) == 0 and all(mesh.name.startswith("wood") for mesh in stripped.meshes)
+
+
+def test_spring_shows_blossoms_beside_the_young_leaves(apple, templates):
+    spring = st.complete(apple.drawn, templates, key=KEY, options=st.TreeOptions(season="spring", leaf="apple"))
+    assert [mesh.name for mesh in spring.meshes][-2:] == ["leaf", "leaf_blossom"]
+    assert spring.blossom.model == "apple_blossom" and apple.blossom is None
+
+
 def test_the_side_view_is_no_fan(apple):
     tip = apple.skeleton.tip
     assert np.ptp(tip[:, 2]) > 0.5 * np.ptp(tip[:, 0])

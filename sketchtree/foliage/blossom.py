@@ -13,7 +13,7 @@ from sketchtree.foliage.leaves import Leaves
 from sketchtree.foliage.models import leaf_model
 from sketchtree.foliage.populate import capped, leafy_wood, unfold
 from sketchtree.foliage.seasons import check_season
-from sketchtree.foliage.wear import Wear, wear_of
+from sketchtree.foliage.wear import Wear, enlargement, wear_of
 from sketchtree.parameters import Habit
 from sketchtree.roots import without_roots
 from sketchtree.skeleton import TreeSkeleton
@@ -32,16 +32,15 @@ def blossom(
     if season != "spring" or wear.model.blossom is None or tree.segment_count == 0:
         return None
     stand, _ = buds(leafy_wood(tree, habit, wear), tree.limb, wear, habit.twig_radius, key)
-    stand = _ends(stand)
+    stand = _one_a_node(stand.select(stand.node < wear.model.blossom_nodes))
     stand = stand.select(keys.uniform(key, stand.id, _BEARS) < wear.model.blossom_share)
     flower = leaf_model(wear.model.blossom)
-    worn = Wear(flower, flower.arrangement, flower.size, flower.spacing, wear.phyllotaxis, 1)
+    worn = Wear(flower, flower.arrangement, flower.size * enlargement(habit), flower.spacing, wear.phyllotaxis, 1)
     found = capped(unfold(tree, stand, np.zeros((0, 2, 3)), worn, season, key), np.full(len(stand), -1), stand.id, most, key)
     return found if len(found) else None
 
 
-def _ends(stand: Buds) -> Buds:
-    """One bud for each end of a twig or short shoot, pointing along it."""
-    end = stand.select(stand.node == 0)
-    _, first = np.unique(np.round(end.foot, 9), axis=0, return_index=True)
-    return end.select(np.sort(first))
+def _one_a_node(stand: Buds) -> Buds:
+    """The first bud of every node."""
+    _, first = np.unique(np.round(stand.foot, 9), axis=0, return_index=True)
+    return stand.select(np.sort(first))

@@ -37,7 +37,8 @@ class LeafModel:
     translucency: float = 0.35  # share of the light that passes through
     flower: bool = False  # a blossom, not a leaf
     blossom: str | None = None  # name of the model that its twigs bear in spring beside it
-    blossom_share: float = 0.6  # of the ends of twigs and short shoots that bear it
+    blossom_share: float = 0.6  # of the nodes that bear it
+    blossom_nodes: int = 1  # how many nodes at the end of each twig and short shoot may bear it
 
     @property
     def is_blade(self) -> bool:

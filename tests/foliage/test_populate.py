@@ -159,6 +159,28 @@ def test_a_bare_tree_has_no_leaf():
     assert len(populate(small_tree(), HABIT, key=KEY, season="bare")) == 0
 
 
+def test_evergreens_keep_their_needles_when_others_are_bare():
+    summer, bare = (populate(small_tree(), HABIT, key=KEY, model="spruce", season=s) for s in ("summer", "bare"))
+    assert len(bare) == len(summer) > 0
+    assert len(populate(small_tree(), HABIT, key=KEY, model="larch", season="bare")) == 0
+
+
+def test_a_fan_stands_at_the_end_of_every_stalk_and_opens_in_one_plane():
+    tree = single_twig(length=1.0, count=6)
+    leaves = populate(tree, replace(HABIT, leaf="fan_palm", leaf_arrangement="frond", leaf_size=0.6), key=KEY)
+    assert len(leaves) == 34 and np.allclose(leaves.position, leaves.position[0])
+    flat = leaves.direction + [0, 0.10, 0]  # without its droop
+    assert np.abs(flat[:, 1] / np.linalg.norm(flat, axis=1)).max() < 0.15
+    spread = np.degrees(np.arccos(np.clip(leaves.direction[0] @ leaves.direction[-1], -1, 1)))
+    assert 80 < spread < 125  # 128 degrees to either side leave a gap of 104
+
+
+def test_two_ranked_leaves_of_a_level_twig_lie_in_a_flat_spray():
+    for name in ("beech", "elm", "lime", "hazel", "hornbeam"):
+        leaves = populate(single_twig(), replace(HABIT, leaf=name, leaf_arrangement="alternate", twig_radius=0.006), key=KEY)
+        assert np.abs(leaves.normal[:, 1]).mean() > 0.75, name
+
+
 def test_autumn_has_fewer_leaves_and_spring_smaller_ones():
     tree = small_tree(twigs=20)
     spring, summer, autumn = (populate(tree, HABIT, key=KEY, season=s) for s in ("spring", "summer", "autumn"))

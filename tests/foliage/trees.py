@@ -37,3 +37,22 @@ def single_twig(direction=(1, 0, 0), length=0.5, count=5):
     limb, order = np.r_[1, 1, np.full(count, 11)], np.r_[0, 0, np.ones(count, int)]
     tips = np.vstack([[[0, 0, 0], [0, 0.5, 0]], tips])
     return TreeSkeleton.from_columns(parent, tips, np.r_[0.05, 0.05, radii], limb=limb, order=order, kind=np.zeros(len(limb), int))
+
+
+def crown(limbs=350, reach=2.5):
+    """A closed round crown: a 3 m stem and straight limbs from its top to all sides, `reach` metres long; ids 11, 12, …"""
+    k = np.arange(limbs)
+    level, turn = 1 - 2 * (k + 0.5) / limbs, 2.39996 * k
+    flat = np.sqrt(1 - level**2)
+    direction = np.stack([flat * np.cos(turn), level, flat * np.sin(turn)], axis=1)
+    t = np.arange(1, 5) / 4
+    tips = np.array([0, 3.0, 0]) + reach * t[None, :, None] * direction[:, None]
+    parent = np.where(t[None] == 0.25, 1, 1 + 4 * k[:, None] + np.arange(4)[None])
+    radius = np.tile(np.interp(t, [0, 1], [0.012, 0.003]), limbs)
+    return TreeSkeleton.from_columns(
+        np.r_[-1, 0, parent.ravel()],
+        np.vstack([[[0, 0, 0], [0, 3, 0]], tips.reshape(-1, 3)]),
+        np.r_[0.1, 0.1, radius],
+        limb=np.r_[1, 1, np.repeat(11 + k, 4)],
+        order=np.r_[0, 0, np.ones(4 * limbs, int)],
+    )

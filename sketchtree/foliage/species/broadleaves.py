@@ -40,7 +40,7 @@ BROADLEAVES = (
     ),
     LeafModel(
         "willow", toothed.willow, arrangement="spiral", size=0.10, spacing=0.022, inclination=38.0, droop=0.60, fold=9.0, curl=0.16, shoot=6.0,
-        blossom="willow_catkin", blossom_share=0.5,
+        blossom="willow_catkin", blossom_nodes=4, blossom_share=0.5,
         palettes=seasons(
             ("#a5b960", "#bac979", "#d2dba2", "#b0aa62"),
             ("#6a8548", "#9aac6c", "#bcc794", "#a09a58"),
@@ -57,7 +57,7 @@ BROADLEAVES = (
     ),
     LeafModel(
         "apple", toothed.apple, spur=6, every=3, arrangement="spiral", size=0.075, spacing=0.03, inclination=55.0, droop=0.25, fold=20.0, curl=0.16,
-        blossom="apple_blossom", blossom_share=0.75,
+        blossom="apple_blossom", blossom_nodes=3, blossom_share=0.75,
         palettes=seasons(
             ("#92aa52", "#aaba68", "#c4cd90", "#a08c56"),
             ("#4c672f", "#738b48", "#a3b078", "#8b7448"),
@@ -106,7 +106,7 @@ BROADLEAVES = (
         ), translucency=0.42,
     ),
     LeafModel(
-        "cherry", toothed.cherry, spur=6, every=3, arrangement="spiral", size=0.10, spacing=0.03, inclination=52.0, droop=0.42, fold=16.0, curl=0.16, blossom="cherry_blossom", blossom_share=0.85,
+        "cherry", toothed.cherry, spur=6, every=3, arrangement="spiral", size=0.10, spacing=0.03, inclination=52.0, droop=0.42, fold=16.0, curl=0.16, blossom="cherry_blossom", blossom_nodes=5, blossom_share=0.85,
         palettes=seasons(
             ("#97a350", "#b2b566", "#c8cb90", "#a86a50"),
             ("#4e6a32", "#76904a", "#a8b67c", "#a0604a"),
@@ -114,7 +114,7 @@ BROADLEAVES = (
         ),
     ),
     LeafModel(
-        "hawthorn", lobed.hawthorn, spur=4, every=2, arrangement="spiral", size=0.042, spacing=0.018, inclination=55.0, droop=0.15, fold=12.0, curl=0.10, blossom="hawthorn_blossom", blossom_share=0.7,
+        "hawthorn", lobed.hawthorn, spur=4, every=2, arrangement="spiral", size=0.042, spacing=0.018, inclination=55.0, droop=0.15, fold=12.0, curl=0.10, blossom="hawthorn_blossom", blossom_nodes=3, blossom_share=0.7,
         palettes=seasons(
             ("#8fae4a", "#a8c05e", "#c4d288", "#96845a"),
             ("#46632e", "#6c8844", "#9db070", "#82714a"),

@@ -44,7 +44,7 @@ CONIFERS = (
         ), roughness=0.6, translucency=0.10,
     ),
     LeafModel(
-        "larch", needles.larch_twig, arrangement="spiral", size=0.028, spacing=0.014, inclination=48.0, droop=0.35, planes=2, needle=needles.LARCH_NEEDLE, bundle=7,
+        "larch", needles.larch_twig, arrangement="spiral", size=0.028, spacing=0.014, inclination=48.0, droop=0.35, planes=2, needle=needles.LARCH_NEEDLE, bundle=4,
         shoot=6.0, curl=0.0, fold=0.0,
         palettes=seasons(
             ("#7fa04a", "#a0bd5c", "#b2cb7c", "#8a7050"),
@@ -53,7 +53,7 @@ CONIFERS = (
         ), translucency=0.20,
     ),
     LeafModel(
-        "cedar", needles.cedar_twig, arrangement="fascicled", size=0.026, spacing=0.013, inclination=46.0, droop=0.02, planes=2, needle=needles.CEDAR_NEEDLE, bundle=7,
+        "cedar", needles.cedar_twig, arrangement="fascicled", size=0.026, spacing=0.013, inclination=46.0, droop=0.02, planes=2, needle=needles.CEDAR_NEEDLE, bundle=5,
         shoot=6.0, evergreen=True, curl=0.0, fold=0.0,
         palettes=seasons(
             ("#44624a", "#86a67c", "#98b494", "#7a6450"),
