@@ -182,3 +182,12 @@ def test_a_skeleton_of_nothing_becomes_a_file_of_nothing(tmp_path):
     empty = TreeSkeleton.from_columns(np.zeros(0, int), np.zeros((0, 3)), np.zeros(0))
     write_skeleton(tmp_path / "a.json", empty, header={})
     assert read_glb(converted(tmp_path / "a.json", tmp_path / "b.glb")) == []
+
+
+def test_without_usd_core_the_remedy_is_named(tmp_path, capfd, monkeypatch):
+    from sketchtree.export import files
+
+    monkeypatch.setattr(files, "find_spec", lambda name: None)
+    (tmp_path / "a.usda").write_text("#usda 1.0")
+    status, line = said([tmp_path / "a.usda", tmp_path / "b.glb"], capfd)
+    assert status == 2 and "a.usda: USD needs the package `usd-core`. Install it: pip install 'sketchtree[usd]'." in line
