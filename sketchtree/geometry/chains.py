@@ -16,6 +16,8 @@ from sketchtree.traverse import generation, generations
 _STRAIGHT = np.cos(np.radians(60.0))  # a child that turns less may continue a limb that ends at its foot
 _ALIKE = 0.6  # … if it is at least this share of the parent's radius
 
+_ONWARD, _THIN = np.cos(np.radians(80.0)), 0.25  # the same where a limb would end otherwise
+
 
 @dataclass(frozen=True, eq=False)
 class Chains:
@@ -28,13 +30,14 @@ class Chains:
     is_stem: Bool[np.ndarray, " limb"]  # it starts on the ground
 
 
-def chains(tree: TreeSkeleton, apart: Bool[np.ndarray, " segment"] | None = None) -> Chains:
+def chains(tree: TreeSkeleton, apart: Bool[np.ndarray, " segment"] | None = None, onward: bool = False) -> Chains:
     """Cut the tree into limbs; every row that is not a base is in exactly one. Limbs stand in the order of their first rows.
 
-    No limb holds rows that are `apart` and rows that are not.
+    No limb holds rows that are `apart` and rows that are not. `onward`: a limb that nothing continues so well goes on in what
+    turns less than `_ONWARD` and isn't much thinner, so that it doesn't end in a stump with its last child at its side.
     """
     parent = tree.parent
-    following = _continuation(tree, np.zeros(len(tree), bool) if apart is None else apart)
+    following = _continuation(tree, np.zeros(len(tree), bool) if apart is None else apart, onward)
     heads = np.flatnonzero(~tree.is_base)
     heads = heads[(following[parent[heads]] != heads) | tree.is_base[parent[heads]]]
     of_row = np.full(len(tree), NULL)
@@ -51,7 +54,7 @@ def chains(tree: TreeSkeleton, apart: Bool[np.ndarray, " segment"] | None = None
     return Chains(rows, start, of_row, parent[heads], tree.is_base[parent[heads]])
 
 
-def _continuation(tree: TreeSkeleton, apart) -> Int[np.ndarray, " segment"]:
+def _continuation(tree: TreeSkeleton, apart, onward: bool) -> Int[np.ndarray, " segment"]:
     """The child that carries each row's limb on; NULL at a limb's tip."""
     child = np.flatnonzero(~tree.is_base)
     above = tree.parent[child]
@@ -59,8 +62,10 @@ def _continuation(tree: TreeSkeleton, apart) -> Int[np.ndarray, " segment"]:
     alike = tree.radius[child] / tree.radius[above]
     turn = _cosine(tree.vector[child], tree.vector[above])
     able = same | tree.is_base[above] | ((turn > _STRAIGHT) & (alike >= _ALIKE))
+    well = able
+    able = able | (onward & (turn > _ONWARD) & (alike >= _THIN))
     able &= (apart[child] == apart[above]) | tree.is_base[above]
-    rank = np.lexsort((-turn, -alike, ~same, ~able, above))
+    rank = np.lexsort((-turn, -alike, ~same, ~well, ~able, above))
     child, above, able = child[rank], above[rank], able[rank]
     best = np.r_[True, np.diff(above) != 0][: len(above)] & able
     following = np.full(len(tree), NULL)

@@ -87,14 +87,14 @@ class _Knots:
 
 
 def centre_lines(
-    tree: TreeSkeleton, underground: float = 0.3, apart: Bool[np.ndarray, " segment"] | None = None
+    tree: TreeSkeleton, underground: float = 0.3, apart: Bool[np.ndarray, " segment"] | None = None, onward: bool = False
 ) -> CentreLines:
     """The line of every limb of the tree. Stems begin `underground` times their radius below the ground.
 
     Limbs of no length are left out. Lines pass through every row's tip and every drawn point. Rows that are `apart`
-    make limbs of their own.
+    make limbs of their own. `onward`: see `chains`.
     """
-    cut = chains(tree, apart)
+    cut = chains(tree, apart, onward)
     knots = _knots(tree, cut, underground)
     keep = _distinct(knots, 1e-7 * max(tree.height, 1e-6))
     used = np.flatnonzero(np.bincount(knots.limb[keep], minlength=len(cut.foot)) >= 2 + cut.is_stem)

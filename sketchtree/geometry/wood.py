@@ -52,7 +52,7 @@ def wood_mesh(
     """
     material = bark_material(bark)
     lines = centre_lines(tree)
-    skin, _, _ = _skin(tree, lines, made_as(wood, len(lines)), key, detail)
+    skin, lines, _ = _skin(tree, lines, None, made_as(wood, len(lines)), key, detail)
     return skin(np.ones(len(lines), bool), "wood", material)
 
 
@@ -86,7 +86,7 @@ def wood_of(
     frond = is_frond(tree) if habit.leaf_arrangement == "frond" else np.zeros(len(tree), bool)
     lines = centre_lines(tree, apart=frond)
     made = WAYS[1] if solid else made_as(wood, len(lines))
-    skin, lines, sunk = _skin(tree, lines, made, key, detail)
+    skin, lines, sunk = _skin(tree, lines, frond, made, key, detail)
     midrib = frond[lines.first_row]
     twig = (lines.radius[lines.start[:-1]] < _YOUNG) & (lines.parent != NULL) & ~midrib
     meshes = [skin(~(midrib | twig), "wood", material)]
@@ -120,12 +120,12 @@ def _warnings(wished: str | None, made: str, limbs: int, sunk: int) -> tuple[str
     return ()
 
 
-def _skin(tree: TreeSkeleton, lines: CentreLines, made: str, key: Key[Array, ""], detail: Detail):
+def _skin(tree: TreeSkeleton, lines: CentreLines, apart, made: str, key: Key[Array, ""], detail: Detail):
     """What makes the mesh of some limbs, by a name and a material; the lines it uses; and how many limbs could not be joined."""
     if made == WAYS[0] and len(lines):
         from sketchtree.geometry.one_piece.piece import within_budget
 
-        lines = joined(lines, tree)
+        lines = joined(centre_lines(tree, apart=apart, onward=True), tree)
         piece = within_budget(lines, _shift(lines, key), detail, _extent(tree))
         return lambda among, name, material: Mesh(name, *_of(piece.part(among)), material), lines, len(piece.sunk)
     plan = plan_wood(tree, lines, detail)
