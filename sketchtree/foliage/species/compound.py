@@ -6,7 +6,7 @@ from sketchtree.foliage.leaf_model import LeafModel, seasons
 
 COMPOUND = (
     LeafModel(
-        "horse_chestnut", compound.horse_chestnut, spur=2, every=2, arrangement="decussate", size=0.17, spacing=0.08, inclination=58.0, droop=0.45, fold=10.0, curl=0.16, blossom="chestnut_candle", blossom_share=0.45,
+        "horse_chestnut", compound.horse_chestnut, spur=2, every=2, arrangement="decussate", size=0.17, spacing=0.08, inclination=58.0, droop=0.45, fold=10.0, curl=0.16, blossom="chestnut_candle", blossom_share=0.7,
         palettes=seasons(
             ("#94ae4c", "#adc062", "#c8d28c", "#a8984e"),
             ("#4a682e", "#718c44", "#a4b472", "#8e8450"),

@@ -62,8 +62,8 @@ CONIFERS = (
         ), roughness=0.6, translucency=0.08,
     ),
     LeafModel(
-        "fir", needles.fir_spray, arrangement="alternate", size=0.022, spacing=0.004, inclination=42.0, droop=0.08, needle=needles.FIR_NEEDLE, bundle=26,
-        shoot=6.0, evergreen=True, curl=0.10, fold=14.0,
+        "fir", needles.fir_spray, arrangement="alternate", size=0.022, spacing=0.004, inclination=42.0, droop=0.08, needle=needles.FIR_NEEDLE, bundle=16,
+        shoot=6.0, evergreen=True, curl=0.10, fold=24.0,
         palettes=seasons(
             ("#3a5c38", "#86a856", "#92b06c", "#80684c"),
             ("#2a4a32", "#4c6e4a", "#6c8a66", "#7c664c"),
