@@ -8,7 +8,7 @@ The public names, in the order of the pipeline; each is imported when it is firs
     Prior, factor_graph, infer, lift     how deep is each segment? → TreeSkeleton
     Propagate                            what did the sketch leave out?
     PipeRadii, wood_mesh                 what shape is the wood?
-    populate, leaf_mesh                  which leaves, and where?
+    populate, blossom, leaf_mesh         which leaves, and where?
     write_glb, write_swc, preview        files and pictures
     sketch_to_tree                       all of it in one call → TreeModel
     sketches_to_forest                   several, grown together → Forest
@@ -43,7 +43,10 @@ _HOMES = {
     "sketchtree.geometry.wood": ("wood_mesh", "wood_meshes"),
     "sketchtree.geometry.mesh": ("Mesh", "Material"),
     "sketchtree.foliage.populate": ("populate",),
+    "sketchtree.foliage.blossom": ("blossom",),
     "sketchtree.foliage.cards": ("leaf_mesh",),
+    "sketchtree.foliage.instanced": ("leaf_instances",),
+    "sketchtree.foliage.leaf_cards": ("leaf_cards",),
     "sketchtree.export.gltf": ("write_glb",),
     "sketchtree.export.skeletons": ("write_swc", "write_skeleton_json"),
     "sketchtree.view": ("preview",),
