@@ -1,7 +1,8 @@
 """How long does it take to give a skeleton its radii, its wood and its file? `python -m benchmarks.mesh`
 
-Prints one line a size: segments, triangles, and warm seconds (the best of `--repeats`) for the pipe model, the mesh as
-tubes and the GLB on disk. The tree is an oak-like one that branches until it has the number of segments.
+Prints one line a size and way to make the wood: segments, limbs, triangles, and warm seconds (the best of `--repeats`) for the pipe
+model, the wood and the GLB on disk; then whether the wood, welded, is closed: parts, open and non-manifold edges. One piece is made up to
+`--joined` segments. The tree is an oak-like one that branches until it has the number of segments.
 """
 
 import argparse
@@ -61,21 +62,29 @@ def main(arguments: list[str]) -> None:
     """Print the table."""
     parser = argparse.ArgumentParser(description=__doc__)
     parser.add_argument("--segments", type=int, nargs="+", default=[500, 5_000, 50_000])
+    parser.add_argument("--joined", type=int, default=10_000, help="segments up to which wood is made in one piece too")
     parser.add_argument("--repeats", type=int, default=3)
     options = parser.parse_args(arguments)
+    from benchmarks.wood_audit import audit  # which takes its largest tree from here
+
     key = jax.random.key(0)
     bark, _ = fastest(1, lambda: bark_material("oak"))
     print(f"{platform.machine()} {platform.system()}, Python {platform.python_version()}; bark drawn in {bark:.2f} s")
-    print(f"{'segments':>9} {'triangles':>10} {'radii s':>8} {'wood s':>8} {'glb s':>8} {'MB':>7}")
+    print(f"{'segments':>9} {'limbs':>7} {'wood':>10} {'triangles':>10} {'radii s':>8} {'wood s':>8} {'glb s':>8} {'MB':>7} {'parts':>7} {'open':>5} {'nonman':>6}")
     with tempfile.TemporaryDirectory() as folder:
         path = Path(folder) / "tree.glb"
         for segments in options.segments:
             bare = branching_tree(segments)
             radii, tree = fastest(options.repeats, lambda bare=bare: PipeRadii(Habit())(bare))
-            wood, mesh = fastest(options.repeats, lambda tree=tree: wood_mesh(tree, bark="oak", key=key))
-            glb, _ = fastest(options.repeats, lambda mesh=mesh: write_glb(path, [mesh]))
-            size = path.stat().st_size / 1e6
-            print(f"{tree.segment_count:>9} {len(mesh.triangle):>10} {radii:>8.3f} {wood:>8.3f} {glb:>8.3f} {size:>7.1f}")
+            for way in ("tubes", "one-piece") if segments <= options.joined else ("tubes",):
+                wood, mesh = fastest(options.repeats, lambda tree=tree, way=way: wood_mesh(tree, bark="oak", key=key, wood=way))
+                glb, _ = fastest(options.repeats, lambda mesh=mesh: write_glb(path, [mesh]))
+                found = audit(mesh.position, mesh.triangle)
+                print(
+                    f"{tree.segment_count:>9} {len(np.unique(tree.limb)):>7} {way:>10} {len(mesh.triangle):>10} {radii:>8.3f} {wood:>8.3f} {glb:>8.3f} "
+                    f"{path.stat().st_size / 1e6:>7.1f} {found['parts']:>7} {found['open']:>5} {found['nonmanifold']:>6}",
+                    flush=True,
+                )
 
 
 if __name__ == "__main__":

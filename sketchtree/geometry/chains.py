@@ -16,7 +16,7 @@ from sketchtree.traverse import generation, generations
 _STRAIGHT = np.cos(np.radians(60.0))  # a child that turns less may continue a limb that ends at its foot
 _ALIKE = 0.6  # … if it is at least this share of the parent's radius
 
-_ONWARD, _THIN = np.cos(np.radians(80.0)), 0.25  # the same where a limb would end otherwise
+_ONWARD, _THIN = np.cos(np.radians(100.0)), 0.25  # the same where a limb would end otherwise
 
 
 @dataclass(frozen=True, eq=False)
