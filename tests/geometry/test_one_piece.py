@@ -226,3 +226,15 @@ def test_cells_that_go_round_a_limb_have_a_loop_at_either_end():
 def test_a_cut_keeps_clear_of_every_outline():
     assert free_column(np.array([0.4, 3.3]), np.array([1.6, 4.5]), 6) in (0, 2, 3, 5)
     assert free_column(np.array([-0.5]), np.array([2.5]), 3) is None
+
+
+def test_a_limb_goes_on_in_its_last_child_rather_than_end_in_a_stump():
+    tree = tree_of([-1, 0, 1], [(0, 0, 0), (0, 1, 0), (0.5, 1.1, 0)], [0.1, 0.1, 0.05], limb=np.array([0, 0, 1]))
+    assert len(centre_lines(tree)) == 2 and len(centre_lines(tree, onward=True)) == 1
+
+
+def test_stems_of_one_base_grow_out_of_the_thickest_that_is_no_root():
+    from sketchtree.geometry.one_piece.joints import joined
+
+    lines = joined(centre_lines(TREES["drawn roots"]), TREES["drawn roots"])
+    assert lines.parent.tolist() == [-1, 0, 0, 0] and lines.is_stem.tolist() == [True, False, False, False]
