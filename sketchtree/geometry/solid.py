@@ -24,8 +24,12 @@ def require_solid() -> None:
         ) from None
 
 
-def united(meshes: Sequence[Mesh]) -> tuple[Mesh, ...]:
-    """The union of meshes made of closed surfaces, in as many meshes: those of which nothing is left but the first are dropped.
+_CRUMB = 1e-4  # volume of what is left out where it touches nothing, / that of the largest piece
+
+
+def united(meshes: Sequence[Mesh]) -> tuple[tuple[Mesh, ...], int]:
+    """The union of meshes made of closed surfaces, in as many meshes (those of which nothing is left but the first are dropped), and
+    how many crumbs that touch nothing were left out.
 
     Raises `OptionError` without manifold3d, `ExportError` where a surface is not closed."""
     require_solid()
@@ -34,13 +38,16 @@ def united(meshes: Sequence[Mesh]) -> tuple[Mesh, ...]:
     first = manifold3d.Manifold.reserve_ids(len(meshes))
     limbs = [limb for k, mesh in enumerate(meshes) if len(mesh.triangle) for limb in _manifold(mesh, first + k).decompose()]
     if not limbs:
-        return tuple(meshes)
-    whole = manifold3d.Manifold.batch_boolean(limbs, manifold3d.OpType.Add).to_mesh64()
+        return tuple(meshes), 0
+    pieces = manifold3d.Manifold.batch_boolean(limbs, manifold3d.OpType.Add).decompose()
+    least = _CRUMB * max(piece.volume() for piece in pieces)
+    kept = [piece for piece in pieces if piece.volume() >= least]
+    whole = manifold3d.Manifold.compose(kept).to_mesh64()
     column, triangle = np.array(whole.vert_properties), np.array(whole.tri_verts, np.int64)
     runs = np.array(whole.run_index, np.int64) // 3
     of = np.repeat(np.array(whole.run_original_id, np.int64) - first, np.diff(runs))
     parts = [_part(mesh, column, triangle[of == k]) for k, mesh in enumerate(meshes)]
-    return tuple(part for k, part in enumerate(parts) if k == 0 or len(part.triangle))
+    return tuple(part for k, part in enumerate(parts) if k == 0 or len(part.triangle)), len(pieces) - len(kept)
 
 
 def _manifold(mesh: Mesh, name: int):

@@ -94,7 +94,8 @@ def wood_of(
         if among.any():
             meshes.append(skin(among, name, surface))
     if solid:
-        return Wood(united(meshes), "solid")
+        whole, crumbs = united(meshes)
+        return Wood(whole, "solid", (f"{crumbs} small pieces of wood touch no other and are not in the solid.",) if crumbs else ())
     return Wood(tuple(meshes), made, _warnings(wood, made, len(lines), sunk))
 
 

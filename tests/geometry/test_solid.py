@@ -76,3 +76,16 @@ def test_an_open_surface_is_refused():
     leaf = Mesh("wood", corner, np.tile([0.0, 0.0, 1.0], (3, 1)), corner[:, :2], np.array([[0, 1, 2]]), Material("wood"))
     with pytest.raises(ExportError, match="The wood is no solid: NotManifold. Leave out `--solid`, or draw limbs that do not coincide."):
         united([leaf])
+
+
+def test_crumbs_that_touch_nothing_are_left_out_and_counted():
+    pytest.importorskip("manifold3d", reason="the solid needs manifold3d")
+    from sketchtree.geometry.solid import united
+
+    def ball(radius, x):
+        corner = np.array([[1.0, 0, 0], [-1, 0, 0], [0, 1, 0], [0, -1, 0], [0, 0, 1], [0, 0, -1]])
+        face = np.array([[0, 2, 4], [2, 1, 4], [1, 3, 4], [3, 0, 4], [2, 0, 5], [1, 2, 5], [3, 1, 5], [0, 3, 5]])
+        return Mesh("wood", corner * radius + [x, 0, 0], corner, corner[:, :2], face, Material("wood"))
+
+    (whole, *_), crumbs = united([ball(1.0, 0.0), ball(0.01, 5.0)])
+    assert crumbs == 1 and whole.position[:, 0].max() < 1.1
