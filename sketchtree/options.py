@@ -72,6 +72,29 @@ class TreeOptions:
             shears.plane(shape)  # refuse a misspelt one before the work
 
 
+@dataclass(frozen=True)
+class FileOptions:
+    """What of a complete tree goes into its mesh file."""
+
+    lod: int = 0  # 0-3, the level of detail that is written where only one is
+    levels: str = "one"  # one: that of `lod`; together: all in one file, the impostor last; apart: each in a file of its own
+    pixel_error: float = 1.0  # what an outline may be off where a level takes over, pixels of a screen of 1080 rows, > 0
+    leaves: str = "merged"  # merged: one mesh; instanced: a few small ones, drawn at many places (level 0 only)
+    pack: str | None = None  # game: everything that a game needs, in files beside each other
+
+    def __post_init__(self):
+        if not 0 < self.pixel_error <= 100:
+            raise OptionError(f"`--pixel-error {self.pixel_error:g}` is out of range.", remedy="Give pixels above 0, at most 100.")
+        if self.lod and (self.levels != "one" or self.pack):
+            other = f"--pack {self.pack}" if self.pack else f"--levels {self.levels}"
+            raise OptionError(f"`--lod {self.lod}` asks for one level of detail, `{other}` for all of them.", remedy="Leave one of the two out.")
+        if self.leaves == "instanced" and (self.lod or self.pack):
+            other = f"--pack {self.pack}" if self.pack else f"--lod {self.lod}"
+            raise OptionError(f"`--leaves instanced` can't be had with `{other}`, whose leaves are one mesh.", remedy="Leave one of the two out.")
+        if self.pack and self.levels != "one":
+            raise OptionError(f"`--pack {self.pack}` writes all levels of detail in any case.", remedy=f"Leave `--levels {self.levels}` out.")
+
+
 def _whole(record, name: str) -> None:
     """3.0 is 3, in the report too."""
     value = getattr(record, name)

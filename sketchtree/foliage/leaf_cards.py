@@ -2,9 +2,12 @@
 
 By what there is to spend on a leaf, the first that can be afforded:
 
-    two triangles   the leaf's own picture on a flat card, and the short shoots if they fit
-    one triangle    the picture redrawn in the smallest triangle round it
+    four triangles  the picture in a diamond that lies in the full card's own faces
+    two triangles   the diamond, folded or bent; a tuft's own picture on a rectangle
+    one triangle    the picture in the smallest triangle round it
     less            a triangle for the two, three or more leaves that follow each other on a stem (`sprays`); tufts are thinned out instead
+
+Short shoots have six triangles, three, one or none (`short_shoots`).
 
 A card's place is the affine map from its picture's plane that comes nearest to where its leaves' feet, sides and tips truly are (least
 squares), made larger or smaller about its middle until what is drawn on it has its leaves' area:
@@ -16,18 +19,20 @@ from typing import NamedTuple
 
 import numpy as np
 from jaxtyping import Float, Int
+from scipy import ndimage
 
 from sketchtree.errors import OptionError
 from sketchtree.foliage.card_shape import bends, bent, card, foot_of
 from sketchtree.foliage.cards import mesh_name, outward, turned
 from sketchtree.foliage.crown_light import crown_light
 from sketchtree.foliage.leaf_materials import leaf_factor, leaf_material, painted_material
-from sketchtree.foliage.leaves import Leaves, select
+from sketchtree.foliage.leaves import Leaves
 from sketchtree.foliage.models import leaf_model, leaf_painting
+from sketchtree.foliage.painting import Painting
 from sketchtree.foliage.seasons import check_season
-from sketchtree.foliage.short_shoots import stems
+from sketchtree.foliage.short_shoots import STEMS, stems
 from sketchtree.foliage.sprays import layout, sprays
-from sketchtree.foliage.triangles import drawn_area, single, strip
+from sketchtree.foliage.triangles import diamond, drawn_area, single, strip
 from sketchtree.geometry.mesh import Material, Mesh
 
 _MOST = 12  # leaves that one card stands for; fewer triangles thin the leaves out
@@ -51,24 +56,32 @@ class _Cards(NamedTuple):
 
 
 _TRIANGLE, _QUAD = np.array([[0, 1, 2]]), np.array([[0, 1, 2], [0, 2, 3]])
-_BENT = np.array([[0, 1, 3], [0, 3, 2], [2, 3, 5], [2, 5, 4]])  # foot, waist and tip of the full card, without the midrib
+_FOLDED, _WAIST = np.array([[0, 1, 2], [0, 2, 3]]), np.array([[0, 1, 3], [1, 2, 3]])  # of a diamond: foot, right, tip, left
+_FACES = np.array([[0, 1, 4], [1, 2, 4], [2, 3, 4], [3, 0, 4]])  # and its middle
 
 
-def leaf_cards(leaves: Leaves, *, season: str = "summer", triangles: int) -> Mesh:
+def leaf_cards(leaves: Leaves, *, season: str = "summer", triangles: int, stem: int = 0) -> Mesh:
     """The leaves in at most so many triangles (≥ 1), of the same area in all: a mesh called `leaf` or `leaf_blossom`.
 
-    With as many as `cards.leaf_mesh` has it is still made of flat cards. Raises OptionError."""
+    Each short shoot has `stem` triangles (0, 1, 3 or 6) besides. With as many triangles as `cards.leaf_mesh` has, leaves are still made of simpler
+    cards. Raises OptionError."""
     check_season(season)
     if triangles < 1:
         raise OptionError(f"The leaves were to have {triangles} triangles.", remedy="Allow at least 1, or leave the leaves out.")
+    if stem not in (0, *STEMS):
+        raise OptionError(f"The short shoots were to have {stem} triangles each.", remedy="Give 0, 1, 3 or 6.")
     planes = _planes(leaves)
+    blade = leaf_model(leaves.model).is_blade
+    if triangles >= 2 * len(planes.leaf) and blade:
+        cards, material = _diamonds(leaves, season, 4 if triangles >= 4 * len(leaves) else 2)
+        return _mesh(leaves, season, [cards], material, stem)
     if triangles >= 2 * len(planes.leaf):
-        return _mesh(leaves, season, _own_pictures(leaves, planes, triangles), leaf_material(leaves.model, season), triangles)
+        return _mesh(leaves, season, [_quads(leaves, planes)], leaf_material(leaves.model, season), stem)
     if triangles < len(planes.leaf) and leaf_model(leaves.model).is_blade:
         cards, material = _spray_cards(leaves, planes, season, triangles)
     else:
         cards, material = _single(leaves, _thinned(planes, triangles), season)
-    return _mesh(leaves, season, [cards], material, 0)
+    return _mesh(leaves, season, [cards], material, stem)
 
 
 def _planes(leaves: Leaves) -> _Planes:
@@ -99,30 +112,43 @@ def _thinned(planes: _Planes, most: int) -> _Planes:
     return _Planes(plane, planes.leaf[keep], planes.area[keep] * grown**2)
 
 
-def _own_pictures(leaves: Leaves, planes: _Planes, most: int) -> list[_Cards]:
-    """The leaf's own texture: on four triangles for the leaves that bend the farthest, as many as can be had; on a flat rectangle for the others."""
-    richer = 0
-    if leaf_model(leaves.model).is_blade:
-        richer = min((most - 6 * len(leaves.shoot) - 2 * len(leaves)) // 2, len(leaves))
-        richer = richer if richer > 0 else (most - 2 * len(leaves)) // 2
-        richer = min(richer, len(leaves))
-    far = np.argsort(-leaves.size * bends(leaves.tint, leaf_model(leaves.model))[1], kind="stable")
-    rich = np.zeros(len(leaves), bool)
-    rich[far[:richer]] = True
-    flat = ~rich[planes.leaf]
-    return [_bent_cards(leaves, np.flatnonzero(rich)), _quads(leaves, _Planes(*(column[flat] for column in planes)))]
+def _diamonds(leaves: Leaves, season: str, triangles: int) -> tuple[_Cards, Material]:
+    """The picture in a diamond. Of four triangles it lies in the full card's own faces; of two it is folded along the midrib or bent at the waist
+    as the card is, whichever its rim asks for more: what is seen of a leaf from the side is its rim."""
+    model, painting = leaf_model(leaves.model), leaf_painting(leaves.model)
+    corners, _, _ = card(leaves.model)
+    foot, waist, tip = (float(corners[k, 1]) for k in (0, 3, 5))
+    one = diamond(painting, waist)
+    fold, curl = bends(leaves.tint, model)
+    low, middle, high = (-curl * (y / tip) ** 2 for y in (foot, waist, tip))
+    share = (waist - foot) / (tip - foot)
+    off = middle - (1 - share) * low - share * high  # of the waist from the straight line
+    mean, spread = _rim_reach(painting)
+    folded = triangles == 4 or np.sin(np.radians(model.fold)) * spread > 0.3 * model.curl * share * (1 - share)
+    flat_x, flat_y = one.corner[0].T
+    if triangles == 4 or not folded:
+        along = [middle + (low - middle) * (flat_y[0] - waist) / (foot - waist), middle, middle + (high - middle) * (flat_y[2] - waist) / (tip - waist), middle]
+    else:
+        along = [low + (high - low) * (y - foot) / (tip - foot) + 0.5 * off for y in flat_y]
+    lift = np.abs(flat_x) if folded else np.full(4, mean)
+    x = flat_x * (np.cos(fold)[:, None] if folded else np.ones((len(fold), 1)))
+    local = np.stack([x, np.broadcast_to(flat_y, x.shape), np.stack(along, axis=1) + lift * np.sin(fold)[:, None]], axis=2)
+    uv, ring = one.uv[0], _FOLDED if folded else _WAIST
+    if triangles == 4:
+        local = np.concatenate([local, np.stack([0 * fold, 0 * fold + waist, middle], axis=1)[:, None]], axis=1)
+        uv, ring = np.vstack([uv, 0.5 * (uv[1] + uv[3])]), _FACES
+    position = turned(local, leaves) * leaves.size[:, None, None] + leaves.position[:, None]
+    cards = _Cards(position, np.broadcast_to(uv, (len(leaves), *uv.shape)), np.arange(len(leaves))[:, None], ring)
+    return cards, painted_material(f"leaf_{leaves.model}_diamond", one.painting, leaves.model, season)
 
 
-def _bent_cards(leaves: Leaves, rows: Int[np.ndarray, " card"]) -> _Cards:
-    """Some leaves' cards as they are, without the vertex in the middle."""
-    corners, uv, _ = card(leaves.model)
-    outer = [0, 1, 2, 4, 5, 6]
-    if len(rows) == 0:
-        return _Cards(np.zeros((0, 6, 3)), np.zeros((0, 6, 2)), rows[:, None], _BENT)
-    one = select(leaves, rows)
-    position = turned(bent(corners, leaf_model(leaves.model), *bends(one.tint, leaf_model(leaves.model)))[:, outer], one)
-    position = position * one.size[:, None, None] + one.position[:, None]
-    return _Cards(position, np.broadcast_to(uv[outer], (len(rows), 6, 2)), rows[:, None], _BENT)
+def _rim_reach(painting: Painting) -> tuple[float, float]:
+    """How far from the midrib the drawing's rim is, mean and standard deviation, leaf lengths."""
+    columns = painting.coverage.shape[1]
+    x = np.abs(painting.left + (np.arange(columns) + 0.5) / columns * (painting.right - painting.left))
+    rim = ndimage.morphological_gradient(painting.coverage, size=3).sum(axis=0)
+    mean = float((rim * x).sum() / rim.sum())
+    return mean, float(np.sqrt((rim * (x - mean) ** 2).sum() / rim.sum()))
 
 
 def _quads(leaves: Leaves, planes: _Planes) -> _Cards:
@@ -194,8 +220,8 @@ def _on(plane, corner: Float[np.ndarray, "one corner 2"]) -> Float[np.ndarray, "
     return plane[:, :1] + np.matmul(corner, plane[:, 1:])
 
 
-def _mesh(leaves: Leaves, season: str, sets: list[_Cards], material: Material, triangles: int) -> Mesh:
-    """The cards as triangles, and the short shoots if they fit into so many."""
+def _mesh(leaves: Leaves, season: str, sets: list[_Cards], material: Material, stem: int) -> Mesh:
+    """The cards as triangles, and the short shoots of `stem` triangles each."""
     factor, blade = leaf_factor(leaves.model, season, leaves.tint, crown_light(leaves)), leaf_model(leaves.model).is_blade
     position, normal, uv, triangle, color, first = [], [], [], [], [], 0
     for cards in sets:
@@ -208,9 +234,9 @@ def _mesh(leaves: Leaves, season: str, sets: list[_Cards], material: Material, t
         triangle.append((first + cards.ring[None] + corners * np.arange(count)[:, None, None]).reshape(-1, 3))
         color.append(np.repeat(_mean(factor, cards.leaf), corners, axis=0))
         first += corners * count
-    stem = stems(leaves, first)
-    if sum(map(len, triangle)) + len(stem.triangle) <= triangles:
-        for column, more in zip((position, normal, uv, triangle, color), (*stem, np.ones((len(stem.position), 4))), strict=True):
+    if stem:
+        shoots = stems(leaves, first, stem)
+        for column, more in zip((position, normal, uv, triangle, color), (*shoots, np.ones((len(shoots.position), 4))), strict=True):
             column.append(more)
     return Mesh(mesh_name(leaves.model), *(np.vstack(c) for c in (position, normal, uv, triangle)), material, np.vstack(color))
 

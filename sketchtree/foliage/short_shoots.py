@@ -57,15 +57,35 @@ def unit_stem(model: str) -> Stems:
     return Stems(position, np.tile(ring, (2, 1)), np.stack([u, v], axis=1), SIDES)
 
 
-def stems(leaves: Leaves, first: int) -> Stems:
-    """All tubes; `first` is the number of their first vertex."""
-    one, at = unit_stem(leaves.model), stem_frames(leaves)
-    count = len(at.start)
+def spike(model: str) -> Stems:
+    """The tube in three triangles: as wide in the middle, thick at the foot and pointed at the tip."""
+    tube = unit_stem(model)
+    position = np.vstack([(1 + _TAPER) * tube.position[:3], [[0.0, 1.0, 0.0]]])
+    normal = np.vstack([tube.normal[:3], [[0.0, 1.0, 0.0]]])
+    return Stems(position, normal, np.vstack([tube.uv[:3], tube.uv[3:4]]), np.stack([_J, (_J + 1) % 3, np.full(3, 3)], axis=1))
+
+
+def sliver(model: str) -> Stems:
+    """The tube in one triangle: from a random side as wide as the tube on average, which is 2 / π of what it is from its own."""
+    tube = unit_stem(model)
+    wide = 0.5 * np.pi * (1 + _TAPER)
+    position = np.array([[-wide, 0.0, 0.0], [wide, 0.0, 0.0], [0.0, 1.0, 0.0]])
+    return Stems(position, np.tile([[0.0, 0.0, 1.0]], (3, 1)), tube.uv[[0, 1, 3]], np.array([[0, 1, 2]]))
+
+
+STEMS = {6: unit_stem, 3: spike, 1: sliver}
+"""Shapes of a stem by their triangles."""
+
+
+def stems(leaves: Leaves, first: int, triangles: int = 6) -> Stems:
+    """All stems, each of so many triangles (6, 3 or 1); `first` is the number of their first vertex."""
+    one, at = STEMS[triangles](leaves.model), stem_frames(leaves)
+    count, corners = len(at.start), len(one.position)
     scale = np.stack([np.full(count, at.radius), at.length, np.full(count, at.radius)], axis=1)
     position = at.start[:, None] + np.einsum("svi,sij->svj", scale[:, None] * one.position, at.axes)
     return Stems(
         position.reshape(-1, 3),
         np.einsum("vi,sij->svj", one.normal, at.axes).reshape(-1, 3),
         np.tile(one.uv, (count, 1)),
-        (first + one.triangle[None] + 6 * np.arange(count)[:, None, None]).reshape(-1, 3),
+        (first + one.triangle[None] + corners * np.arange(count)[:, None, None]).reshape(-1, 3),
     )

@@ -49,7 +49,25 @@ def strip(leaf: Painting, pictures: list[tuple[Float[np.ndarray, "leaf 2"], Floa
 def single(leaf: Painting) -> Strip:
     """The leaf's own picture at half its resolution, in the triangle round it. Its pixels are means of four of the leaf's, and stand
     at multiples of `_ALIGNED`: graphics cards average both textures to the same smaller ones, so both are seen alike from afar."""
-    corner = _triangle(_rim(leaf, np.zeros((1, 2)), np.zeros(1)))
+    return _aligned(leaf, _triangle(_rim(leaf, np.zeros((1, 2)), np.zeros(1))))
+
+
+def diamond(leaf: Painting, waist: float) -> Strip:
+    """The same in the smallest diamond whose sides' corners are at the height `waist` (leaf lengths from the foot). Its corners: foot, right, tip, left."""
+    rim = _rim(leaf, np.zeros((1, 2)), np.zeros(1))
+    x, y = np.abs(rim[:, 0]), rim[:, 1]
+    above, below = y > waist, y < waist
+    best = None
+    for wide in x.max() * np.geomspace(1.03, 2.5, 60):
+        reach = (wide * y - x * waist) / (wide - x)  # where a side through (wide, waist) and the point meets the midrib
+        tip, foot = np.max(reach[above], initial=y.max()), np.min(reach[below], initial=y.min())
+        if best is None or wide * (tip - foot) < best[0]:
+            best = wide * (tip - foot), [[0.0, foot], [wide, waist], [0.0, tip], [-wide, waist]]
+    return _aligned(leaf, np.array(best[1]))
+
+
+def _aligned(leaf: Painting, corner: Float[np.ndarray, "corner 2"]) -> Strip:
+    """The leaf's picture at half its resolution, with as much clear space round it as the polygon of the corners needs."""
     rows, columns = leaf.coverage.shape
     pixel = np.array([2 * (leaf.right - leaf.left) / columns, 2 * (leaf.top - leaf.bottom) / rows])
     up = foot_of(leaf)

@@ -71,11 +71,11 @@ class Seen:
 
 
 def silhouette(meshes: Sequence[Mesh], view: View) -> Bool[np.ndarray, "row column"]:
-    """Where anything is seen."""
+    """Where anything is seen at the middles of the pixels, textures read at their finest: what is true of the surfaces, however small they are."""
     found = np.zeros(view.pixels**2, bool)
     for mesh in meshes:
         texels = Pyramid.of(mesh.material)
-        for fragments in _fragments(mesh, view, texels):
+        for fragments in _fragments(mesh, view, texels, sharp=True):
             found[fragments.pixel] = True
     return found.reshape(view.pixels, view.pixels)
 
@@ -106,15 +106,15 @@ def _seen(meshes: Sequence[Mesh], view: View, sides: Sequence[float]) -> list[Se
     return [Seen(seen.depth.reshape(shape), seen.color.reshape(*shape, 3), seen.normal.reshape(*shape, 3), seen.facing.reshape(shape)) for seen in found]
 
 
-def _fragments(mesh: Mesh, view: View, texels: Pyramid) -> Iterator[Fragments]:
-    """All fragments of a mesh that pass the test of alpha, some triangles at a time."""
+def _fragments(mesh: Mesh, view: View, texels: Pyramid, *, sharp: bool = False) -> Iterator[Fragments]:
+    """All fragments of a mesh that pass the test of alpha (if `sharp`, that of the texture itself), some triangles at a time."""
     place = view.place(mesh.position)
     for begin in range(0, len(mesh.triangle), _AT_ONCE):
         triangle = np.arange(begin, min(begin + _AT_ONCE, len(mesh.triangle)))
         found = _covered(place, mesh.triangle[triangle], view.pixels)
         found = Fragments(found.pixel, found.depth, triangle[found.triangle], found.weight)
         if mesh.material.alpha_cutoff is not None and texels.has_alpha:
-            alpha = texels.at(*_texture_places(mesh, found, view))[:, 3]
+            alpha = texels.alpha_at(_uv(mesh, found)) if sharp else texels.at(*_texture_places(mesh, found, view))[:, 3]
             found = _rows(found, alpha >= mesh.material.alpha_cutoff)
         yield found
 
@@ -178,12 +178,15 @@ def _rows(found: Fragments, rows) -> Fragments:
     return Fragments(*(getattr(found, name)[rows] for name in Fragments.__dataclass_fields__))
 
 
+def _uv(mesh: Mesh, found: Fragments):
+    return np.einsum("fk,fkc->fc", found.weight, mesh.uv[mesh.triangle[found.triangle]])
+
+
 def _texture_places(mesh: Mesh, found: Fragments, view: View):
     """Texture place of each fragment, and how many textures a pixel is wide there."""
-    corner = mesh.triangle
-    uv = np.einsum("fk,fkc->fc", found.weight, mesh.uv[corner[found.triangle]])
+    uv = _uv(mesh, found)
     used, back = np.unique(found.triangle, return_inverse=True)
-    tri = corner[used]
+    tri = mesh.triangle[used]
     first, second = mesh.uv[tri[:, 1]] - mesh.uv[tri[:, 0]], mesh.uv[tri[:, 2]] - mesh.uv[tri[:, 0]]
     there = np.abs(first[:, 0] * second[:, 1] - first[:, 1] * second[:, 0])
     place = view.place(mesh.position[tri.ravel()]).reshape(-1, 3, 3)

@@ -62,33 +62,8 @@ def roughness(side: int, full: int) -> float:
     return float(np.mean(np.abs(own - other)))
 
 
-def choose_shapes(
-    ring: Rings, full: Int[np.ndarray, " limb"], parent: Int[np.ndarray, " limb"], weight: Float[np.ndarray, " limb"], budget: int
-) -> Shapes:
-    """The best shapes of all limbs with at most `budget` triangles.
-
-    `full` sides have the limbs of the full tree; `weight` says how much of each limb is seen (0-1). A limb weighs a little even so: hidden wood
-    goes first, but not all of it. Fewer triangles than asked for may come out.
-    """
-    options = _options(ring, full)
-    wrong = options.wrong * np.maximum(weight, 1e-6)[:, None]
-    rows = np.arange(len(full))
-    high = 2.0 * float(wrong.max(initial=0.0)) + 1e-12
-    low, best = 1e-12 * high, np.zeros(len(full), np.int64)
-    for _ in range(_SEARCHES):
-        price = np.sqrt(low * high)
-        picked = _picked(parent, options, wrong, price)
-        if int(options.cost[rows, picked].sum()) <= budget:
-            high, best = price, picked
-        else:
-            low = price
-        if high / low < 1.0005:
-            break
-    return _shapes(ring, options, best)
-
-
 @dataclass(frozen=True, eq=False)
-class _Options:
+class Choices:
     """The choices of every limb; column 0 leaves it out, 1 is the spike."""
 
     wrong: Float[np.ndarray, "limb choice"]  # metres²
@@ -98,7 +73,30 @@ class _Options:
     kept: list  # rings kept at each fineness
 
 
-def _options(ring: Rings, full) -> _Options:
+def choose_shapes(ring: Rings, choices: Choices, parent: Int[np.ndarray, " limb"], weight: Float[np.ndarray, " limb"], budget: int) -> Shapes:
+    """The best shapes of all limbs with at most `budget` triangles.
+
+    `choices` are those of the limbs (`choices_of`); `weight` says how much of each limb is seen (0-1). A limb weighs a little even so: hidden
+    wood goes first, but not all of it. Fewer triangles than asked for may come out.
+    """
+    wrong = choices.wrong * np.maximum(weight, 1e-6)[:, None]
+    rows = np.arange(len(wrong))
+    high = 2.0 * float(wrong.max(initial=0.0)) + 1e-12
+    low, best = 1e-12 * high, np.zeros(len(wrong), np.int64)
+    for _ in range(_SEARCHES):
+        price = np.sqrt(low * high)
+        picked = _picked(parent, choices, wrong, price)
+        if int(choices.cost[rows, picked].sum()) <= budget:
+            high, best = price, picked
+        else:
+            low = price
+        if high / low < 1.0005:
+            break
+    return _shapes(ring, choices, best)
+
+
+def choices_of(ring: Rings, full: Int[np.ndarray, " limb"]) -> Choices:
+    """What every limb can be drawn as; on the full tree the limbs have `full` sides."""
     limb, count = ring.limb, len(full)
     ends = np.zeros(len(limb), bool)
     ends[ring.start[:-1]] = ends[ring.start[1:] - 1] = True
@@ -120,7 +118,7 @@ def _options(ring: Rings, full) -> _Options:
             cost.append(2 * n * (rings - 1) + n - 2)
             fineness.append(rank)
             side.append(n)
-    return _Options(np.stack(wrong, axis=1), np.stack(cost, axis=1), np.array(fineness), np.array(side), kept)
+    return Choices(np.stack(wrong, axis=1), np.stack(cost, axis=1), np.array(fineness), np.array(side), kept)
 
 
 def _shares(ring: Rings) -> Float[np.ndarray, " ring"]:
@@ -142,7 +140,7 @@ def _away(ring: Rings, tube, keep) -> Float[np.ndarray, " ring"]:
     return np.where(keep, 0.0, gap)
 
 
-def _picked(parent, options: _Options, wrong, price: float) -> Int[np.ndarray, " limb"]:
+def _picked(parent, options: Choices, wrong, price: float) -> Int[np.ndarray, " limb"]:
     """The best choice of every limb at a price a triangle; none is left out that bears one that is not."""
     total = wrong + price * options.cost
     picked = np.argmin(total, axis=1)
@@ -162,7 +160,7 @@ def _bears(parent, drawn):
     return bears
 
 
-def _shapes(ring: Rings, options: _Options, picked) -> Shapes:
+def _shapes(ring: Rings, options: Choices, picked) -> Shapes:
     limb, rank = ring.limb, options.fineness[picked]
     kept = np.zeros(len(limb), bool)
     for number, keep in enumerate(options.kept):

@@ -46,6 +46,13 @@ class Pyramid:
         row = np.floor((uv[:, 1] % 1.0) * high).astype(np.int64) % high
         return self.texel[self.first[level] + row * wide + column]
 
+    def alpha_at(self, uv: Float[np.ndarray, "place 2"]) -> Float[np.ndarray, " place"]:
+        """Alpha of the texture itself."""
+        wide, high = self.width[0], self.height[0]
+        column = np.floor((uv[:, 0] % 1.0) * wide).astype(np.int64) % wide
+        row = np.floor((uv[:, 1] % 1.0) * high).astype(np.int64) % high
+        return self.texel[row * wide + column, 3]
+
 
 class _Image:
     """A texture by its identity: textures are kept by their makers, and are looked at often."""

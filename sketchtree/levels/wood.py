@@ -4,10 +4,10 @@ Limbs are tubes through some of the full tree's rings, open at the foot, inside 
 `shapes` decides. Bark lies on them as on the full tree (`geometry.unwrap`).
 """
 
-from dataclasses import replace
+from dataclasses import dataclass, replace
 
 import numpy as np
-from jaxtyping import Bool
+from jaxtyping import Bool, Float, Int
 
 from sketchtree.axes import NULL
 from sketchtree.geometry.bark import bark_material, rachis_material, twig_material
@@ -18,40 +18,58 @@ from sketchtree.geometry.radii import is_frond
 from sketchtree.geometry.rings import Rings
 from sketchtree.geometry.unwrap import circumference, lengthwise, repeats
 from sketchtree.geometry.wood import WoodPlan, plan_wood
-from sketchtree.levels.shapes import Shapes, choose_shapes, circumradius
+from sketchtree.levels.shapes import Choices, Shapes, choices_of, choose_shapes, circumradius
 from sketchtree.parameters import Habit
 from sketchtree.skeleton import TreeSkeleton
 
 _YOUNG = 0.012  # metres, radius at its foot of a limb that has no bark yet
 
 
+@dataclass(frozen=True, eq=False)
+class LevelWood:
+    """The wood of a tree, ready to be drawn with any number of triangles."""
+
+    plan: WoodPlan  # of the full tree
+    ring: Rings  # its rings, flared
+    choices: Choices
+    full: Int[np.ndarray, " limb"]  # sides
+    weight: Float[np.ndarray, " limb"]  # how much of each limb is seen
+    kind: tuple[tuple[str, Material, Bool[np.ndarray, " limb"]], ...]  # name, material and limbs of each mesh
+
+    @classmethod
+    def of(
+        cls, tree: TreeSkeleton, *, bark: str, habit: Habit, leafy: Bool[np.ndarray, " segment"] | None = None, hidden: float = 0.85, detail: Detail = Detail(),  # noqa: B008 (frozen)
+    ) -> "LevelWood":
+        """Of a tree. Limbs of rows that are `leafy` are hidden by their leaves, and weigh only 1 − `hidden`; `detail` is that of the full
+        tree. Raises `OptionError` for an unknown bark."""
+        frond = is_frond(tree) if habit.leaf_arrangement == "frond" else np.zeros(len(tree), bool)
+        plan = plan_wood(tree, centre_lines(tree, apart=frond), detail)
+        lines, ring = plan.lines, _flared(plan, detail.flare)
+        full = (plan.side[ring.limb] >> plan.level)[(ring.start[:-1] + ring.start[1:]) // 2] if len(lines) else plan.side
+        weight = np.ones(len(lines)) if leafy is None else 1.0 - hidden * leafy[lines.first_row]
+        midrib = frond[lines.first_row]
+        twig = (lines.radius[lines.start[:-1]] < _YOUNG) & (lines.parent != NULL) & ~midrib
+        kind = (
+            ("wood", bark_material(bark), ~(midrib | twig)),
+            ("wood_twigs", twig_material(bark), twig),
+            ("wood_rachis", rachis_material(), midrib),
+        )
+        return cls(plan, ring, choices_of(ring, full), full, weight, kind)
+
+    def meshes(self, triangles: int) -> tuple[Mesh, ...]:
+        """At most so many triangles: `wood` first, then `wood_twigs` and `wood_rachis` where there are any."""
+        shapes = choose_shapes(self.ring, self.choices, self.plan.lines.parent, self.weight, triangles)
+        drawn = shapes.side > 0
+        made = [_tubes(self.ring, self.full, shapes, among & drawn, name, skin, self.plan.detail.tile) for name, skin, among in self.kind]
+        return (made[0], *(mesh for mesh in made[1:] if mesh.triangle_count))
+
+
 def level_wood(
     tree: TreeSkeleton, *, bark: str, habit: Habit, triangles: int, leafy: Bool[np.ndarray, " segment"] | None = None, hidden: float = 0.85,
     detail: Detail = Detail(),  # noqa: B008 (frozen)
 ) -> tuple[Mesh, ...]:
-    """The wood in at most so many triangles: `wood` first, then `wood_twigs` and `wood_rachis` where there are any.
-
-    Limbs of rows that are `leafy` are hidden by their leaves, and weigh only 1 − `hidden`; `detail` is that of the full tree. Raises
-    `OptionError` for an unknown bark.
-    """
-    material = bark_material(bark)
-    frond = is_frond(tree) if habit.leaf_arrangement == "frond" else np.zeros(len(tree), bool)
-    plan = plan_wood(tree, centre_lines(tree, apart=frond), detail)
-    lines = plan.lines
-    if len(lines) == 0:
-        return (_empty("wood", material),)
-    ring = _flared(plan, detail.flare)
-    full = (plan.side[ring.limb] >> plan.level)[(ring.start[:-1] + ring.start[1:]) // 2]
-    weight = np.ones(len(lines)) if leafy is None else 1.0 - hidden * leafy[lines.first_row]
-    shapes = choose_shapes(ring, full, lines.parent, weight, triangles)
-    midrib = frond[lines.first_row]
-    twig = (lines.radius[lines.start[:-1]] < _YOUNG) & (lines.parent != NULL) & ~midrib
-    drawn = shapes.side > 0
-    meshes = [_tubes(ring, full, shapes, drawn & ~(midrib | twig), "wood", material, detail.tile)]
-    for name, among, skin in (("wood_twigs", twig, twig_material), ("wood_rachis", midrib, lambda _: rachis_material())):
-        if (among & drawn).any():
-            meshes.append(_tubes(ring, full, shapes, among & drawn, name, skin(bark), detail.tile))
-    return tuple(meshes)
+    """The wood in at most so many triangles, as `LevelWood` draws it."""
+    return LevelWood.of(tree, bark=bark, habit=habit, leafy=leafy, hidden=hidden, detail=detail).meshes(triangles)
 
 
 def _flared(plan: WoodPlan, amount: float) -> Rings:

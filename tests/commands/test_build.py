@@ -117,7 +117,7 @@ BAD = {
     "unknown leaf": ("t.svg", SVG.format(TRUNK), ["--leaf", "nonesuch"]),
     "unknown bark": ("t.svg", SVG.format(TRUNK), ["--bark", "nonesuch"]),
     "negative height": ("t.svg", SVG.format(TRUNK), ["--height", "-3"]),
-    "planned option": ("t.svg", SVG.format(TRUNK), ["--lod", "2"]),
+    "two that exclude each other": ("t.svg", SVG.format(TRUNK), ["--lod", "2", "--levels", "apart"]),
     "no such file": (None, None, []),
 }
 
@@ -140,7 +140,7 @@ def test_bad_input_gets_one_paragraph_and_status_2_and_no_file(case, tmp_path, c
     ("output", "message"),
     [
         ("no/such/folder/tree.glb", "does not exist"),
-        ("tree.usdz", "`.usdz` files are not written"),
+        ("tree.fbx", "`.fbx` files are not written"),
         ("tree.xyz", "`.xyz` files are not written"),
         ("tree", "no extension to tell the format"),
         ("", "it is a folder"),

@@ -5,7 +5,7 @@ import pytest
 
 from sketchtree.axes import NULL
 from sketchtree.geometry.rings import Rings
-from sketchtree.levels.shapes import choose_shapes, circumradius, roughness
+from sketchtree.levels.shapes import choices_of, choose_shapes, circumradius, roughness
 
 
 def limbs(*bars):
@@ -25,7 +25,7 @@ def chosen(ring, budget, *, full=None, parent=None, weight=None):
     count = len(ring.start) - 1
     return choose_shapes(
         ring,
-        np.full(count, 8) if full is None else np.array(full),
+        choices_of(ring, np.full(count, 8) if full is None else np.array(full)),
         np.full(count, NULL) if parent is None else np.array(parent),
         np.ones(count) if weight is None else np.array(weight),
         budget,
