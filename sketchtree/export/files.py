@@ -8,6 +8,7 @@ under temporary names first; should a rename fail after that, those before it ar
 import os
 import secrets
 import shutil
+import stat
 from collections.abc import Iterator, Mapping
 from contextlib import contextmanager
 from importlib.util import find_spec
@@ -41,16 +42,17 @@ def check_program(path: str | os.PathLike, verb: str = "write") -> None:
 
 
 def check_writable(path: str | os.PathLike) -> Path:
-    """The path, if a file can be written there. Nothing is left behind; call it before long work.
+    """The path, if a file can be written there; of a link, the path of what it links to. Nothing is left behind; call it before long work.
 
-    Raises `ExportError` where the folder is missing or read-only, or the path is itself a folder.
+    Raises `ExportError` where the folder is missing or read-only, or the path is itself a folder, a read-only file, or no file at all (a device, a pipe).
     """
-    path = Path(path)
+    path = Path(os.path.realpath(path)) if os.path.islink(path) else Path(path)
     folder = path.parent
-    if path.is_dir():
+    if os.path.isdir(path):
         raise ExportError(f"Can't write {path}: it is a folder.", remedy="Add a file name to the path.")
     if not folder.is_dir():
         raise ExportError(f"Can't write {path}: the folder {folder} does not exist.", remedy="Create it, or choose another path.")
+    _check_held(path)
     probe = _beside(path)
     try:
         probe.touch(exist_ok=False)
@@ -58,6 +60,20 @@ def check_writable(path: str | os.PathLike) -> Path:
     except OSError as error:
         raise ExportError(f"Can't write {path}: {_why(error)}.", remedy="Choose a folder you may write to.") from error
     return path
+
+
+def _check_held(path: Path) -> None:
+    """Raises `ExportError` where what stands there may not be replaced."""
+    try:
+        mode = path.stat().st_mode
+    except FileNotFoundError:
+        return
+    except OSError as error:
+        raise ExportError(f"Can't write {path}: {_why(error)}.", remedy="Choose another name.") from error
+    if not stat.S_ISREG(mode):
+        raise ExportError(f"Can't write {path}: it is a device or a pipe, and files are written whole.", remedy="Name an ordinary file.")
+    if not mode & (stat.S_IWUSR | stat.S_IWGRP | stat.S_IWOTH):
+        raise ExportError(f"Can't write {path}: it is read-only.", remedy="Make it writable, or choose another name.")
 
 
 @contextmanager
@@ -88,8 +104,9 @@ def write_set(files: Mapping[Path, bytes]) -> None:
     made = _made_folders(files)
     temporary = {}
     try:
-        for path, data in files.items():
-            temporary[check_writable(path)] = _beside(path)
+        for named, data in files.items():
+            path = check_writable(named)
+            temporary[path] = _beside(path)
             try:
                 _write(temporary[path], data)
             except OSError as error:

@@ -4,7 +4,7 @@ import stat
 import pytest
 
 from sketchtree.errors import ExportError
-from sketchtree.export.files import check_extension, check_writable, whole_file, write_whole
+from sketchtree.export.files import check_extension, check_writable, whole_file, write_set, write_whole
 
 
 def test_a_file_is_written_whole(tmp_path):
@@ -70,3 +70,32 @@ def test_a_path_without_extension_is_named():
 
 def test_the_extension_may_be_in_capitals():
     assert check_extension("Tree.GLB") == ".glb"
+
+
+def test_a_read_only_file_is_named_and_kept(tmp_path):
+    (tmp_path / "t.glb").write_bytes(b"mine")
+    (tmp_path / "t.glb").chmod(stat.S_IRUSR)
+    with pytest.raises(ExportError, match=r"Can't write .*t\.glb: it is read-only\. Make it writable, or choose another name\."):
+        write_set({tmp_path / "s.glb": b"new", tmp_path / "t.glb": b"new"})
+    assert [(path.name, path.read_bytes()) for path in tmp_path.iterdir()] == [("t.glb", b"mine")]
+
+
+@pytest.mark.skipif(not hasattr(os, "mkfifo"), reason="no pipes here")
+def test_a_pipe_is_named_and_kept(tmp_path):
+    os.mkfifo(tmp_path / "r.json")
+    with pytest.raises(ExportError, match=r"it is a device or a pipe, and files are written whole\. Name an ordinary file\."):
+        check_writable(tmp_path / "r.json")
+    assert stat.S_ISFIFO((tmp_path / "r.json").stat().st_mode)
+
+
+def test_a_link_stays_one_and_its_target_is_written(tmp_path):
+    (tmp_path / "disk").mkdir()
+    (tmp_path / "t.glb").symlink_to(tmp_path / "disk" / "far.glb")
+    for count in (1, 2):
+        write_set({tmp_path / name: b"new" for name in ("t.glb", "s.glb")[:count]})
+        assert (tmp_path / "t.glb").is_symlink() and (tmp_path / "disk" / "far.glb").read_bytes() == b"new"
+
+
+def test_a_name_too_long_is_named_before_the_work(tmp_path):
+    with pytest.raises(ExportError, match=r"file name too long\. Choose another name\."):
+        check_writable(tmp_path / ("t" * 300 + ".glb"))
