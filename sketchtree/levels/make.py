@@ -14,10 +14,9 @@ from sketchtree.dressing import Dress
 from sketchtree.foliage.leaves import Leaves
 from sketchtree.geometry.mesh import Mesh
 from sketchtree.levels.impostor import impostor
-from sketchtree.levels.leaf_share import spent
 from sketchtree.levels.outline_error import coverage, displacement, views_round
 from sketchtree.levels.raster import silhouette
-from sketchtree.levels.wood import level_wood
+from sketchtree.levels.spend import Budget
 from sketchtree.skeleton import TreeSkeleton
 
 SHARES = (0.5, 0.2, 0.06)
@@ -40,8 +39,7 @@ def level_of_detail(model: Model, number: int) -> tuple[Mesh, ...]:
     """The meshes of LOD0-3: wood first, then leaves and blossoms if there are any."""
     if number == 0:
         return tuple(model.meshes)
-    total = sum(mesh.triangle_count for mesh in model.meshes)
-    return _coarser(model, int(SHARES[number - 1] * total))
+    return _budget(model).meshes(_most(model, number))
 
 
 def make_levels(model: Model, *, pixel_error: float = 1.0, with_impostor: bool = True) -> tuple[Level, ...]:
@@ -49,22 +47,21 @@ def make_levels(model: Model, *, pixel_error: float = 1.0, with_impostor: bool =
 
     `pixel_error` is what an outline may be off where a level takes over, pixels of a screen of 1080 rows, > 0.
     """
-    parts = [level_of_detail(model, number) for number in range(len(SHARES) + 1)]
+    budget = _budget(model)
+    parts = [tuple(model.meshes), *(budget.meshes(_most(model, number + 1)) for number in range(len(SHARES)))]
     if with_impostor:
         card = impostor(parts[1])  # as good from afar, and half the work
         parts += [(card,)] if card.triangle_count else []
     return tuple(Level(part, share) for part, share in zip(parts, _coverages(model, parts, pixel_error), strict=True))
 
 
-def _coarser(model: Model, triangles: int) -> tuple[Mesh, ...]:
+def _budget(model: Model) -> Budget:
     worn = [leaves for leaves in (model.leaves, model.blossom) if leaves is not None and len(leaves)]
-    wood = sum(mesh.triangle_count for mesh in model.meshes if not mesh.name.startswith("leaf"))
-    foliage = spent(worn, model.dress.season, triangles, wood)
-    leafy = np.zeros(len(model.skeleton), bool)
-    for leaves in worn:
-        leafy[leaves.segment] = True
-    left = triangles - sum(mesh.triangle_count for mesh in foliage)
-    return (*level_wood(model.skeleton, bark=model.dress.bark, habit=model.dress.habit, triangles=max(left, 0), leafy=leafy), *foliage)
+    return Budget(model.skeleton, worn, model.meshes, model.dress)
+
+
+def _most(model: Model, number: int) -> int:
+    return int(SHARES[number - 1] * sum(mesh.triangle_count for mesh in model.meshes))
 
 
 def _coverages(model: Model, parts: Sequence[tuple[Mesh, ...]], pixel_error: float) -> list[float]:

@@ -1,0 +1,121 @@
+"""Where do a level's triangles go: to leaves, their short shoots, or wood?
+
+Where it shows most. Leaves come in several forms (`foliage.leaf_cards`), short shoots too, wood in any number of triangles (`levels.wood`). Each form of each is
+looked at alone, from two sides; of the silhouettes, since what is in front does not matter to an outline,
+
+    S(leaves, shoots, wood) = S(leaves) ∪ S(shoots) ∪ S(wood)
+
+so every combination is compared with the full tree without being drawn. Of those within the budget the one of the greatest overlap is taken, and the wood gets
+what is left.
+"""
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+
+import numpy as np
+from jaxtyping import Bool
+
+from sketchtree.dressing import Dress
+from sketchtree.foliage.leaf_cards import leaf_cards
+from sketchtree.foliage.leaf_model import LeafModel
+from sketchtree.foliage.leaves import Leaves
+from sketchtree.foliage.models import leaf_model
+from sketchtree.foliage.short_shoots import stems
+from sketchtree.geometry.mesh import Material, Mesh
+from sketchtree.levels.outline_error import overlap, views_round
+from sketchtree.levels.raster import silhouette
+from sketchtree.levels.wood import LevelWood
+from sketchtree.skeleton import TreeSkeleton
+
+_FORMS = (4.0, 2.0, 1.0, 1 / 2, 1 / 3, 1 / 4, 1 / 6, 1 / 9, 1 / 12)  # triangles a picture of a leaf
+_STEMS = (6, 3, 1, 0)  # triangles a short shoot
+_WOOD = (1.0, 0.7, 0.5, 0.35, 0.25, 0.17, 0.11, 0.07, 0.04, 0.02)  # shares of the full wood's triangles
+_SIDES, _PIXELS = 4, 512  # every other of so many sides
+
+
+@dataclass(frozen=True, eq=False)
+class _Form:
+    """One form of a part of the tree, and where it is seen from each side."""
+
+    triangles: int
+    shown: tuple[Bool[np.ndarray, "row column"], ...]
+    how: object  # what makes it again
+
+
+class Budget:
+    """A tree whose triangles are to be spent. What is made once serves every level."""
+
+    def __init__(self, skeleton: TreeSkeleton, worn: Sequence[Leaves], full: Sequence[Mesh], dress: Dress):
+        self._worn, self._season, self._full = tuple(worn), dress.season, tuple(full)
+        leafy = np.zeros(len(skeleton), bool)
+        for leaves in worn:
+            leafy[leaves.segment] = True
+        self._wood = LevelWood.of(skeleton, bark=dress.bark, habit=dress.habit, leafy=leafy)
+        self._views = views_round(full, _SIDES, _PIXELS)[:2]
+        self._all = self._shown(full)
+        self._woods: list[_Form] | None = None
+        self._foliage: list[_Form] | None = None
+        self._shoots: list[_Form] | None = None
+
+    def meshes(self, triangles: int) -> tuple[Mesh, ...]:
+        """At most so many triangles: wood first, then leaves and blossoms if there are any."""
+        if not self._worn or not self._views:
+            return self._wood.meshes(triangles)
+        self._make(triangles)
+        best, chosen = -1.0, None
+        for leaves in self._foliage:
+            for stem in self._shoots:
+                left = triangles - leaves.triangles - stem.triangles
+                wood = next((form for form in self._woods if form.triangles <= left), None)
+                if left < 0 or wood is None:
+                    continue
+                parts = zip(self._all, leaves.shown, stem.shown, wood.shown, strict=True)
+                found = float(np.mean([overlap(whole, one | two | three) for whole, one, two, three in parts]))
+                if found > best + 1e-9:
+                    best, chosen = found, (leaves.how, stem.how)
+        if chosen is None:
+            return self._wood.meshes(triangles)
+        foliage = self._cards(*chosen)
+        return (*self._wood.meshes(triangles - sum(mesh.triangle_count for mesh in foliage)), *foliage)
+
+    def _make(self, triangles: int) -> None:
+        """The forms that a level of so many triangles, or one with fewer, may take."""
+        if self._woods is None:
+            total = sum(mesh.triangle_count for mesh in self._full if not mesh.name.startswith("leaf"))
+            self._woods = [self._form(self._wood.meshes(int(share * total)), share) for share in _WOOD] + [self._form((), 0.0)]
+            counts = sorted({self._counts(form) for form in _FORMS}, reverse=True)
+            self._foliage = [self._form(self._cards(count, 0), count) for count in counts if min(count) >= 1 and sum(count) <= triangles]
+            self._shoots = self._stems()
+
+    def _counts(self, form: float) -> tuple[int, ...]:
+        """Triangles of each set of leaves in a form."""
+        return tuple(int(form * len(leaves) * pictures(leaf_model(leaves.model), form)) for leaves in self._worn)
+
+    def _cards(self, counts: tuple[int, ...], stem: int) -> tuple[Mesh, ...]:
+        made = [leaf_cards(leaves, season=self._season, triangles=max(count, 1), stem=stem) for leaves, count in zip(self._worn, counts, strict=True)]
+        return tuple(mesh for mesh in made if mesh.triangle_count)
+
+    def _stems(self) -> list[_Form]:
+        """Short shoots alone."""
+        shoots = sum(len(leaves.shoot) for leaves in self._worn)
+        forms = []
+        for stem in _STEMS if shoots else (0,):
+            made = [_stem_mesh(leaves, stem) for leaves in self._worn if stem and len(leaves.shoot)]
+            forms.append(_Form(stem * shoots, self._shown(made), stem))
+        return forms
+
+    def _form(self, meshes: Sequence[Mesh], how) -> _Form:
+        return _Form(sum(mesh.triangle_count for mesh in meshes), self._shown(meshes), how)
+
+    def _shown(self, meshes: Sequence[Mesh]) -> tuple[Bool[np.ndarray, "row column"], ...]:
+        return tuple(silhouette(meshes, view) for view in self._views)
+
+
+def pictures(model: LeafModel, form: float) -> int:
+    """Of one leaf: a tuft has one on each of its planes."""
+    return 1 if form == 4.0 else max(model.planes, 1)
+
+
+def _stem_mesh(leaves: Leaves, stem: int) -> Mesh:
+    shape = stems(leaves, 0, stem)
+    return Mesh("leaf_stem", shape.position, shape.normal, shape.uv, shape.triangle, Material("leaf_stem"))
