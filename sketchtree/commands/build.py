@@ -8,6 +8,7 @@ import click
 from sketchtree.commands import options
 from sketchtree.commands.progress import Progress
 
+
 @click.command("build")
 @click.argument("sketch", type=click.Path(path_type=Path))
 @click.option("-o", "--output", required=True, type=click.Path(path_type=Path), metavar="TREE", help=".glb .gltf .usd .usdz .obj .ply .stl .3mf, .swc .mtg .json .h5, .sketchtree, or .png")
@@ -19,12 +20,14 @@ def build(sketch: Path, output: Path, seed: int, quiet: bool, json_log: bool, re
     """Turn SKETCH into a complete tree."""
     began = time.perf_counter()
     from sketchtree.commands import writing
+    from sketchtree.export.files import check_extension
 
-    writing.check_outputs(sketch, output, report, wanted["skeleton"], wanted["preview"], kinds=writing.WHOLE)
     from sketchtree import options as choices
 
     (files,) = writing.split_options(wanted, choices.FileOptions)
+    check_extension(output, writing.WHOLE)
     writing.check_files(output, files)
+    writing.check_outputs(sketch, output, report, wanted["skeleton"], wanted["preview"], files=files, kinds=writing.WHOLE)
     from sketchtree import pipeline
     from sketchtree.keys import root_key
     from sketchtree.templates.store.database import Database
@@ -39,7 +42,7 @@ def build(sketch: Path, output: Path, seed: int, quiet: bool, json_log: bool, re
         model = pipeline.sketch_to_tree(sketch, templates, key=root_key(seed), reading=reading, tree=tree, watch=watch)
         run = writing.Run("build", seed, imported, began, watch, choices.options_as_dict(reading, tree, files))
         with watch("export"):
-            unseen = writing.write_tree(model, output, run, skeleton=wanted["skeleton"], preview=wanted["preview"], files=files)
+            unseen = writing.write_tree(model, output, run, skeleton=wanted["skeleton"], preview=wanted["preview"], files=files, sketches=(sketch,))
         record = writing.record(run, model.drawn, model, extra_warnings=unseen)
         writing.write_report(report, record)
     writing.conclude(record, output, progress)

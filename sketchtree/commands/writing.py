@@ -28,9 +28,9 @@ class Run:
 
 def check_outputs(
     sketch: Path | tuple[Path, ...], output: Path, report: Path | None = None, skeleton: Path | None = None, preview: Path | None = None,
-    *, posterior: Path | None = None, others: tuple[Path, ...] = (), kinds: tuple[str, ...] = MESHES + SKELETONS + PICTURES,
+    *, posterior: Path | None = None, others: tuple[Path, ...] = (), files=None, kinds: tuple[str, ...] = MESHES + SKELETONS + PICTURES,
 ) -> None:
-    """Refuse, before any work, an output that can't be written. Raises ExportError."""
+    """Refuse, before any work, an output that can't be written, and two that are one. `files` is a `FileOptions`: what `-o` becomes. Raises ExportError."""
     taken = {path.resolve(): "the sketch itself" for path in ((sketch,) if isinstance(sketch, Path) else sketch)}
     wanted = (("-o", output, kinds), ("--report", report, None), ("--skeleton", skeleton, SKELETONS), ("--preview", preview, PICTURES),
               ("--posterior", posterior, POSTERIORS), *(("--alternatives", other, None) for other in others))  # fmt: skip
@@ -40,10 +40,20 @@ def check_outputs(
         if allowed is not None:
             check_extension(path, allowed)
         check_program(path)
-        if path.resolve() in taken:
-            raise ExportError(f"`{option} {path}` would overwrite {taken[path.resolve()]}.", remedy="Give it another name.")
-        taken[path.resolve()] = f"what `{option}` writes"
-        check_writable(path)
+        for one in _becomes(path, files) if option == "-o" else (path,):
+            if one.resolve() in taken:
+                comes = "" if one == path else f" comes with {one.name}, which"
+                raise ExportError(f"`{option} {path}`{comes} would overwrite {taken[one.resolve()]}.", remedy="Give it another name.")
+            taken[one.resolve()] = f"what `{option}` writes"
+            check_writable(one)
+
+
+def _becomes(output: Path, files) -> tuple[Path, ...]:
+    """Every file that the tree may be written to."""
+    from sketchtree.options import FileOptions
+    from sketchtree.tree_files import tree_files
+
+    return tree_files(output, files or FileOptions()).all
 
 
 def split_options(wanted: dict, *records: type) -> list:
@@ -65,8 +75,12 @@ def check_files(output: Path, files) -> None:
         raise OptionError(f"`{kind}` files hold no mesh, and so no level of detail.", remedy="Leave `--lod` and `--levels` out, or write a mesh.")
 
 
-def write_tree(model, output: Path, run: Run, *, skeleton: Path | None, preview: Path | None, files=None) -> tuple[str, ...]:
-    """Write the tree and what else was asked for; returns warnings (a picture that could not be made). `files` is a `FileOptions`: of one tree."""
+def write_tree(
+    model, output: Path, run: Run, *, skeleton: Path | None, preview: Path | None, files=None, sketches: tuple[Path, ...] = ()
+) -> tuple[str, ...]:
+    """Write the tree and what else was asked for; returns warnings (a picture that could not be made). `files` is a `FileOptions`.
+
+    None of the `sketches` it was made of is overwritten."""
     kind = output.suffix.lower()
     warnings: tuple[str, ...] = ()
     if files is not None and files.pack:
@@ -74,7 +88,7 @@ def write_tree(model, output: Path, run: Run, *, skeleton: Path | None, preview:
     elif kind in MESHES:
         from sketchtree.export.write import write_asset
 
-        warnings += write_asset(output, asset_of(model, run, files), separate=files is not None and files.levels == "apart")
+        warnings += write_asset(output, asset_of(model, run, files), separate=files is not None and files.levels == "apart", kept=sketches)
     elif kind in SKELETONS:
         _write_skeleton(output, model.skeleton, run)
     elif kind in PROJECTS:

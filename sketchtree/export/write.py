@@ -1,26 +1,36 @@
 """Which writer takes this file? By its extension; every file of a set is written, or none."""
 
 import os
-from collections.abc import Mapping, Sequence
+from collections.abc import Collection, Mapping, Sequence
 from dataclasses import replace
 from pathlib import Path
 
 from sketchtree.asset import Asset, Level
+from sketchtree.errors import ExportError
 from sketchtree.export.files import MESHES, SKELETONS, check_extension, check_program, check_writable, write_set
 from sketchtree.geometry.instances import Instances
 from sketchtree.skeleton import TreeSkeleton
 
 
-def write_asset(path: str | os.PathLike, asset: Asset, *, separate: bool = False, collision: Sequence[str] = ()) -> tuple[str, ...]:
+def write_asset(
+    path: str | os.PathLike, asset: Asset, *, separate: bool = False, collision: Sequence[str] = (), kept: Collection[Path] = ()
+) -> tuple[str, ...]:
     """Write the asset as the extension says; returns what a person should know about what the format could not hold.
 
     Of several levels of detail OBJ, PLY, STL and 3MF hold the finest, glTF and USD all; if `separate`, each level is in a file of its own.
-    `collision` names a node for each capsule in glTF, where they are to be meshes. Raises `ExportError`.
+    `collision` names a node for each capsule in glTF, where they are to be meshes. Raises `ExportError`, also
+    where a file of the set, a texture perhaps, would overwrite one of `kept`: what the tree was made of.
     """
     check_extension(path, MESHES)
     check_program(path)
-    path = check_writable(path)
-    write_set(asset_files(path, asset, separate=separate, collision=collision))
+    path = Path(path)
+    check_writable(path)
+    files = asset_files(path, asset, separate=separate, collision=collision)
+    held = {Path(one).resolve() for one in kept}
+    for file in files:
+        if file.resolve() in held:
+            raise ExportError(f"{path} comes with {file.name}, which would overwrite what the tree is made of.", remedy="Give the output another name.")
+    write_set(files)
     scene = path.suffix.lower() in (".glb", ".gltf") or path.suffix.lower().startswith(".usd")
     return () if scene or separate else _left_out(path, asset)
 
@@ -31,7 +41,7 @@ def asset_files(path: Path, asset: Asset, *, separate: bool = False, collision: 
         files: dict[Path, bytes] = {}
         for number, level in enumerate(asset.levels):
             one = replace(asset, levels=(level,)) if number == 0 else Asset((level,), name=asset.name, armature=asset.armature, about=asset.about)
-            files |= asset_files(level_path(path, number, level), one, collision=collision)
+            files |= asset_files(_of_level(path, number, level), one, collision=collision)
         return files
     suffix = path.suffix.lower()
     if suffix in (".glb", ".gltf"):
@@ -47,10 +57,18 @@ def asset_files(path: Path, asset: Asset, *, separate: bool = False, collision: 
     return mesh_files(path, [part.merged() if isinstance(part, Instances) else part for part in asset.parts])
 
 
-def level_path(path: Path, number: int, level: Level) -> Path:
-    """Where a level of a set stands: NAME_LOD1.glb, or NAME_impostor.glb."""
-    kind = "impostor" if [part.name for part in level.parts] == ["impostor"] else f"LOD{number}"
-    return path.with_name(f"{path.stem}_{kind}{path.suffix}")
+def level_path(path: Path, number: int) -> Path:
+    """Where a level of a set stands: NAME_LOD1.glb."""
+    return path.with_name(f"{path.stem}_LOD{number}{path.suffix}")
+
+
+def impostor_path(path: Path) -> Path:
+    """Where the impostor of a set stands: NAME_impostor.glb."""
+    return path.with_name(f"{path.stem}_impostor{path.suffix}")
+
+
+def _of_level(path: Path, number: int, level: Level) -> Path:
+    return impostor_path(path) if [part.name for part in level.parts] == ["impostor"] else level_path(path, number)
 
 
 def write_skeleton(path: str | os.PathLike, tree: TreeSkeleton, *, header: Mapping[str, object]) -> None:
