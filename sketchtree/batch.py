@@ -16,8 +16,9 @@ from dataclasses import dataclass
 from pathlib import Path
 
 from sketchtree.errors import OptionError
-from sketchtree.options import ReadingOptions, TreeOptions
+from sketchtree.options import FileOptions, ReadingOptions, TreeOptions
 from sketchtree.sketch.formats import READABLE
+from sketchtree.tree_files import TreeFiles, tree_files
 
 SUMMARY, TABLE = "batch.json", "batch.csv"
 _WRITTEN = (".json", ".png", ".jpg")  # what a batch writes and a drawing may be: in DIR itself it is no drawing
@@ -37,6 +38,7 @@ class Manner:
     db: str | None = None
     skeleton: bool = False  # NAME.swc beside it
     preview: bool = False  # NAME.png beside it
+    files: FileOptions = FileOptions()
     made_by: str = ""  # hash of the options, the seed, the program and the files they name
 
 
@@ -50,7 +52,13 @@ class TreeOrder:
 
     @property
     def output(self) -> Path:
+        """The tree as `build -o` would name it."""
         return self._named(f".{self.manner.kind}")
+
+    @property
+    def tree(self) -> TreeFiles:
+        """What the tree becomes."""
+        return tree_files(self.output, self.manner.files)
 
     @property
     def report(self) -> Path:
@@ -66,8 +74,17 @@ class TreeOrder:
 
     @property
     def files(self) -> tuple[Path, ...]:
-        """All that is written, the report last."""
-        return tuple(path for path in (self.output, self.skeleton, self.preview, self.report) if path is not None)
+        """All that may be written, the report last."""
+        return (*self.tree.all, *self._beside)
+
+    @property
+    def sure(self) -> tuple[Path, ...]:
+        """All that is written in any case, the report last."""
+        return (*self.tree.sure, *self._beside)
+
+    @property
+    def _beside(self) -> tuple[Path, ...]:
+        return tuple(path for path in (self.skeleton, self.preview, self.report) if path is not None)
 
     def at(self, path: Path | str) -> Path:
         """The same path, wherever the program runs."""

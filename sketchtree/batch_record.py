@@ -30,7 +30,7 @@ def row(order: TreeOrder, status: str = WAITING, *, report: dict | None = None, 
     return {
         "status": status,
         "sketch": order.sketch,
-        "output": None if report is None else str(order.output),
+        "output": None if report is None else str(order.tree.sure[0]),
         "report": None if report is None else str(order.report),
         "seconds": told["seconds"]["total"],
         "segments": told["segments"]["total"],
@@ -53,7 +53,7 @@ def summary(rows: Sequence[dict], manner: Manner, patterns: Sequence[str], secon
         "count": {status: count[status] for status in (MADE, KEPT, FAILED, WAITING)},
         "seconds": round(seconds, 3),
         "seed": manner.seed,
-        "options": options_as_dict(manner.reading, manner.tree),
+        "options": options_as_dict(manner.reading, manner.tree, manner.files),
         "files": list(rows),
     }
 
@@ -92,7 +92,7 @@ class Journal:
         self.made[order.name] = made
 
     def _earlier(self, order: TreeOrder) -> dict | None:
-        if not all(order.at(path).is_file() for path in order.files):
+        if not all(order.at(path).is_file() for path in order.sure):
             return None
         try:
             report = json.loads(order.at(order.report).read_bytes())
@@ -109,7 +109,7 @@ def made_of(order: TreeOrder) -> str:
 
 def made_by(manner: Manner, database: Path | None) -> str:
     """The part of it that all trees of a batch share."""
-    options = json.dumps(options_as_dict(manner.reading, manner.tree), sort_keys=True)
+    options = json.dumps(options_as_dict(manner.reading, manner.tree, manner.files), sort_keys=True)
     files = [Path(path) for path in (database, *mesh_files(manner.tree)) if path is not None]
     return _hash(options, str(manner.seed), fingerprint(), *(_of_file(path) for path in files))
 

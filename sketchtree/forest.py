@@ -16,6 +16,7 @@ from sketchtree.axes import NULL
 from sketchtree.choose import bark_model, leaf_model
 from sketchtree.errors import SketchTreeError
 from sketchtree.geometry.mesh import Mesh
+from sketchtree.geometry.wood import check_wood
 from sketchtree.keys import stage_key
 from sketchtree.options import ReadingOptions, TreeOptions
 from sketchtree.parameters import Habit
@@ -77,7 +78,7 @@ def sketches_to_forest(
     watch = watch or Watch()
     planting.check_stand(len(sketches), spacing)
     leaf_model(tree.leaf, Habit(), templates), bark_model(tree.bark, Habit())  # refuse a wrong name before the work
-    Prune(tree.prune)  # and a mesh that can't be used
+    Prune(tree.prune), check_wood(tree.wood, tree.solid)  # and a mesh that can't be used, and what isn't installed
     obstacles = read_obstacles(tree)
     names = [_name(sketch) for sketch in sketches]
     drawn = _drawn(sketches, names, templates, key, reading, watch)

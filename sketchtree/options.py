@@ -85,6 +85,11 @@ class FileOptions:
     def __post_init__(self):
         if not 0 < self.pixel_error <= 100:
             raise OptionError(f"`--pixel-error {self.pixel_error:g}` is out of range.", remedy="Give pixels above 0, at most 100.")
+        if self.pixel_error != 1.0 and self.levels == "one" and not self.pack:
+            raise OptionError(
+                f"`--pixel-error {self.pixel_error:g}` says where a coarser level takes over, and one level alone is written.",
+                remedy="Leave it out, or ask for `--levels together`, `--levels apart` or `--pack game`.",
+            )
         if self.lod and (self.levels != "one" or self.pack):
             other = f"--pack {self.pack}" if self.pack else f"--levels {self.levels}"
             raise OptionError(f"`--lod {self.lod}` asks for one level of detail, `{other}` for all of them.", remedy="Leave one of the two out.")

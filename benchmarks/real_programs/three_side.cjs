@@ -15,6 +15,15 @@ const PAGE = `<!doctype html><html><body style="margin:0;background:#cfd8dc"><sc
 import * as THREE from "three";
 import { GLTFLoader } from "three/addons/loaders/GLTFLoader.js";
 
+function eachPlace(thing, visit) {  // three.js itself takes the box of each instance's box
+  const corners = thing.geometry.attributes.position, place = new THREE.Matrix4(), point = new THREE.Vector3();
+  for (let i = 0; i < thing.count; i++) {
+    thing.getMatrixAt(i, place);
+    place.premultiply(thing.matrixWorld);
+    for (let k = 0; k < corners.count; k++) visit(point.fromBufferAttribute(corners, k).applyMatrix4(place));
+  }
+}
+
 function measured(root) {
   let triangles = 0, bones = 0, draws = 0;
   const materials = new Set(), box = new THREE.Box3();
@@ -26,7 +35,8 @@ function measured(root) {
     triangles += corners / 3 * (thing.isInstancedMesh ? thing.count : 1);
     draws += 1;
     materials.add(thing.material.name);
-    box.expandByObject(thing, true);
+    if (thing.isInstancedMesh) eachPlace(thing, (point) => box.expandByPoint(point));
+    else box.expandByObject(thing, true);
   });
   return { triangles, bones, draws, materials: [...materials].sort(), bounds: [box.min.toArray(), box.max.toArray()] };
 }

@@ -10,8 +10,9 @@ import click
 from sketchtree.commands import options
 from sketchtree.commands.progress import Progress
 from sketchtree.errors import ExportError, OptionError
+from sketchtree.export.files import MESHES, PROJECTS, SKELETONS
 
-FORMATS = ("glb", "obj", "ply", "stl", "swc", "json", "png")
+FORMATS = tuple(suffix[1:] for suffix in MESHES + SKELETONS + PROJECTS) + ("png",)
 MOST_JOBS = 256
 
 
@@ -26,6 +27,7 @@ MOST_JOBS = 256
 @click.option("--preview", is_flag=True, help="Write a picture of each tree too (NAME.png).")
 @options.reading
 @options.tree(200_000, "each tree", beside=False)
+@options.files
 @options.common
 def batch(
     patterns: tuple[str, ...], out: Path, jobs: int | None, scheduler: str | None, resume: bool, report: Path | None, quiet: bool, json_log: bool, **wanted
@@ -108,21 +110,26 @@ def _manner(out: Path, wanted: dict):
     from sketchtree import options as choices
     from sketchtree.batch import Manner
     from sketchtree.choose import bark_model, leaf_model
-    from sketchtree.commands.writing import split_options
+    from sketchtree.commands.writing import check_files, split_options
+    from sketchtree.export.files import check_program
+    from sketchtree.geometry.wood import check_wood
     from sketchtree.parameters import Habit
     from sketchtree.pipeline import read_obstacles
     from sketchtree.propagate.after.prune import Prune
     from sketchtree.templates.store.database import Database
 
-    reading, tree = split_options(wanted, choices.ReadingOptions, choices.TreeOptions)
+    reading, tree, files = split_options(wanted, choices.ReadingOptions, choices.TreeOptions, choices.FileOptions)
+    written = Path(f"{out / 'NAME'}.{wanted['kind']}")
+    check_files(written, files, instead="Write `--format glb`.")
+    check_program(written)
     db = wanted["db"]
     templates = None if db is None and reading.template == "none" else Database.open(db)
     if reading.template not in ("auto", "none"):
         templates.index(reading.template)
     leaf_model(tree.leaf, Habit(), templates), bark_model(tree.bark, Habit())
-    Prune(tree.prune), read_obstacles(tree)
+    Prune(tree.prune), read_obstacles(tree), check_wood(tree.wood, tree.solid)
     said = {name: wanted[name] for name in ("kind", "seed", "skeleton", "preview")}
-    manner = Manner(str(out), os.getcwd(), reading=reading, tree=tree, db=None if db is None else str(db), **said)
+    manner = Manner(str(out), os.getcwd(), reading=reading, tree=tree, files=files, db=None if db is None else str(db), **said)
     return dataclasses.replace(manner, made_by=batch_record.made_by(manner, templates and templates.path))
 
 

@@ -44,14 +44,14 @@ def _built(order: TreeOrder) -> dict:
     from sketchtree.watch import Watch
 
     manner, watch = order.manner, Watch()
-    run = writing.Run("batch", manner.seed, time.perf_counter() - began, began, watch, options_as_dict(manner.reading, manner.tree))
+    run = writing.Run("batch", manner.seed, time.perf_counter() - began, began, watch, options_as_dict(manner.reading, manner.tree, manner.files))
     templates = None if manner.db is None and manner.reading.template == "none" else Database.open(manner.db and order.at(manner.db))
     tree = _found_from_anywhere(manner.tree, order)
     model = pipeline.sketch_to_tree(order.at(order.sketch), templates, key=root_key(manner.seed), reading=manner.reading, tree=tree, watch=watch)
     at = {name: path and order.at(path) for name, path in (("skeleton", order.skeleton), ("preview", order.preview))}
     order.at(order.output).parent.mkdir(parents=True, exist_ok=True)
     with watch("export"):
-        unseen = writing.write_tree(model, order.at(order.output), run, **at)
+        unseen = writing.write_tree(model, order.at(order.output), run, **at, files=manner.files, sketches=(order.at(order.sketch),))
     report = writing.record(run, model.drawn, model, extra_warnings=unseen) | {"made_of": batch_record.made_of(order)}
     writing.write_report(order.at(order.report), report)
     return report

@@ -15,6 +15,7 @@ from sketchtree.commands.progress import Progress
 @click.option("--spacing", type=float, metavar="METRES", help="From trunk to trunk (default: so that the drawings just touch).")
 @options.reading
 @options.tree(1_000_000, "all trees together, shared evenly,")
+@options.leaves
 @options.common
 def forest(sketches: tuple[Path, ...], output: Path, spacing: float | None, seed: int, quiet: bool, json_log: bool, report, db, **wanted) -> None:
     """Turn every SKETCH into a tree, in a row, all competing for space and light. The same one again is another tree."""
@@ -23,8 +24,11 @@ def forest(sketches: tuple[Path, ...], output: Path, spacing: float | None, seed
     from sketchtree.planting import check_stand
 
     check_stand(len(sketches), spacing)
-    writing.check_outputs(sketches, output, report, wanted["skeleton"], wanted["preview"])
     from sketchtree import options as choices
+
+    (files,) = writing.split_options(wanted, choices.FileOptions)
+    writing.check_outputs(sketches, output, report, wanted["skeleton"], wanted["preview"], files=files)
+    writing.check_files(output, files)
     from sketchtree import pipeline
     from sketchtree.forest import sketches_to_forest
     from sketchtree.keys import root_key
@@ -38,10 +42,10 @@ def forest(sketches: tuple[Path, ...], output: Path, spacing: float | None, seed
     with progress.running():
         templates = None if db is None and reading.template == "none" else Database.open(db)
         made = sketches_to_forest(sketches, templates, key=root_key(seed), spacing=spacing, reading=reading, tree=tree, watch=watch)
-        used = choices.options_as_dict(reading, tree) | {"spacing": spacing}
+        used = choices.options_as_dict(reading, tree) | {"spacing": spacing, "leaves": files.leaves}
         run = writing.Run("forest", seed, imported, began, watch, used)
         with watch("export"):
-            unseen = writing.write_tree(made, output, run, skeleton=wanted["skeleton"], preview=wanted["preview"])
+            unseen = writing.write_tree(made, output, run, skeleton=wanted["skeleton"], preview=wanted["preview"], files=files, sketches=sketches)
         record = writing.record_forest(run, made, extra_warnings=unseen)
         writing.write_report(report, record)
     writing.conclude(record, output, progress)

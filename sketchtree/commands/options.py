@@ -49,15 +49,19 @@ _BESIDE = (
     click.option("--skeleton", type=click.Path(path_type=Path), metavar="T.swc", help="Write the complete skeleton too."),
     click.option("--preview", type=click.Path(path_type=Path), metavar="P.png", help="Write a picture of the result too."),
 )  # fmt: skip
-
-
+_LEAVES = click.option("--leaves", type=click.Choice(["merged", "instanced"]), default="merged", show_default=True, help="One mesh, or a few drawn at many places (.glb .gltf .usd).")
 _FILES = (
     click.option("--lod", type=click.IntRange(0, 3), default=0, show_default=True, help="Level of detail to write: 1, 2, 3 have at most 50, 20, 6 % of the triangles."),
     click.option("--levels", type=click.Choice(["one", "together", "apart"]), default="one", show_default=True, help="All levels and an impostor: in one file, or each in its own."),
     click.option("--pixel-error", type=float, default=1.0, show_default=True, metavar="PX", help="What an outline may be off where a coarser level takes over."),
-    click.option("--leaves", type=click.Choice(["merged", "instanced"]), default="merged", show_default=True, help="One mesh, or a few drawn at many places (.glb .gltf .usd)."),
+    _LEAVES,
     click.option("--pack", type=click.Choice(["game"]), help="All that a game needs, beside TREE: levels, wind, pivots, bones, collision (docs/game.md)."),
 )  # fmt: skip
+
+
+def leaves(command):
+    """--leaves merged|instanced, of commands whose files hold one level of detail."""
+    return _LEAVES(command)
 
 
 def files(command):

@@ -61,12 +61,12 @@ def split_options(wanted: dict, *records: type) -> list:
     return [record(**{f.name: wanted[f.name] for f in dataclasses.fields(record) if f.name in wanted}) for record in records]
 
 
-def check_files(output: Path, files) -> None:
-    """Refuse, before any work, what the file can't hold. `files` is a `FileOptions`. Raises OptionError."""
+def check_files(output: Path, files, instead: str = "") -> None:
+    """Refuse, before any work, what the file can't hold; `instead` says how to ask for a GLB. `files` is a `FileOptions`. Raises OptionError."""
     kind = output.suffix.lower()
     scene = kind in (".glb", ".gltf") or kind.startswith(".usd")
     if files.pack and kind != ".glb":
-        raise OptionError(f"`--pack {files.pack}` writes GLB files, not `{kind}`.", remedy=f"Name the output {output.stem}.glb.")
+        raise OptionError(f"`--pack {files.pack}` writes GLB files, not `{kind}`.", remedy=instead or f"Name the output {output.stem}.glb.")
     if files.levels == "together" and not scene:
         raise OptionError(f"`{kind}` files hold one level of detail.", remedy="Write .glb, .gltf or .usd, or ask for `--levels apart`.")
     if files.leaves == "instanced" and not scene:
@@ -107,9 +107,9 @@ def asset_of(model, run: Run, files=None):
 
     if files is None:
         return Asset.of(model.meshes, skeleton=model.skeleton, about=_about(model, run))
-    from sketchtree.tree_asset import tree_asset
+    from sketchtree.tree_asset import forest_asset, tree_asset
 
-    return tree_asset(model, files, about=_about(model, run))
+    return (tree_asset if hasattr(model, "drawn") else forest_asset)(model, files, about=_about(model, run))
 
 
 def _about(model, run: Run) -> dict:

@@ -5,13 +5,20 @@ import json
 import os
 import shutil
 import signal
+import sys
 from pathlib import Path
 
 import jsonschema
 import pytest
 
+from sketchtree import tree_asset
+from sketchtree.asset import Level
+from sketchtree.batch import Manner, orders
 from sketchtree.commands import batch_crew, batch_tree
 from sketchtree.commands.app import run
+from sketchtree.commands.batch import FORMATS
+from sketchtree.commands.writing import WHOLE
+from sketchtree.options import FileOptions, ReadingOptions, TreeOptions
 from sketchtree.report import report_schema
 
 ROOT = Path(__file__).resolve().parents[2]
@@ -267,6 +274,35 @@ def test_what_other_processes_finish_after_ctrl_c_is_told_too(at, monkeypatch):
     assert {path.name.split(".")[0] for path in (at / "out").glob("*.report.json")} == {Path(name).stem for name in made} != set()
 
 
+def test_every_file_that_build_writes_a_batch_writes_too():
+    assert {f".{kind}" for kind in FORMATS} == set(WHOLE)
+
+
+def test_a_set_of_files_is_told_by_its_first_and_kept_only_whole(at, monkeypatch):
+    monkeypatch.setattr(tree_asset, "make_levels", lambda model, **_: (Level(model.meshes),) * 4)
+    few(at, "a.svg")
+    again = ["batch", "in/a.svg", "--out", "out", "--levels", "apart", "--format", "gltf", *QUICK]
+    assert run(again) == 0
+    assert rows(at / "out")["a.svg"]["output"] == str(Path("out", "a_LOD0.gltf")) and not (at / "out" / "a.gltf").exists()
+    assert run([*again, "--resume"]) == 0 and rows(at / "out")["a.svg"]["status"] == "kept"
+    (at / "out" / "a_LOD2.bin").unlink()
+    assert run(again) == 2
+    assert run([*again, "--resume"]) == 0 and rows(at / "out")["a.svg"]["status"] == "made"
+    assert run([*again, "--resume", "--leaves", "instanced"]) == 0 and rows(at / "out")["a.svg"]["status"] == "made"
+
+
+def test_drawings_called_like_a_file_of_a_set_keep_their_extensions(at):
+    names = {order.name for order in orders([few(at, "a.svg", "a_LOD1.svg", "b.svg")], Manner("out", str(at), "glb", 0, ReadingOptions(), TreeOptions(), files=FileOptions(pack="game")))[0]}
+    assert names == {"a.svg", "a_LOD1.svg", "b"}
+
+
+def test_a_solid_without_its_package_is_refused_before_the_batch(at, capfd, monkeypatch):
+    monkeypatch.setitem(sys.modules, "manifold3d", None)
+    few(at, "a.svg")
+    assert run(["batch", "in/a.svg", "--out", "out", "--solid", *QUICK]) == 2
+    assert "A solid needs the package `manifold3d`." in capfd.readouterr().err and not (at / "out").exists()
+
+
 BAD = {
     "no match": (["none/*.svg"], "`none/*.svg` matches no file. Put a pattern in quotes, such as 'sketches/**/*.svg', or name a folder of drawings."),
     "empty folder": (["empty"], "`empty` is a folder without a drawing. Put a pattern in quotes, such as 'sketches/**/*.svg', or name a folder of drawings."),
@@ -281,6 +317,8 @@ BAD = {
     "template": (["a.svg", "--template", "nonesuch"], "There is no exemplar called 'nonesuch' in exemplars.h5. "),
     "light": (["a.svg", "--light", "2"], "`--light 2` is out of range. Give 0 to 1."),
     "obstacle": (["a.svg", "--obstacle", "no.glb"], "There is no mesh file no.glb. "),
+    "pack": (["a.svg", "--format", "obj", "--pack", "game"], "`--pack game` writes GLB files, not `.obj`. Write `--format glb`."),
+    "levels": (["a.svg", "--format", "ply", "--levels", "together"], "`.ply` files hold one level of detail. Write .glb, .gltf or .usd, or ask for `--levels apart`."),
     "report": (["a.svg", "--report", "a.svg"], "`--report a.svg` would overwrite a drawing or a result. Give it another name."),
 }
 

@@ -8,7 +8,8 @@ import numpy as np
 import pytest
 
 from sketchtree.commands.app import run
-from sketchtree.export.gltf import read_glb_skeleton
+from sketchtree.export.gltf import read_asset, read_glb_skeleton
+from sketchtree.geometry.instances import Instances
 from sketchtree.report import report_schema
 
 ROOT = Path(__file__).resolve().parents[2]
@@ -53,6 +54,28 @@ def test_the_glb_holds_every_trees_wood_and_leaves_and_the_skeleton(made):
     tree = read_glb_skeleton(made / "f.glb")
     assert np.unique(tree.tree).tolist() == [0, 1, 2]
     np.testing.assert_allclose(tree.tip[tree.is_base][:, 0], [0, 3, 6], atol=1e-5)
+
+
+def test_instanced_leaves_are_named_by_their_trees(tmp_path):
+    more = ["--leaves", "instanced", "--report", str(tmp_path / "r.json")]
+    assert run(["forest", APPLE, APPLE, "--spacing", "3", "-o", str(tmp_path / "f.glb"), *more, *QUICK]) == 0
+    asset = read_asset(tmp_path / "f.glb")
+    leaves = [part for part in asset.parts if part.name.startswith("leaf")]
+    assert all(isinstance(part, Instances) for part in leaves) and {part.name[-2:] for part in leaves} == {"_1", "_2"}
+    report = json.loads((tmp_path / "r.json").read_text())
+    assert report["options"]["leaves"] == "instanced" and len(asset.skeleton) == report["segments"]["total"] + 2
+    middle = [np.vstack([part.translation for part in leaves if part.name.endswith(number)]).mean(axis=0)[0] for number in ("_1", "_2")]
+    assert middle[1] - middle[0] == pytest.approx(3, abs=0.5)
+
+
+@pytest.mark.parametrize(("out", "more", "said"), [
+    ("f.obj", ["--leaves", "instanced"], "`.obj` files can't hold instanced leaves. Write .glb, .gltf or .usd, or leave `--leaves instanced` out."),
+    ("f.glb", ["--lod", "1"], "No such option '--lod'."),
+    ("f.glb", ["--pack", "game"], "No such option '--pack'."),
+])  # fmt: skip
+def test_what_a_forest_can_not_be_written_as_is_refused(tmp_path, capfd, out, more, said):
+    assert run(["forest", APPLE, APPLE, "-o", str(tmp_path / out), *more, *QUICK]) == 2
+    assert said in capfd.readouterr().err and not list(tmp_path.iterdir())
 
 
 def test_the_same_seed_gives_the_same_bytes(tmp_path):

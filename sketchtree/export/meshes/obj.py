@@ -56,10 +56,10 @@ def _material(path: Path, material: Material, files: dict[Path, bytes]) -> str:
     lines = [f"newmtl {material.name}", f"Kd {red:.4g} {green:.4g} {blue:.4g}", f"d {alpha:.4g}"]
     lines += ["Ks 0 0 0", f"Pr {material.roughness:.4g}", "illum 1"]
     albedo = material.base_color_texture
-    pictures = [("map_Kd", "albedo", albedo, COLOR)]
+    pictures = [("map_Kd", "diffuse", albedo, COLOR)]
     if albedo is not None and material.alpha_cutoff is not None:
         pictures.append(("map_d", "alpha", albedo[..., 3], None))
-    pictures += [("norm", "normal", material.normal_texture, NORMAL), ("map_Pr", "roughness", material.roughness_texture, COLOR)]
+    pictures += [("norm", "normal", material.normal_texture, NORMAL), ("map_Pr", "rough", material.roughness_texture, COLOR)]
     for word, part, image, quality in pictures:
         if image is not None:
             data, media = encode(image, quality)
