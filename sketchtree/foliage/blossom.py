@@ -8,10 +8,10 @@ import numpy as np
 from jaxtyping import Array, Key
 
 from sketchtree import keys
-from sketchtree.foliage.buds import Buds, buds
+from sketchtree.foliage.buds import Buds
 from sketchtree.foliage.leaves import Leaves
 from sketchtree.foliage.models import leaf_model
-from sketchtree.foliage.populate import capped, leafy_wood, unfold
+from sketchtree.foliage.populate import all_buds, capped, unfold
 from sketchtree.foliage.seasons import check_season
 from sketchtree.foliage.wear import Wear, enlargement, wear_of
 from sketchtree.parameters import Habit
@@ -31,7 +31,7 @@ def blossom(
     tree, _ = without_roots(tree)
     if season != "spring" or wear.model.blossom is None or tree.segment_count == 0:
         return None
-    stand, _ = buds(leafy_wood(tree, habit, wear), tree.limb, wear, habit.twig_radius, key)
+    stand, _ = all_buds(tree, habit, wear, key)
     stand = _one_a_node(stand.select(stand.node < wear.model.blossom_nodes))
     stand = stand.select(keys.uniform(key, stand.id, _BEARS) < wear.model.blossom_share)
     flower = leaf_model(wear.model.blossom)

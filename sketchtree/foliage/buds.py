@@ -19,7 +19,7 @@ from sketchtree.foliage.wear import Wear
 SUNK = 0.85  # a petiole starts at this share of the wood's radius: never afloat
 _YEARLING = 1.5  # above so many twig radii wood is older than a year
 _SHOOT_LEAN = 52.0  # degrees between a twig and its short shoots
-_STRETCH = 1.7  # times as far apart as on a twig, leaves stand on a shoot: it stands for the finest twigs, which spread
+STRETCH = 1.7  # times as far apart as on a twig, leaves stand on a shoot: it stands for the finest twigs, which spread
 _FAN = 128.0  # degrees to either side that a fan opens
 _LONGEST = 0.3  # metres, of a mean short shoot
 _JITTER, _LEAN, _TURN, _LENGTH = 20, 21, 22, 23  # the draws of a node
@@ -58,13 +58,13 @@ def buds(
     """The buds of all leafy wood, and the short shoots (start and end of each, metres)."""
     if wear.model.fan:
         return _fan(pieces, limb, wear), np.zeros((0, 2, 3))
-    nodes = _nodes(pieces, limb, wear, key)
+    nodes = stem_nodes(pieces, limb, wear, key)
     if wear.model.spur == 1:
-        return _spread(nodes, wear), np.zeros((0, 2, 3))
+        return spread(nodes, wear), np.zeros((0, 2, 3))
     old = (nodes.radius > _YEARLING * twig_radius) & (nodes.node > 0)
     bears = old & (nodes.node % wear.model.every == 0)
-    stems, shoots = _short_shoots(_rows(nodes, bears), wear, key)
-    return _spread(_rows(nodes, ~old), wear).followed_by(_spread(stems, wear)), shoots
+    stems, shoots = short_shoots(_rows(nodes, bears), wear, key)
+    return spread(_rows(nodes, ~old), wear).followed_by(spread(stems, wear)), shoots
 
 
 def around(azimuth, side, tangent) -> Float[np.ndarray, "leaf 3"]:
@@ -93,7 +93,7 @@ def _fan(pieces: Twigs, limb, wear: Wear) -> Buds:
     )
 
 
-def _nodes(pieces: Twigs, limb, wear: Wear, key) -> Buds:
+def stem_nodes(pieces: Twigs, limb, wear: Wear, key) -> Buds:
     """One row a node of the leafy wood."""
     length = pieces.length
     first = np.ceil(pieces.to_tip / wear.spacing - 1e-9).astype(int)
@@ -129,15 +129,15 @@ def _bare(pieces: Twigs, wear: Wear) -> Float[np.ndarray, " piece"]:
     return np.minimum(pieces.foot_radius + 0.5 * wear.spacing, 0.6 * pieces.limb_length)
 
 
-def _short_shoots(nodes: Buds, wear: Wear, key) -> tuple[Buds, Float[np.ndarray, "shoot 2 3"]]:
-    """A short shoot at every given node: its own nodes, one row each, and where it starts and ends."""
+def short_shoots(nodes: Buds, wear: Wear, key, longest: float = _LONGEST) -> tuple[Buds, Float[np.ndarray, "shoot 2 3"]]:
+    """A short shoot at every given node, on average at most `longest` metres: its own nodes, one row each, and where it starts and ends."""
     turn = azimuths(wear.arrangement, nodes.node // wear.model.every, phyllotaxis=wear.phyllotaxis, whorl=wear.whorl)[:, 0]
     turn = turn + np.radians(28.0) * keys.normal(key, nodes.id, _TURN)
     outward = around(turn, nodes.side, nodes.tangent)
     lean = np.radians(_SHOOT_LEAN + 9.0 * keys.normal(key, nodes.id, _LEAN))[:, None]
     tangent = np.cos(lean) * nodes.tangent + np.sin(lean) * outward - 0.35 * wear.model.droop * np.array([0.0, 1.0, 0.0])
     tangent /= np.linalg.norm(tangent, axis=1, keepdims=True)
-    length = min(_STRETCH * wear.model.spur * wear.spacing, _LONGEST) * (0.7 + 0.6 * keys.uniform(key, nodes.id, _LENGTH))
+    length = min(STRETCH * wear.model.spur * wear.spacing, longest) * (0.7 + 0.6 * keys.uniform(key, nodes.id, _LENGTH))
     start = nodes.foot + SUNK * nodes.radius[:, None] * outward
     end = start + length[:, None] * tangent
     of = np.repeat(np.arange(len(nodes)), wear.model.spur)
@@ -158,7 +158,7 @@ def _short_shoots(nodes: Buds, wear: Wear, key) -> tuple[Buds, Float[np.ndarray,
     return stems, np.stack([start, end], axis=1)
 
 
-def _spread(nodes: Buds, wear: Wear) -> Buds:
+def spread(nodes: Buds, wear: Wear) -> Buds:
     """One row a leaf: each node's leaves at the azimuths of the arrangement."""
     azimuth = azimuths(wear.arrangement, nodes.node, phyllotaxis=wear.phyllotaxis, whorl=wear.whorl)
     per_node = azimuth.shape[1]

@@ -21,17 +21,24 @@ _SKY, _SIDE = 0.6, 0.1
 
 def crown_light(leaves: Leaves) -> Float[np.ndarray, " leaf"]:
     """Share of the open sky's light at every leaf, 0-1: 1 on the outside of a crown."""
-    if len(leaves) == 0:
-        return np.zeros(0)
-    low = leaves.position.min(axis=0)
-    edge = max(float(np.ptp(leaves.position, axis=0).max()), 1e-6) / _CUBES
-    cube = np.minimum(((leaves.position - low) / edge).astype(int), _CUBES - 1)
-    flat = np.ravel_multi_index(cube.T, (_CUBES,) * 3)
-    dense = np.bincount(flat, _SHAPE * leaves.size**2, _CUBES**3).reshape((_CUBES,) * 3) * (_ACROSS / edge**2)
+    return light_at(leaves.position, leaves.position, leaves.size)
+
+
+def light_at(
+    place: Float[np.ndarray, "place 3"], position: Float[np.ndarray, "leaf 3"], size: Float[np.ndarray, " leaf"] | float
+) -> Float[np.ndarray, " place"]:
+    """The same at any place: what leaves of a `size` (metres) at their positions let through. Outside their box it is what the nearest cube of it has."""
+    if len(place) == 0 or len(position) == 0:
+        return np.ones(len(place))
+    low = position.min(axis=0)
+    edge = max(float(np.ptp(position, axis=0).max()), 1e-6) / _CUBES
+    of_leaf, of_place = (np.ravel_multi_index(np.clip((at - low) // edge, 0, _CUBES - 1).astype(int).T, (_CUBES,) * 3) for at in (position, place))
+    area = np.broadcast_to(_SHAPE * np.square(size), len(position))
+    dense = np.bincount(of_leaf, area, _CUBES**3).reshape((_CUBES,) * 3) * (_ACROSS / edge**2)
     light = _SKY * np.exp(-_before(dense[:, ::-1], 1)[:, ::-1])
     for axis in (0, 2):
         light += _SIDE * (np.exp(-_before(dense, axis)) + np.exp(-np.flip(_before(np.flip(dense, axis), axis), axis)))
-    return light.ravel()[flat]
+    return light.ravel()[of_place]
 
 
 def _before(dense, axis: int):

@@ -24,14 +24,14 @@ from sketchtree.errors import OptionError
 from sketchtree.foliage.buds import SUNK, Buds, around, buds
 from sketchtree.foliage.leaves import Leaves, select
 from sketchtree.foliage.seasons import check_season
-from sketchtree.foliage.twigs import Twigs, fronds, leafy, wood_pieces
+from sketchtree.foliage.twigs import THICKEST, Twigs, fronds, leafy, wood_pieces
+from sketchtree.foliage.water_shoots import water_shoots
 from sketchtree.foliage.wear import Wear, wear_of
 from sketchtree.parameters import Habit
 from sketchtree.roots import without_roots
 from sketchtree.skeleton import TreeSkeleton
 
 _UP = np.array([0.0, 1.0, 0.0])
-_THICKEST = 8.0  # leafy wood has at most this many twig radii
 _OUTER = 0.7  # outer share of a limb that carries leaves where it is thin enough
 _SIZE, _SHARE = {"spring": 0.82}, {"autumn": 0.82}  # young leaves are small, some have fallen
 _AZIMUTH, _TILT, _GROWTH, _TINT, _FALLEN, _CAP, _LIGHT = range(7)  # the draws of one leaf
@@ -58,7 +58,7 @@ def populate(
     tree, _ = without_roots(tree)
     if (season == "bare" and not wear.model.evergreen) or tree.segment_count == 0:
         return Leaves.none(wear.model.name)
-    budding, shoots = buds(leafy_wood(tree, habit, wear), tree.limb, wear, habit.twig_radius, key)
+    budding, shoots = all_buds(tree, habit, wear, key)
     leaves, unit = unfold(tree, budding, shoots, wear, season, key), _units(budding)
     if season in _SHARE and not (wear.model.evergreen or wear.model.flower):
         held = keys.uniform(key, budding.id, _FALLEN) < _SHARE[season]
@@ -76,15 +76,23 @@ def _units(stand: Buds) -> Int[np.ndarray, " leaf"]:
     return unit
 
 
-def leafy_wood(tree: TreeSkeleton, habit: Habit, wear: Wear) -> Twigs:
-    """The wood that carries leaves; of a palm, its fronds. A palm's fans stand on its leaf stalks, not on their ribs."""
+def all_buds(tree: TreeSkeleton, habit: Habit, wear: Wear, key: Key[Array, ""]) -> tuple[Buds, Float[np.ndarray, "shoot 2 3"]]:
+    """Every bud of the tree, on its twigs, on short shoots and on water shoots; and both kinds of shoots, start and end of each, metres."""
     pieces = wood_pieces(tree)
+    borne, short = buds(leafy_wood(pieces, tree, habit, wear), tree.limb, wear, habit.twig_radius, key)
+    more, water = water_shoots(pieces, tree.order, tree.limb, borne, wear, habit, key)
+    more = replace(more, shoot=more.shoot + len(short))
+    return borne.followed_by(more), np.concatenate([short, water])
+
+
+def leafy_wood(pieces: Twigs, tree: TreeSkeleton, habit: Habit, wear: Wear) -> Twigs:
+    """Of all wood, what carries leaves; of a palm, its fronds. A palm's fans stand on its leaf stalks, not on their ribs."""
     if wear.arrangement == "frond":
         pieces = fronds(pieces, tree)
         stalks = wear.model.fan > 0 and habit.leaf_arrangement == "frond"
         return pieces.select(tree.order[pieces.row] <= 1) if stalks else pieces
     reach = wear.model.shoot * habit.twig_length
-    return leafy(pieces, tree.order, thickest=_THICKEST * habit.twig_radius, reach=reach, share=_OUTER)
+    return leafy(pieces, tree.order, thickest=THICKEST * habit.twig_radius, reach=reach, share=_OUTER)
 
 
 def unfold(tree: TreeSkeleton, stand: Buds, shoots, wear: Wear, season: str, key) -> Leaves:

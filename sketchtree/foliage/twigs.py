@@ -23,6 +23,7 @@ from sketchtree.skeleton import TreeSkeleton
 from sketchtree.traverse import generations, sum_to_root
 
 _UP = np.array([0.0, 1.0, 0.0])
+THICKEST = 8.0  # leafy wood has at most this many twig radii
 _SLIM = 1.5  # of the thickest frond's radius: a thicker end of a palm's trunk is no frond
 
 

@@ -48,7 +48,7 @@ BROADLEAVES = (
         ), roughness=0.5,
     ),
     LeafModel(
-        "poplar", toothed.poplar, spur=5, every=3, arrangement="spiral", size=0.06, spacing=0.03, inclination=50.0, droop=0.40, fold=9.0, curl=0.06,
+        "poplar", toothed.poplar, spur=7, every=2, arrangement="spiral", size=0.06, spacing=0.03, inclination=50.0, droop=0.40, fold=9.0, curl=0.06,
         palettes=seasons(
             ("#98ad52", "#b0bd62", "#ccd38e", "#b0a25a"),
             ("#547437", "#82994b", "#b2bd80", "#a09a5c"),
