@@ -19,6 +19,7 @@ from sketchtree.errors import ExportError
 MESHES = (".glb", ".gltf", ".usd", ".usda", ".usdc", ".usdz", ".obj", ".ply", ".stl", ".3mf")
 SKELETONS = (".swc", ".mtg", ".json", ".h5")
 PROJECTS = (".sketchtree",)
+_DEVICES = ("/dev", "/dev/fd")
 _ELSEWHERE = {".fbx": "write .glb, which the same programs open", ".blend": "write .glb and open it in Blender", ".xml": "write .usda or .glb"}
 
 
@@ -46,6 +47,8 @@ def check_writable(path: str | os.PathLike) -> Path:
 
     Raises `ExportError` where the folder is missing or read-only, or the path is itself a folder, a read-only file, or no file at all (a device, a pipe).
     """
+    if os.path.dirname(os.path.abspath(path)) in _DEVICES:  # links there, such as /dev/stdout, name what is open elsewhere
+        raise _no_file(path)
     path = Path(os.path.realpath(path)) if os.path.islink(path) else Path(path)
     folder = path.parent
     if os.path.isdir(path):
@@ -71,9 +74,13 @@ def _check_held(path: Path) -> None:
     except OSError as error:
         raise ExportError(f"Can't write {path}: {_why(error)}.", remedy="Choose another name.") from error
     if not stat.S_ISREG(mode):
-        raise ExportError(f"Can't write {path}: it is a device or a pipe, and files are written whole.", remedy="Name an ordinary file.")
+        raise _no_file(path)
     if not mode & (stat.S_IWUSR | stat.S_IWGRP | stat.S_IWOTH):
         raise ExportError(f"Can't write {path}: it is read-only.", remedy="Make it writable, or choose another name.")
+
+
+def _no_file(path) -> ExportError:
+    return ExportError(f"Can't write {path}: it is a device or a pipe, and files are written whole.", remedy="Name an ordinary file.")
 
 
 @contextmanager

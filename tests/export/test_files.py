@@ -88,6 +88,12 @@ def test_a_pipe_is_named_and_kept(tmp_path):
     assert stat.S_ISFIFO((tmp_path / "r.json").stat().st_mode)
 
 
+@pytest.mark.parametrize("path", ["/dev/stdout", "/dev/fd/1", "/dev/null"])
+def test_a_device_is_named_and_kept(path):
+    with pytest.raises(ExportError, match=f"Can't write {path}: it is a device or a pipe"):
+        check_writable(path)
+
+
 def test_a_link_stays_one_and_its_target_is_written(tmp_path):
     (tmp_path / "disk").mkdir()
     (tmp_path / "t.glb").symlink_to(tmp_path / "disk" / "far.glb")
