@@ -17,6 +17,8 @@ from sketchtree.foliage.painting import Painting
 
 _BLADE = np.array([[0, 1, 3], [0, 3, 2], [1, 4, 3], [3, 4, 6], [3, 6, 5], [3, 5, 2]])
 
+_RIM = 24  # heights at which the rim is looked at
+
 
 @lru_cache(maxsize=None)
 def card(name: str) -> tuple[Float[np.ndarray, "vertex 3"], Float[np.ndarray, "vertex 2"], Int[np.ndarray, "triangle 3"]]:
@@ -55,6 +57,17 @@ def foot_of(painting: Painting) -> float:
     used = np.flatnonzero((painting.coverage > 0.5).any(axis=1))
     rows = len(painting.coverage)
     return float(painting.top + (used[-1] + 1) / rows * (painting.bottom - painting.top))
+
+
+@lru_cache(maxsize=None)
+def rim(name: str) -> Float[np.ndarray, "point 3"]:
+    """Places on the rim of a blade's drawing, right and left at even heights, and its tip; on the flat card, in blade lengths."""
+    painting = leaf_painting(name)
+    y, half = _half_widths(painting)
+    some = np.linspace(0, len(y) - 1, _RIM).astype(int)
+    top = card(name)[0][:, 1].max()  # where `bent` has the tip
+    flat = np.concatenate([np.stack([side * half[some], y[some] - foot_of(painting)], axis=1) for side in (1, -1)] + [[[0.0, top]]])
+    return np.column_stack([flat, np.zeros(len(flat))])
 
 
 def bends(tint: Float[np.ndarray, " leaf"], model: LeafModel) -> tuple[Float[np.ndarray, " leaf"], Float[np.ndarray, " leaf"]]:

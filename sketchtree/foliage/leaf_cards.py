@@ -1,11 +1,11 @@
 """How do the leaves of a tree become fewer and fewer triangles, and stay as many to the eye?
 
-By what there is to spend on a leaf, the first that can be afforded:
+By what there is to spend on a leaf, and leaves that bend the farthest get more first:
 
     four triangles  the picture in a diamond that lies in the full card's own faces
     two triangles   the diamond, folded or bent; a tuft's own picture on a rectangle
     one triangle    the picture in the smallest triangle round it
-    less            a triangle for the two, three or more leaves that follow each other on a stem (`sprays`); tufts are thinned out instead
+    less            a triangle for two, three or more leaves that follow each other on a stem and lie in a plane (`sprays`); tufts are thinned out
 
 Short shoots have six triangles, three, one or none (`short_shoots`).
 
@@ -15,24 +15,25 @@ squares), made larger or smaller about its middle until what is drawn on it has 
     min over (o, e_x, e_y)  Σ_k |o + x_k e_x + y_k e_y − p_k|²        (x, y)_k: in the picture    p_k: on the tree
 """
 
+from functools import lru_cache
 from typing import NamedTuple
 
 import numpy as np
-from jaxtyping import Float, Int
+from jaxtyping import Bool, Float, Int
 from scipy import ndimage
 
 from sketchtree.errors import OptionError
-from sketchtree.foliage.card_shape import bends, bent, card, foot_of
+from sketchtree.foliage.card_shape import bends, bent, card, rim
 from sketchtree.foliage.cards import mesh_name, outward, turned
 from sketchtree.foliage.crown_light import crown_light
 from sketchtree.foliage.leaf_materials import leaf_factor, leaf_material, painted_material
-from sketchtree.foliage.leaves import Leaves
+from sketchtree.foliage.leaves import Leaves, select
 from sketchtree.foliage.models import leaf_model, leaf_painting
 from sketchtree.foliage.painting import Painting
 from sketchtree.foliage.seasons import check_season
 from sketchtree.foliage.short_shoots import STEMS, stems
-from sketchtree.foliage.sprays import layout, sprays
-from sketchtree.foliage.triangles import diamond, drawn_area, single, strip
+from sketchtree.foliage.sprays import layouts, sprays
+from sketchtree.foliage.triangles import Outlines, drawn_area, outlines, strip
 from sketchtree.geometry.mesh import Material, Mesh
 
 _MOST = 12  # leaves that one card stands for; fewer triangles thin the leaves out
@@ -71,25 +72,55 @@ def leaf_cards(leaves: Leaves, *, season: str = "summer", triangles: int, stem: 
     if stem not in (0, *STEMS):
         raise OptionError(f"The short shoots were to have {stem} triangles each.", remedy="Give 0, 1, 3 or 6.")
     planes = _planes(leaves)
-    blade = leaf_model(leaves.model).is_blade
-    if triangles >= 2 * len(planes.leaf) and blade:
-        cards, material = _diamonds(leaves, season, 4 if triangles >= 4 * len(leaves) else 2)
-        return _mesh(leaves, season, [cards], material, stem)
-    if triangles >= 2 * len(planes.leaf):
-        return _mesh(leaves, season, [_quads(leaves, planes)], leaf_material(leaves.model, season), stem)
+    if len(planes.leaf) == 0:
+        return _mesh(leaves, season, [], leaf_material(leaves.model, season), 0)
     if triangles < len(planes.leaf) and leaf_model(leaves.model).is_blade:
         cards, material = _spray_cards(leaves, planes, season, triangles)
-    else:
-        cards, material = _single(leaves, _thinned(planes, triangles), season)
-    return _mesh(leaves, season, [cards], material, stem)
+        return _mesh(leaves, season, [cards], material, stem)
+    shapes = _shapes(leaves.model)
+    material = painted_material(f"leaf_{leaves.model}_simple", shapes.painting, leaves.model, season)
+    return _mesh(leaves, season, _simple(leaves, _thinned(planes, triangles), shapes, triangles), material, stem)
+
+
+@lru_cache(maxsize=None)
+def _shapes(name: str) -> Outlines:
+    """The simple outlines of a model's picture."""
+    corners, _, _ = card(name)
+    return outlines(leaf_painting(name), float(corners[3, 1]) if leaf_model(name).is_blade else None)
+
+
+def _simple(leaves: Leaves, planes: _Planes, shapes: Outlines, triangles: int) -> list[_Cards]:
+    """Every picture on its own card: a triangle, and what is left over goes to those that it brings the most."""
+    count = len(planes.leaf)
+    if not leaf_model(leaves.model).is_blade:
+        rich = _first(planes.area, min(triangles - count, count))
+        return [_singles(_some(planes, ~rich), shapes), _boxes(_some(planes, rich), shapes)]
+    fold, curl = bends(leaves.tint, leaf_model(leaves.model))
+    gain = planes.area * (np.sin(fold) + curl)[planes.leaf]
+    two = _first(gain, min(triangles - count, count))
+    four = _first(gain, min((triangles - 2 * count) // 2, count)) if triangles > 2 * count else np.zeros(count, bool)
+    sets = [_singles(_some(planes, ~two), shapes)] if not two.all() else []
+    return sets + [_diamonds(leaves, planes.leaf[rows], shapes, each) for rows, each in ((two & ~four, 2), (four, 4)) if rows.any()]
+
+
+def _first(value: Float[np.ndarray, " picture"], count: int) -> Bool[np.ndarray, " picture"]:
+    """Which `count` are the greatest."""
+    among = np.zeros(len(value), bool)
+    among[np.argsort(-value, kind="stable")[: max(count, 0)]] = True
+    return among
+
+
+def _some(planes: _Planes, rows) -> _Planes:
+    return _Planes(*(column[rows] for column in planes))
 
 
 def _planes(leaves: Leaves) -> _Planes:
-    model, (corners, _, _) = leaf_model(leaves.model), card(leaves.model)
+    model = leaf_model(leaves.model)
     count = max(model.planes, 1)
     if model.is_blade:
-        flat = np.column_stack([np.ones(len(corners)), corners[:, :2]])
-        local = np.matmul(np.linalg.pinv(flat), bent(corners, model, *bends(leaves.tint, model)))
+        outline = rim(leaves.model)
+        flat = np.column_stack([np.ones(len(outline)), outline[:, :2]])
+        local = np.matmul(np.linalg.pinv(flat), bent(outline, model, *bends(leaves.tint, model)))
     else:
         turn = np.pi * np.arange(count) / count
         across = np.stack([np.cos(turn), np.zeros(count), np.sin(turn)], axis=1)
@@ -112,20 +143,19 @@ def _thinned(planes: _Planes, most: int) -> _Planes:
     return _Planes(plane, planes.leaf[keep], planes.area[keep] * grown**2)
 
 
-def _diamonds(leaves: Leaves, season: str, triangles: int) -> tuple[_Cards, Material]:
-    """The picture in a diamond. Of four triangles it lies in the full card's own faces; of two it is folded along the midrib or bent at the waist
-    as the card is, whichever its rim asks for more: what is seen of a leaf from the side is its rim."""
-    model, painting = leaf_model(leaves.model), leaf_painting(leaves.model)
+def _diamonds(leaves: Leaves, rows: Int[np.ndarray, " card"], shapes: Outlines, triangles: int) -> _Cards:
+    """Some leaves' pictures in diamonds. Of four triangles they lie in the full card's own faces; of two they are folded along the midrib or
+    bent at the waist as the card is, whichever its rim asks for more: what is seen of a leaf from the side is its rim."""
+    model, one = leaf_model(leaves.model), select(leaves, rows)
     corners, _, _ = card(leaves.model)
     foot, waist, tip = (float(corners[k, 1]) for k in (0, 3, 5))
-    one = diamond(painting, waist)
-    fold, curl = bends(leaves.tint, model)
+    fold, curl = bends(one.tint, model)
     low, middle, high = (-curl * (y / tip) ** 2 for y in (foot, waist, tip))
     share = (waist - foot) / (tip - foot)
     off = middle - (1 - share) * low - share * high  # of the waist from the straight line
-    mean, spread = _rim_reach(painting)
+    mean, spread = _rim_reach(leaf_painting(leaves.model))
     folded = triangles == 4 or np.sin(np.radians(model.fold)) * spread > 0.3 * model.curl * share * (1 - share)
-    flat_x, flat_y = one.corner[0].T
+    flat_x, flat_y = shapes.corner["diamond"].T
     if triangles == 4 or not folded:
         along = [middle + (low - middle) * (flat_y[0] - waist) / (foot - waist), middle, middle + (high - middle) * (flat_y[2] - waist) / (tip - waist), middle]
     else:
@@ -133,13 +163,12 @@ def _diamonds(leaves: Leaves, season: str, triangles: int) -> tuple[_Cards, Mate
     lift = np.abs(flat_x) if folded else np.full(4, mean)
     x = flat_x * (np.cos(fold)[:, None] if folded else np.ones((len(fold), 1)))
     local = np.stack([x, np.broadcast_to(flat_y, x.shape), np.stack(along, axis=1) + lift * np.sin(fold)[:, None]], axis=2)
-    uv, ring = one.uv[0], _FOLDED if folded else _WAIST
+    uv, ring = shapes.uv["diamond"], _FOLDED if folded else _WAIST
     if triangles == 4:
         local = np.concatenate([local, np.stack([0 * fold, 0 * fold + waist, middle], axis=1)[:, None]], axis=1)
         uv, ring = np.vstack([uv, 0.5 * (uv[1] + uv[3])]), _FACES
-    position = turned(local, leaves) * leaves.size[:, None, None] + leaves.position[:, None]
-    cards = _Cards(position, np.broadcast_to(uv, (len(leaves), *uv.shape)), np.arange(len(leaves))[:, None], ring)
-    return cards, painted_material(f"leaf_{leaves.model}_diamond", one.painting, leaves.model, season)
+    position = turned(local, one) * one.size[:, None, None] + one.position[:, None]
+    return _Cards(position, np.broadcast_to(uv, (len(rows), *uv.shape)), rows[:, None], ring)
 
 
 def _rim_reach(painting: Painting) -> tuple[float, float]:
@@ -151,48 +180,52 @@ def _rim_reach(painting: Painting) -> tuple[float, float]:
     return mean, float(np.sqrt((rim * (x - mean) ** 2).sum() / rim.sum()))
 
 
-def _quads(leaves: Leaves, planes: _Planes) -> _Cards:
-    """A rectangle for each picture, with the leaf's own texture."""
-    painting = leaf_painting(leaves.model)
-    rows, columns = (np.flatnonzero((painting.coverage > 0.02).any(axis=axis)) for axis in (1, 0))
-    box = np.array([[columns[0], rows[-1] + 1], [columns[-1] + 1, rows[-1] + 1], [columns[-1] + 1, rows[0]], [columns[0], rows[0]]], float)
-    uv = box / painting.coverage.shape[::-1]
-    flat = [painting.left, painting.top] + uv * [painting.right - painting.left, painting.bottom - painting.top] - [0, foot_of(painting)]
-    plane = _to_area(planes.plane, flat.mean(axis=0), drawn_area(painting), planes.area)
-    return _Cards(_on(plane, flat[None]), np.broadcast_to(uv, (len(plane), 4, 2)), planes.leaf[:, None], _QUAD)
+def _boxes(planes: _Planes, shapes: Outlines) -> _Cards:
+    """A rectangle for each picture."""
+    return _flat(planes, shapes, "box", _QUAD)
 
 
-def _single(leaves: Leaves, planes: _Planes, season: str) -> tuple[_Cards, Material]:
+def _singles(planes: _Planes, shapes: Outlines) -> _Cards:
     """A triangle for each picture."""
-    one = single(leaf_painting(leaves.model))
-    plane = _to_area(planes.plane, one.corner[0].mean(axis=0), one.covered[0], planes.area)
-    material = painted_material(f"leaf_{leaves.model}_single", one.painting, leaves.model, season)
-    return _Cards(_on(plane, one.corner), np.broadcast_to(one.uv[0], (len(plane), 3, 2)), planes.leaf[:, None], _TRIANGLE), material
+    return _flat(planes, shapes, "triangle", _TRIANGLE)
+
+
+def _flat(planes: _Planes, shapes: Outlines, outline: str, ring) -> _Cards:
+    corner, uv = shapes.corner[outline], shapes.uv[outline]
+    plane = _to_area(planes.plane, corner.mean(axis=0), shapes.covered, planes.area)
+    return _Cards(_on(plane, corner[None]), np.broadcast_to(uv, (len(plane), *uv.shape)), planes.leaf[:, None], ring)
 
 
 def _spray_cards(leaves: Leaves, planes: _Planes, season: str, most: int) -> tuple[_Cards, Material]:
     """A triangle for each spray, of as few leaves as fit into `most` triangles."""
-    for longest in range(2, _MOST + 1):
-        table = sprays(planes.plane[:, 0], longest)
-        if len(table) <= most:
-            break
-    else:
+    table = sprays(_points(planes), most, _MOST)
+    if len(table) > most:
         planes = _thinned(planes, len(planes.leaf) * most // len(table))
-        table = sprays(planes.plane[:, 0], _MOST)[:most]
+        table = sprays(_points(planes), most, _MOST)[:most]
     held = (table >= 0).sum(axis=1)
     foot, tip = planes.plane[:, 0], planes.plane[:, 0] + planes.plane[:, 2]
-    sizes = np.unique(held)
-    stand = [layout(foot[table[held == n, :n]], tip[table[held == n, :n]]) for n in sizes]
+    stand, kind = [], np.zeros(len(table), np.int64)
+    for n in np.unique(held):
+        of = np.flatnonzero(held == n)
+        found, which = layouts(foot[table[of, :n]], tip[table[of, :n]], len(of) / len(table))
+        kind[of] = len(stand) + which
+        stand += found
     pictures = strip(leaf_painting(leaves.model), [tuple(one) for one in stand])
     corner, uv = np.zeros((len(table), 3, 3)), np.zeros((len(table), 3, 2))
-    for k, n in enumerate(sizes):
-        of = held == n
-        rows = table[of, :n]
-        plane, middle = _fitted(planes.plane[rows], *stand[k])
+    for k, one in enumerate(stand):
+        of = kind == k
+        rows = table[of, : len(one.heading)]
+        plane, middle = _fitted(planes.plane[rows], *one)
         corner[of] = _on(_to_area(plane, middle, pictures.covered[k], planes.area[rows].sum(axis=1)), pictures.corner[k : k + 1])
         uv[of] = pictures.uv[k]
     leaf = np.where(table >= 0, planes.leaf[table], -1)
     return _Cards(corner, uv, leaf, _TRIANGLE), painted_material(f"leaf_{leaves.model}_spray", pictures.painting, leaves.model, season)
+
+
+def _points(planes: _Planes) -> Float[np.ndarray, "picture 4 3"]:
+    """Foot, tip and both sides of every leaf."""
+    share = np.array([[1.0, 0, 0], [1, 0, 1], [1, 0.25, 0.5], [1, -0.25, 0.5]])
+    return np.einsum("ks,psi->pki", share, planes.plane)
 
 
 def _fitted(plane: Float[np.ndarray, "card leaf 3 3"], foot, heading):
@@ -238,6 +271,8 @@ def _mesh(leaves: Leaves, season: str, sets: list[_Cards], material: Material, s
         shoots = stems(leaves, first, stem)
         for column, more in zip((position, normal, uv, triangle, color), (*shoots, np.ones((len(shoots.position), 4))), strict=True):
             column.append(more)
+    if not position:
+        return Mesh(mesh_name(leaves.model), np.zeros((0, 3)), np.zeros((0, 3)), np.zeros((0, 2)), np.zeros((0, 3), np.int64), material)
     return Mesh(mesh_name(leaves.model), *(np.vstack(c) for c in (position, normal, uv, triangle)), material, np.vstack(color))
 
 

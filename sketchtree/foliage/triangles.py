@@ -2,7 +2,7 @@
 
     half width at height y:  k (Y − y),   k = max h(y) / (Y − y),   Y the apex that makes the triangle smallest;   or upside down
 
-Several such pictures stand side by side in one texture, a `Strip`; the first shows one leaf, the second two, and so on.
+Several such pictures stand in one texture, a `Strip`.
 """
 
 from dataclasses import dataclass
@@ -17,12 +17,12 @@ from sketchtree.foliage.painting import Painting
 
 CHANNELS = ("coverage", "vein", "stem", "shade", "height")
 _ALIGNED = 128  # pixels
-_PIXELS = 256  # along the longer side of a picture
+_PIXELS, _FEW = 256, 6  # along the longer side of a picture, where there are few; half of it where there are more
 
 
 @dataclass(frozen=True, eq=False)
 class Strip:
-    """Pictures in triangles, side by side in one texture."""
+    """Pictures in triangles, in rows in one texture."""
 
     painting: Painting
     corner: Float[np.ndarray, "picture 3 2"]  # of each triangle, in its picture's own coordinates: leaf lengths
@@ -31,30 +31,55 @@ class Strip:
 
 
 def strip(leaf: Painting, pictures: list[tuple[Float[np.ndarray, "leaf 2"], Float[np.ndarray, " leaf"]]]) -> Strip:
-    """A strip of the pictures; each is given by its leaves' feet and headings (radians from upright, positive to the right)."""
+    """The pictures in one texture; each is given by its leaves' feet and headings (radians from upright, positive to the right)."""
     corner = [_triangle(_rim(leaf, *stand)) for stand in pictures]
-    drawn = [_drawn(leaf, *stand, box) for stand, box in zip(pictures, corner, strict=True)]
-    tall = max(one.coverage.shape[0] for one in drawn)
-    wide = [one.coverage.shape[1] for one in drawn]
-    fill = lambda image, channel: np.pad(image, ((0, tall - len(image)), (0, 0)), constant_values=float(channel == "shade"))  # noqa: E731
-    painting = Painting(*(np.hstack([fill(getattr(one, c), c) for one in drawn]) for c in CHANNELS), 0.0, 1.0, 0.0, 1.0)
-    uv, covered = [], []
-    for k, one in enumerate(drawn):
-        place = (corner[k] - [one.left, one.top]) / [one.right - one.left, one.bottom - one.top]
-        uv.append((place * [wide[k], len(one.coverage)] + [sum(wide[:k]), 0]) / [sum(wide), tall])
-        covered.append(drawn_area(one))
-    return Strip(painting, np.array(corner), np.array(uv), np.array(covered))
+    pixels = _PIXELS if len(pictures) <= _FEW else _PIXELS // 2
+    drawn = [_drawn(leaf, *stand, box, pixels) for stand, box in zip(pictures, corner, strict=True)]
+    columns = int(np.ceil(np.sqrt(len(drawn))))
+    rows = [drawn[k : k + columns] for k in range(0, len(drawn), columns)]
+    wide = max(sum(one.coverage.shape[1] for one in row) for row in rows)
+    uv, bands, top = [], [], 0
+    high = sum(max(len(one.coverage) for one in row) for row in rows)
+    for row in rows:
+        tall, left = max(len(one.coverage) for one in row), 0
+        band = {c: np.full((tall, wide), float(c == "shade")) for c in CHANNELS}
+        for one in row:
+            place = (corner[len(uv)] - [one.left, one.top]) / [one.right - one.left, one.bottom - one.top]
+            uv.append((place * one.coverage.shape[::-1] + [left, top]) / [wide, high])
+            for c in CHANNELS:
+                band[c][: len(one.coverage), left : left + one.coverage.shape[1]] = getattr(one, c)
+            left += one.coverage.shape[1]
+        bands.append(band)
+        top += tall
+    painting = Painting(*(np.vstack([band[c] for band in bands]) for c in CHANNELS), 0.0, 1.0, 0.0, 1.0)
+    return Strip(painting, np.array(corner), np.array(uv), np.array([drawn_area(one) for one in drawn]))
 
 
-def single(leaf: Painting) -> Strip:
-    """The leaf's own picture at half its resolution, in the triangle round it. Its pixels are means of four of the leaf's, and stand
-    at multiples of `_ALIGNED`: graphics cards average both textures to the same smaller ones, so both are seen alike from afar."""
-    return _aligned(leaf, _triangle(_rim(leaf, np.zeros((1, 2)), np.zeros(1))))
+@dataclass(frozen=True, eq=False)
+class Outlines:
+    """The leaf's own picture with as much clear space round it as its simple outlines need."""
+
+    painting: Painting
+    corner: dict[str, Float[np.ndarray, "corner 2"]]  # `triangle`; of a blade `diamond` (foot, right, tip, left); of a tuft `box`; leaf lengths from the foot
+    uv: dict[str, Float[np.ndarray, "corner 2"]]
+    covered: float  # area drawn, in squares of the leaf's length
 
 
-def diamond(leaf: Painting, waist: float) -> Strip:
-    """The same in the smallest diamond whose sides' corners are at the height `waist` (leaf lengths from the foot). Its corners: foot, right, tip, left."""
+def outlines(leaf: Painting, waist: float | None) -> Outlines:
+    """The smallest triangle round the drawing and, with a `waist`, the smallest diamond whose side corners are at that height (leaf lengths from the foot),
+    without one the smallest box.
+
+    The picture has half the leaf's resolution. Its pixels are means of four of the leaf's, and stand at multiples of `_ALIGNED`: graphics cards
+    average both textures to the same smaller ones, so both are seen alike from afar."""
     rim = _rim(leaf, np.zeros((1, 2)), np.zeros(1))
+    low, high = rim.min(axis=0), rim.max(axis=0)
+    box = np.array([low, [high[0], low[1]], high, [low[0], high[1]]])
+    corner = {"triangle": _triangle(rim)} | ({"box": box} if waist is None else {"diamond": _diamond(rim, waist)})
+    painting, uv = _aligned(leaf, corner)
+    return Outlines(painting, corner, uv, drawn_area(leaf))
+
+
+def _diamond(rim: Float[np.ndarray, "point 2"], waist: float) -> Float[np.ndarray, "4 2"]:
     x, y = np.abs(rim[:, 0]), rim[:, 1]
     above, below = y > waist, y < waist
     best = None
@@ -63,24 +88,24 @@ def diamond(leaf: Painting, waist: float) -> Strip:
         tip, foot = np.max(reach[above], initial=y.max()), np.min(reach[below], initial=y.min())
         if best is None or wide * (tip - foot) < best[0]:
             best = wide * (tip - foot), [[0.0, foot], [wide, waist], [0.0, tip], [-wide, waist]]
-    return _aligned(leaf, np.array(best[1]))
+    return np.array(best[1])
 
 
-def _aligned(leaf: Painting, corner: Float[np.ndarray, "corner 2"]) -> Strip:
-    """The leaf's picture at half its resolution, with as much clear space round it as the polygon of the corners needs."""
+def _aligned(leaf: Painting, corner: dict[str, Float[np.ndarray, "corner 2"]]):
+    """The picture, and the corners' places in it."""
     rows, columns = leaf.coverage.shape
     pixel = np.array([2 * (leaf.right - leaf.left) / columns, 2 * (leaf.top - leaf.bottom) / rows])
     up = foot_of(leaf)
-    before = np.array([leaf.left - corner[:, 0].min(), corner[:, 1].max() - (leaf.top - up)])
+    every = np.concatenate(list(corner.values()))
+    before = np.array([leaf.left - every[:, 0].min(), every[:, 1].max() - (leaf.top - up)])
     before = _ALIGNED * np.ceil(np.maximum(before / pixel, 0) / _ALIGNED).astype(int)
-    end = np.array([corner[:, 0].max() - leaf.left, (leaf.top - up) - corner[:, 1].min()]) / pixel
+    end = np.array([every[:, 0].max() - leaf.left, (leaf.top - up) - every[:, 1].min()]) / pixel
     size = before + _ALIGNED * np.ceil(np.maximum(end, [columns // 2, rows // 2]) / _ALIGNED).astype(int)
     after = size - before - [columns // 2, rows // 2]
     half = lambda image: image.reshape(rows // 2, 2, columns // 2, 2).mean(axis=(1, 3))  # noqa: E731
     around = (before[1], after[1]), (before[0], after[0])
     painting = Painting(*(np.pad(half(getattr(leaf, c)), around, constant_values=float(c == "shade")) for c in CHANNELS), 0.0, 1.0, 0.0, 1.0)
-    uv = ((corner - [leaf.left, leaf.top - up]) / pixel * [1, -1] + before) / size
-    return Strip(painting, corner[None], uv[None], np.array([drawn_area(leaf)]))
+    return painting, {name: ((one - [leaf.left, leaf.top - up]) / pixel * [1, -1] + before) / size for name, one in corner.items()}
 
 
 def drawn_area(painting: Painting) -> float:
@@ -116,10 +141,10 @@ def _triangle(point: Float[np.ndarray, "point 2"]) -> Float[np.ndarray, "3 2"]:
     return np.array(best[1])
 
 
-def _drawn(leaf: Painting, foot, heading, corner) -> Painting:
+def _drawn(leaf: Painting, foot, heading, corner, pixels: int) -> Painting:
     """The leaves drawn into the triangle's box, the first on top."""
     low, high = corner.min(axis=0), corner.max(axis=0)
-    shape = tuple(np.maximum(32, np.round(_PIXELS * (high - low)[::-1] / (high - low).max())).astype(int))
+    shape = tuple(np.maximum(32, np.round(pixels * (high - low)[::-1] / (high - low).max())).astype(int))
     up, across = ((np.arange(n) + 0.5) / n for n in shape)
     y, x = np.meshgrid(high[1] - up * (high - low)[1], low[0] + across * (high - low)[0], indexing="ij")
     soft = 0.4 * (high - low)[1] / shape[0] * leaf.coverage.shape[0] / (leaf.top - leaf.bottom)

@@ -1,7 +1,7 @@
 """Where do a level's triangles go: to leaves, their short shoots, or wood?
 
 Where it shows most. Leaves come in several forms (`foliage.leaf_cards`), short shoots too, wood in any number of triangles (`levels.wood`). Each form of each is
-looked at alone, from two sides; of the silhouettes, since what is in front does not matter to an outline,
+looked at alone, from one side; of the silhouettes, since what is in front does not matter to an outline,
 
     S(leaves, shoots, wood) = S(leaves) ∪ S(shoots) ∪ S(wood)
 
@@ -27,15 +27,15 @@ from sketchtree.levels.raster import silhouette
 from sketchtree.levels.wood import LevelWood
 from sketchtree.skeleton import TreeSkeleton
 
-_FORMS = (4.0, 2.0, 1.0, 1 / 2, 1 / 3, 1 / 4, 1 / 6, 1 / 9, 1 / 12)  # triangles a picture of a leaf
+_FORMS = (4.0, 3.0, 2.5, 2.0, 1.5, 1.25, 1.0, 0.8, 0.65, 0.5, 0.4, 0.3, 0.22, 0.16, 0.12, 0.08)  # triangles a picture of a leaf
 _STEMS = (6, 3, 1, 0)  # triangles a short shoot
-_WOOD = (1.0, 0.7, 0.5, 0.35, 0.25, 0.17, 0.11, 0.07, 0.04, 0.02)  # shares of the full wood's triangles
-_SIDES, _PIXELS = 4, 512  # every other of so many sides
+_WOOD = (1.0, 0.7, 0.5, 0.4, 0.32, 0.26, 0.2, 0.15, 0.11, 0.08, 0.055, 0.035, 0.02)  # shares of the full wood's triangles
+_SIDES, _SIDE, _PIXELS = 16, 1, 512  # the side that is looked at, of so many round the tree: none that anyone else measures by
 
 
 @dataclass(frozen=True, eq=False)
 class _Form:
-    """One form of a part of the tree, and where it is seen from each side."""
+    """One form of a part of the tree, and where it is seen."""
 
     triangles: int
     shown: tuple[Bool[np.ndarray, "row column"], ...]
@@ -51,7 +51,7 @@ class Budget:
         for leaves in worn:
             leafy[leaves.segment] = True
         self._wood = LevelWood.of(skeleton, bark=dress.bark, habit=dress.habit, leafy=leafy)
-        self._views = views_round(full, _SIDES, _PIXELS)[:2]
+        self._views = views_round(full, _SIDES, _PIXELS)[_SIDE : _SIDE + 1]
         self._all = self._shown(full)
         self._woods: list[_Form] | None = None
         self._foliage: list[_Form] | None = None
@@ -113,7 +113,7 @@ class Budget:
 
 def pictures(model: LeafModel, form: float) -> int:
     """Of one leaf: a tuft has one on each of its planes."""
-    return 1 if form == 4.0 else max(model.planes, 1)
+    return 1 if form > 2.0 else max(model.planes, 1)
 
 
 def _stem_mesh(leaves: Leaves, stem: int) -> Mesh:

@@ -31,14 +31,14 @@ class LevelWood:
 
     plan: WoodPlan  # of the full tree
     ring: Rings  # its rings, flared
-    choices: Choices
+    choices: Choices | None  # None: no limb
     full: Int[np.ndarray, " limb"]  # sides
     weight: Float[np.ndarray, " limb"]  # how much of each limb is seen
     kind: tuple[tuple[str, Material, Bool[np.ndarray, " limb"]], ...]  # name, material and limbs of each mesh
 
     @classmethod
     def of(
-        cls, tree: TreeSkeleton, *, bark: str, habit: Habit, leafy: Bool[np.ndarray, " segment"] | None = None, hidden: float = 0.85, detail: Detail = Detail(),  # noqa: B008 (frozen)
+        cls, tree: TreeSkeleton, *, bark: str, habit: Habit, leafy: Bool[np.ndarray, " segment"] | None = None, hidden: float = 0.5, detail: Detail = Detail(),  # noqa: B008 (frozen)
     ) -> "LevelWood":
         """Of a tree. Limbs of rows that are `leafy` are hidden by their leaves, and weigh only 1 − `hidden`; `detail` is that of the full
         tree. Raises `OptionError` for an unknown bark."""
@@ -54,10 +54,12 @@ class LevelWood:
             ("wood_twigs", twig_material(bark), twig),
             ("wood_rachis", rachis_material(), midrib),
         )
-        return cls(plan, ring, choices_of(ring, full), full, weight, kind)
+        return cls(plan, ring, choices_of(ring, full) if len(lines) else None, full, weight, kind)
 
     def meshes(self, triangles: int) -> tuple[Mesh, ...]:
         """At most so many triangles: `wood` first, then `wood_twigs` and `wood_rachis` where there are any."""
+        if self.choices is None:
+            return (_empty("wood", self.kind[0][1]),)
         shapes = choose_shapes(self.ring, self.choices, self.plan.lines.parent, self.weight, triangles)
         drawn = shapes.side > 0
         made = [_tubes(self.ring, self.full, shapes, among & drawn, name, skin, self.plan.detail.tile) for name, skin, among in self.kind]
@@ -65,7 +67,7 @@ class LevelWood:
 
 
 def level_wood(
-    tree: TreeSkeleton, *, bark: str, habit: Habit, triangles: int, leafy: Bool[np.ndarray, " segment"] | None = None, hidden: float = 0.85,
+    tree: TreeSkeleton, *, bark: str, habit: Habit, triangles: int, leafy: Bool[np.ndarray, " segment"] | None = None, hidden: float = 0.5,
     detail: Detail = Detail(),  # noqa: B008 (frozen)
 ) -> tuple[Mesh, ...]:
     """The wood in at most so many triangles, as `LevelWood` draws it."""

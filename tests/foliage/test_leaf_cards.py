@@ -87,7 +87,7 @@ def test_leaves_in_fewer_and_fewer_triangles_down_to_one():
 def test_sprays_hold_every_leaf_once_and_no_more_than_allowed():
     rng = np.random.default_rng(2)
     foot = np.concatenate([rng.uniform(-9, 9, 3) + np.linspace(0, 1, n)[:, None] * [1.0, 0.2, 0] * n / 10 for n in (7, 3, 1, 12)])
-    table = sprays(foot, 4)
+    table = sprays(np.stack([foot, foot + [0, 0.3, 0], foot + [0.05, 0.1, 0.05]], axis=1), 7, 4)
     assert sorted(table[table >= 0]) == list(range(23))
     spread = [np.ptp(foot[row[row >= 0]], axis=0).max() for row in table]
     assert max(spread) < 0.5  # none holds leaves of two stems
