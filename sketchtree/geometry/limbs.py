@@ -8,7 +8,7 @@ knots P_i, P_i+1 the control points are P_i, P_i + h m_i / 3, P_i+1 − h m_i+1 
 
 The knots are the tips of the rows and, where the limb was drawn, the drawn points between, so the line passes
 through all of them. An undrawn lateral leaves its parent at a smaller angle than its chord and bends outward.
-Radii fall evenly along the line from one tip to the next.
+Radii fall evenly along the line from one tip to the next; a limb drawn thick up to its end runs out into a twig (`tips`).
 """
 
 from dataclasses import dataclass
@@ -18,6 +18,7 @@ from jaxtyping import Bool, Float, Int
 
 from sketchtree.axes import NULL
 from sketchtree.geometry.chains import Chains, chains
+from sketchtree.geometry.tips import run_out
 from sketchtree.skeleton import Kind, TreeSkeleton
 
 _STEPS = 6  # points evaluated on each Bezier span
@@ -124,11 +125,13 @@ def _lines(tree: TreeSkeleton, cut: Chains, used, renumber, knots: _Knots) -> Ce
     rows = knots.row[np.r_[knot_of.ravel(), last][order]]
     rows = np.where(np.r_[knot_of.ravel(), last][order] == NULL, NULL, rows)
     parent, parent_s, ground = _attachment(tree, cut, used, renumber, rows, s, start)
+    radius = _gentle(limb, s, np.r_[radius.ravel(), knots.radius[last]][order])
+    drawn = tree.kind[cut.row[cut.start[used + 1] - 1]] == int(Kind.DRAWN)
     return CentreLines(
         start=start,
         point=point,
         s=s,
-        radius=_gentle(limb, s, np.r_[radius.ravel(), knots.radius[last]][order]),
+        radius=run_out(radius, s, start, parent, parent_s, drawn, float(tree.radius[~tree.is_base].min(initial=np.inf))),
         curvature=np.r_[curvature.ravel(), np.zeros(len(last))][order],
         pinned=np.r_[first_step.ravel(), np.ones(len(last), bool)][order],
         is_stem=cut.is_stem[used],
