@@ -6,8 +6,10 @@ and season, gets back the bark and the leaves that it was built with.
 
 from dataclasses import dataclass
 
+import numpy as np
 from jaxtyping import Array, Key
 
+from sketchtree.errors import SkeletonError
 from sketchtree.foliage.blossom import blossom
 from sketchtree.foliage.cards import leaf_mesh
 from sketchtree.foliage.populate import populate
@@ -30,13 +32,21 @@ class Dress:
     solid: bool = False  # the tubes united
 
 
+LARGEST = 1e5
+"""Metres: a tree that reaches farther in any direction has a point astray. (One of 100 m, in millimetres, does not.)"""
+
+
 def dressed(tree: TreeSkeleton, dress: Dress, *, key: Key[Array, ""]) -> tuple[Mesh, ...]:
     """Wood, then leaves and blossoms if there are any. Metres."""
     return (*wood_worn(tree, dress, key=key).meshes, *leaves_worn(tree, dress, key=key))
 
 
 def wood_worn(tree: TreeSkeleton, dress: Dress, *, key: Key[Array, ""]) -> Wood:
-    """The wood, how it was made, and what a person should know about that."""
+    """The wood, how it was made, and what a person should know about that. Raises `SkeletonError` for a tree beyond `LARGEST`."""
+    extent = float(np.abs(tree.tip).max(initial=0.0))
+    if extent > LARGEST:
+        far = int(np.abs(tree.tip).max(axis=1).argmax())
+        raise SkeletonError(f"it lies {extent:.3g} m away from the origin, farther than any tree.", remedy="Scale the skeleton to metres, or take the stray point out.", row=far)
     return wood_of(tree, bark=dress.bark, habit=dress.habit, key=stage_key(key, "mesh"), wood=dress.wood, solid=dress.solid)
 
 

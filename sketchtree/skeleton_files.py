@@ -104,9 +104,10 @@ def _swc_table(path):
             values = [float(word) for word in words[:7]]
         except ValueError:
             values = []
+        shown = "".join(sign if sign.isprintable() else "?" for sign in content.strip()[:60])
         if len(values) < 7 or not np.isfinite(values).all() or np.abs([values[0], values[6]]).max() > LARGEST_ID:
             raise SkeletonError(
-                f"{path}, line {number}: expected `id type x y z radius parent`, got `{content.strip()[:60]}`.",
+                f"{path}, line {number}: expected `id type x y z radius parent`, got `{shown}`.",
                 remedy="Repair the line or start it with #.",
             )
         rows.append(values)

@@ -18,7 +18,7 @@ from sketchtree.version import __version__
 FORMAT, SCHEMA = "SketchTree skeleton", 1
 PROJECT = "SketchTree project"
 _LENGTHS = ("tip", "radius", "depth_sd", "curve_points")  # columns in the units of length
-_REMEDY = "Give a file that `write_skeleton_hdf5` wrote, or another format."
+_REMEDY = "Give an .h5 or .sketchtree file that SketchTree wrote, or another format."
 
 
 def read_skeleton_hdf5(path: str | os.PathLike) -> TreeSkeleton:

@@ -12,6 +12,10 @@ from sketchtree.skeleton import Kind, TreeSkeleton
 from sketchtree.traverse import generations
 
 
+FARTHEST = 1e100
+"""Beyond it squares of lengths are no numbers any more."""
+
+
 def observed(
     path,
     parent: Int[np.ndarray, " node"],
@@ -20,7 +24,10 @@ def observed(
     continues: Bool[np.ndarray, " node"] | None = None,
 ) -> TreeSkeleton:
     """A skeleton of nodes in any order, kind OBSERVED. `continues` says which nodes carry on their parent's limb; where two
-    claim it, and without it, thickness and straightness decide. Radii must be positive."""
+    claim it, and without it, thickness and straightness decide. Radii must be positive. Raises `SkeletonError`."""
+    if np.abs(tip).max(initial=0.0) > FARTHEST:
+        far = float(np.abs(tip).max())
+        raise SkeletonError(f"{path}: a node lies at {far:.3g}; lengths beyond {FARTHEST:g} can't be reckoned with.", remedy="Take the stray point out.")
     order = parents_first(parent, path)
     parent = np.where(parent[order] < 0, NULL, np.argsort(order)[parent[order]])
     tip, radius = tip[order], radius[order]

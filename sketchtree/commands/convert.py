@@ -111,7 +111,9 @@ def _dressed(source: Path, contents, seed: int, db: Path | None, wanted: dict):
     warnings = wood.warnings
     if (units := str(contents.header.get("units", "metres"))) not in ("metres", "m"):
         warnings += (f"{source} is in {units}; they were taken for metres.",)
-    if leaf is not None and not leaves:
+    if not any(mesh.triangle_count for mesh in wood.meshes):
+        warnings += (f"{source} has no branch of any length, so there is nothing to draw.",)
+    elif leaf is not None and not leaves:
         warnings += (f"No leaf grew: no branch of {source} is thin enough to bear them, or the season is bare.",)
     return asset, worn, warnings
 

@@ -191,3 +191,48 @@ def test_without_usd_core_the_remedy_is_named(tmp_path, capfd, monkeypatch):
     (tmp_path / "a.usda").write_text("#usda 1.0")
     status, line = said([tmp_path / "a.usda", tmp_path / "b.glb"], capfd)
     assert status == 2 and "a.usda: USD needs the package `usd-core`. Install it: pip install 'sketchtree[usd]'." in line
+
+
+@pytest.mark.parametrize("far", ["1e30", "2e5"])
+def test_a_stray_point_is_named(tmp_path, capfd, far):
+    (tmp_path / "a.swc").write_text(f"1 0 0 0 0 0.1 -1\n2 0 0 1 0 0.1 1\n3 0 {far} {far} 0 0.1 2\n")
+    assert said([tmp_path / "a.swc", tmp_path / "b.glb"], capfd) == (2, (
+        f"sketchtree: Row 2: it lies {float(far):.3g} m away from the origin, farther than any tree. Scale the skeleton to metres, or take the stray point out."
+    ))  # fmt: skip
+    assert run(["view", str(tmp_path / "a.swc"), "--screenshot", str(tmp_path / "b.png")]) == 2
+    assert [path.name for path in tmp_path.iterdir()] == ["a.swc"]
+
+
+def test_a_length_whose_square_is_no_number_is_named(tmp_path, capfd):
+    (tmp_path / "a.swc").write_text("1 0 0 0 0 0.1 -1\n2 0 0 1e308 0 0.1 1\n")
+    told = f"sketchtree: {tmp_path / 'a.swc'}: a node lies at 1e+308; lengths beyond 1e+100 can't be reckoned with. Take the stray point out."
+    assert said([tmp_path / "a.swc", tmp_path / "b.json"], capfd) == (2, told)
+
+
+@pytest.mark.parametrize("rest", ["", "2 0 0 0 0 0.1 1\n"], ids=["one node", "one segment without length"])
+def test_that_there_is_nothing_to_draw_is_told(tmp_path, capfd, rest):
+    (tmp_path / "a.swc").write_text("1 0 0 0 0 0.1 -1\n" + rest)
+    assert run(["convert", str(tmp_path / "a.swc"), str(tmp_path / "b.glb"), "--leaf", "oak"]) == 0
+    assert f"Note: {tmp_path / 'a.swc'} has no branch of any length, so there is nothing to draw." in capfd.readouterr().err
+
+
+def test_a_file_that_was_cut_short_is_told(tmp_path, capfd):
+    write_asset(tmp_path / "a.glb", detailed())
+    data = (tmp_path / "a.glb").read_bytes()
+    (tmp_path / "c.glb").write_bytes(data[: len(data) // 2])
+    told = f"sketchtree: {tmp_path / 'c.glb'} is cut short: it has {len(data) // 2:,} bytes of {len(data):,}. Write it again, or copy it again."
+    assert said([tmp_path / "c.glb", tmp_path / "b.obj"], capfd) == (2, told)
+
+
+def test_what_is_missing_beside_a_gltf_is_named(tmp_path, capfd):
+    write_asset(tmp_path / "a.gltf", detailed())
+    (tmp_path / "a.bin").unlink()
+    assert said([tmp_path / "a.gltf", tmp_path / "b.obj"], capfd) == (2, f"sketchtree: {tmp_path / 'a.gltf'} can't be read: a.bin: no such file or directory. Check the path.")
+    (tmp_path / "a.gltf").write_text("{")
+    told = f"sketchtree: {tmp_path / 'a.gltf'} is not a glTF file that can be shown. Give a .gltf file with its buffers and textures beside it."
+    assert said([tmp_path / "a.gltf", tmp_path / "b.obj"], capfd) == (2, told)
+
+
+def test_what_can_not_be_printed_is_not(tmp_path, capfd):
+    (tmp_path / "a.swc").write_bytes(b"\x00\x1b[31m 5\n")
+    assert "got `??[31m 5`." in said([tmp_path / "a.swc", tmp_path / "b.obj"], capfd)[1]

@@ -216,7 +216,7 @@ def test_numbers_that_can_not_stand_in_a_file_are_named(tmp_path, asset, message
 
 def test_a_damaged_file_is_named(tmp_path):
     (tmp_path / "t.gltf").write_text("{")
-    with pytest.raises(ExportError, match="is not a GLB file that can be shown"):
+    with pytest.raises(ExportError, match="is not a glTF file that can be shown. Give a .gltf file with its buffers and textures beside it."):
         read_asset(tmp_path / "t.gltf")
     with pytest.raises(ExportError, match="is damaged: its JSON can't be read. Write it again."):
         read_glb_skeleton(tmp_path / "t.gltf")

@@ -49,7 +49,9 @@ class Document:
             if path.suffix.lower() != ".gltf":
                 raise ValueError("no glTF header")
             return cls(json.loads(data), b"", path.parent, {})
-        length = struct.unpack_from("<I", data, 12)[0]
+        whole, length = struct.unpack_from("<II", data, 8)
+        if len(data) < whole:
+            raise ExportError(f"{path} is cut short: it has {len(data):,} bytes of {whole:,}.", remedy="Write it again, or copy it again.")
         rest = 20 + length
         size = struct.unpack_from("<I", data, rest)[0] if rest < len(data) else 0
         return cls(json.loads(data[20:rest]), data[rest + 8 : rest + 8 + size], path.parent, {})

@@ -38,10 +38,13 @@ def read_asset(path: str | os.PathLike) -> Asset:
         document = Document.read(Path(path))
         return _asset(document)
     except OSError as error:
-        what = f"{path} can't be read: {error.strerror or 'an image in it is damaged'}"
+        missing = f"{Path(error.filename).name}: " if error.filename and Path(error.filename).name != Path(path).name else ""
+        what = f"{path} can't be read: {missing}{(error.strerror or 'an image in it is damaged').lower()}"
         raise ExportError(f"{what}.", remedy="Check the path.") from error
     except _BROKEN as error:
-        raise ExportError(f"{path} is not a GLB file that can be shown.", remedy="Give a .glb file with its textures inside.") from error
+        loose = Path(path).suffix.lower() == ".gltf"
+        remedy = "Give a .gltf file with its buffers and textures beside it." if loose else "Give a .glb file with its textures inside."
+        raise ExportError(f"{path} is not a {'glTF' if loose else 'GLB'} file that can be shown.", remedy=remedy) from error
 
 
 def read_glb_skeleton(path: str | os.PathLike) -> TreeSkeleton:
