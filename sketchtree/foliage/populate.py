@@ -30,6 +30,7 @@ from sketchtree.foliage.wear import Wear, wear_of
 from sketchtree.parameters import Habit
 from sketchtree.roots import without_roots
 from sketchtree.skeleton import TreeSkeleton
+from sketchtree.traverse import is_tip
 
 _UP = np.array([0.0, 1.0, 0.0])
 _OUTER = 0.7  # outer share of a limb that carries leaves where it is thin enough
@@ -86,13 +87,15 @@ def all_buds(tree: TreeSkeleton, habit: Habit, wear: Wear, key: Key[Array, ""]) 
 
 
 def leafy_wood(pieces: Twigs, tree: TreeSkeleton, habit: Habit, wear: Wear) -> Twigs:
-    """Of all wood, what carries leaves; of a palm, its fronds. A palm's fans stand on its leaf stalks, not on their ribs."""
+    """Of all wood, what carries leaves; of a palm, its fronds. A palm's fans stand on its leaf stalks, not on their ribs. The thick end of a
+    limb carries none, however its surface runs out."""
     if wear.arrangement == "frond":
         pieces = fronds(pieces, tree)
         stalks = wear.model.fan > 0 and habit.leaf_arrangement == "frond"
         return pieces.select(tree.order[pieces.row] <= 1) if stalks else pieces
     reach = wear.model.shoot * habit.twig_length
-    return leafy(pieces, tree.order, thickest=THICKEST * habit.twig_radius, reach=reach, share=_OUTER)
+    stump = is_tip(tree.parent) & (tree.radius > THICKEST * habit.twig_radius)
+    return leafy(pieces.select(~stump[pieces.row]), tree.order, thickest=THICKEST * habit.twig_radius, reach=reach, share=_OUTER)
 
 
 def unfold(tree: TreeSkeleton, stand: Buds, shoots, wear: Wear, season: str, key) -> Leaves:

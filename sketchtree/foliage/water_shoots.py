@@ -6,7 +6,8 @@ nodes of old wood, those stay that have no leaf within `APART` lengths of a shoo
 
     P(shoot) = I        the share of the open sky's light there (`crown_light`)
 
-so that the inside of a full crown stays as bare as it is. A shoot is as long as a twig of its species. Trunks bear none, nor do needles and palms.
+so that the inside of a full crown stays as bare as it is. A shoot is as long as a twig of its species. Trunks bear none, nor do the ends of
+limbs that were sawn off, needles and palms, and trees without a leaf elsewhere.
 """
 
 from dataclasses import replace
@@ -37,10 +38,11 @@ def water_shoots(
     length = 1.2 * habit.twig_length
     model = replace(wear.model, spur=max(2, round(length / (STRETCH * wear.spacing))), every=max(1, round(_EVERY / wear.spacing)))
     wear = replace(wear, model=model)
-    old = pieces.select(_bare(pieces, order, habit) if wear.model.is_blade and wear.arrangement != "frond" else np.zeros(len(pieces), bool))
+    able = wear.model.is_blade and wear.arrangement != "frond" and len(borne) > 0
+    old = pieces.select(_bare(pieces, order, habit) & able)
     nodes = stem_nodes(old, limb, wear, key)
     nodes = nodes.select((nodes.node % model.every == 0) & (nodes.along > 1 - _OUTER))
-    if len(nodes) and len(borne):
+    if len(nodes):
         nodes = nodes.select(cKDTree(borne.foot).query(nodes.foot, distance_upper_bound=APART * length)[0] > APART * length)
         nodes = nodes.select(keys.uniform(key, nodes.id, _WAKES) < light_at(nodes.foot, borne.foot, wear.size))
     stems, shoots = short_shoots(nodes, wear, key, longest=length)
@@ -48,6 +50,8 @@ def water_shoots(
 
 
 def _bare(pieces: Twigs, order, habit: Habit) -> Bool[np.ndarray, " piece"]:
-    """The wood of limbs that is too thick for leaves, but not as thick as the boughs that carry the crown."""
+    """The wood of limbs that is too thick for leaves, but not as thick as the boughs that carry the crown; no limb's last row."""
+    last = np.zeros(len(order), bool)
+    last[pieces.row[pieces.to_tip < 1e-9]] = True
     thick = (pieces.end_radius > THICKEST * habit.twig_radius) & (pieces.end_radius <= _BOUGH * habit.twig_radius)
-    return thick & (order[pieces.row] > 0) & (pieces.length > 1e-9)
+    return thick & ~last[pieces.row] & (order[pieces.row] > 0) & (pieces.length > 1e-9)

@@ -1,11 +1,12 @@
 """How does a limb end that was drawn thick up to its end? Like a limb: it runs out into a twig.
 
 A pen is many times as wide as a twig, so a stroke of varying width ends in a stump. Where nothing stands on a drawn limb's last stretch and
-its tip is thicker than `_STOUT` times the tree's thinnest wood t, the stretch thins and ends as thick as that:
+its tip is `_STOUT` to `_SAWN` times as thick as the tree's thinnest wood t, the stretch thins and ends as thick as that:
 
     r'(s) = t + (r(s) − t) w^¾        w = (S − s) / ℓ, in the last ℓ = min(`_LONG` r(S), S / 2) metres of a limb S long
 
-This shapes the surface only: the skeleton keeps the radii that were drawn. Measured wood ends as it was measured.
+This shapes the surface only: the skeleton keeps the radii that were drawn. Measured wood ends as it was measured,
+and what is thicker ends in a stump: it was sawn off.
 """
 
 import numpy as np
@@ -13,7 +14,7 @@ from jaxtyping import Bool, Float, Int
 
 from sketchtree.axes import NULL
 
-_STOUT = 4.0
+_STOUT, _SAWN = 4.0, 16.0
 _LONG = 24.0
 _TAPER = 0.75
 
@@ -35,7 +36,7 @@ def run_out(
     highest = np.zeros(len(length))
     on = parent != NULL
     np.maximum.at(highest, parent[on], parent_s[on])
-    stout = drawn & (tip > _STOUT * thinnest)
+    stout = drawn & (tip > _STOUT * thinnest) & (tip <= _SAWN * thinnest)
     ell = np.where(stout, np.minimum(ell, length - highest - tip), 0.0)
     ell = np.where(ell > 2.0 * tip, ell, 0.0)
     of = np.repeat(np.arange(len(length)), np.diff(start))
