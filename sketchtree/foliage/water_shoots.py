@@ -43,7 +43,7 @@ def water_shoots(
     nodes = stem_nodes(old, limb, wear, key)
     nodes = nodes.select((nodes.node % model.every == 0) & (nodes.along > 1 - _OUTER))
     if len(nodes):
-        nodes = nodes.select(cKDTree(borne.foot).query(nodes.foot, distance_upper_bound=APART * length)[0] > APART * length)
+        nodes = nodes.select(cKDTree(borne.foot, balanced_tree=False, compact_nodes=False).query(nodes.foot, distance_upper_bound=APART * length)[0] > APART * length)
         nodes = nodes.select(keys.uniform(key, nodes.id, _WAKES) < light_at(nodes.foot, borne.foot, wear.size))
     stems, shoots = short_shoots(nodes, wear, key, longest=length)
     return spread(stems, wear), shoots
