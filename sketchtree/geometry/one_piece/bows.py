@@ -2,7 +2,7 @@
 
 Along each generator a quadratic Bezier curve runs from the outline's corner P, by F + (P − A), to the shoulder C (A, F and C
 as found for the limb alone, see `outlines`), and on along the generator to the collar's top. The tube's collar does the same
-with P = A; here P has moved where limbs crowd.
+with P = A; here P has moved where limbs crowd, and the shoulder stands the farther up the tube.
 """
 
 import numpy as np
@@ -33,6 +33,7 @@ def bow(
         ring = grid.ring.start[collars.limb[some]][:, None] + np.arange(size)
         vertex = grid.first[ring][..., None] + np.arange(n)
         start, (low, foot, shoulder), top = corner[at], profile[:, at], x[vertex[:, -1]]
+        shoulder = shoulder + collars.ease[some][:, None, None] * (top - shoulder)
         bowed = int(bow_rings(size))
         above = size - 1 - bowed  # rings between the bow and the top
         t = np.linspace(0.0, 1.0, bowed)[:, None, None]

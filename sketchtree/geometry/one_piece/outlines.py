@@ -32,6 +32,7 @@ class Collars:
     size: Int[np.ndarray, " fork"]  # rings, the outline included; 2 for a thin limb
     top: Float[np.ndarray, " fork"]  # metres along the limb: its last ring
     width: Float[np.ndarray, " fork"]  # / radius of the limb
+    ease: Float[np.ndarray, " fork"]  # share of the way from the shoulder to the top that the bow takes longer, for an outline that has moved
 
 
 @dataclass(frozen=True, eq=False)
@@ -78,14 +79,14 @@ def collars_of(lines: CentreLines, foot_side: Int[np.ndarray, " limb"], detail: 
     """How large the collar of every lateral is; limbs that bear others keep the upper half of their length free."""
     limb = np.flatnonzero(lines.parent != NULL)
     if len(limb) == 0:
-        return Collars(limb, limb, np.zeros(0), np.zeros(0))
+        return Collars(limb, limb, np.zeros(0), np.zeros(0), np.zeros(0))
     thick = lines.radius[lines.start[:-1]][limb] >= detail.collar_radius * height
     width = np.where(thick, _WIDTH, _THIN_WIDTH)
     way = ways_out(lines, limb)
     bears = np.isin(limb, lines.parent)
     most = np.where(bears, 0.5, 0.85) * lines.length[limb]
     top = np.where(way.leaves, np.minimum(way.clear(width + 0.4), most), 0.5 * lines.length[limb])
-    return Collars(limb, np.where(thick, collar_rings(foot_side[limb]) - 1, 2), top, width)
+    return Collars(limb, np.where(thick, collar_rings(foot_side[limb]) - 1, 2), top, width, np.zeros(len(limb)))
 
 
 def outlines(lines: CentreLines, grid: Grid, x: Float[np.ndarray, "vertex 3"], collars: Collars) -> tuple[Outlines, Float[np.ndarray, "3 corner 3"]]:

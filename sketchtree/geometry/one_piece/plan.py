@@ -5,7 +5,7 @@
 Within the block of cells that makes way for a limb neither the sides of the rings nor the repeat of the bark change.
 """
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 import numpy as np
 from jaxtyping import Bool, Float, Int
@@ -21,6 +21,9 @@ from sketchtree.geometry.rings import Forks, rings
 
 _SLENDER = 45.0  # farthest two rings stand apart, / radius
 _BESIDE = 1.8  # where a fork's own rings stand, / margin of its hole
+_SHIFTED = 0.25  # an outline that moved farther has a longer collar, / radius of the limb
+_LONGER = 1.5  # by so many times as far as it moved
+_SHOULDER = 0.4  # from a collar's shoulder to its top, about, / the same
 _CLOSE = 1.2  # how far other rings keep away from them, / the same
 
 
@@ -50,6 +53,8 @@ def plan_one_piece(lines: CentreLines, detail: Detail, height: float) -> Plan:
     alone, profile = outlines(lines, grid, circles(grid, lines, 0.0), collars)
     room = 0.25 * np.minimum(lines.length - top, lines.radius[lines.start[:-1]])
     moved, _ = apart(alone, top + 0.6 * room, lines.length - 0.6 * room)
+    collars = _eased(collars, alone, moved, lines)
+    top[collars.limb] = collars.top
     ring = rings(lines, top, size, detail, height, slender=_SLENDER, forks=_wanted(moved, lines))
     first = ring.start[:-1] + size - 1
     last = np.searchsorted(ring.limb * _stride(ring) + ring.s, np.arange(len(lines)) * _stride(ring) + lines.length * (1 + 1e-12), side="right") - 1
@@ -57,6 +62,18 @@ def plan_one_piece(lines: CentreLines, detail: Detail, height: float) -> Plan:
     within, step = inside(blocks, len(ring.s))
     level = _levels(ring, side, size, step, tolerance, detail)
     return Plan(Grid.of(ring, side, level), collars, moved, profile, first, last, within)
+
+
+def _eased(collars: Collars, alone: Outlines, moved: Outlines, lines: CentreLines) -> Collars:
+    """Longer collars for the limbs whose outlines had to move, so that the surface does not hang over;
+    not beyond half the way to what stands on them."""
+    (west, east, low, high), (west_, east_, low_, high_) = alone.box(), moved.box()
+    far = np.hypot(0.5 * (west_ + east_ - west - east) * alone.thick, 0.5 * (low_ + high_ - low - high))
+    far = np.where((collars.size > 2) & (far > _SHIFTED * alone.thin), far, 0.0)
+    free = 0.85 * lines.length
+    np.minimum.at(free, moved.parent, low_ - margins(moved) * (1.0 + _BESIDE))
+    longer = np.clip(0.5 * (free[collars.limb] - collars.top), 0.0, _LONGER * far)
+    return replace(collars, top=collars.top + longer, ease=longer / (longer + _SHOULDER * alone.thin))
 
 
 _NONE = Forks(np.zeros(0, np.int64), np.zeros(0), np.zeros(0))
