@@ -1,6 +1,7 @@
 """A mesh in glTF's words: one primitive, its columns as small as the format lets them be without an extension.
 
     POSITION NORMAL TEXCOORD_n TANGENT   32-bit floats; tangents where there is a normal map
+    TEXCOORD_n, n > 0, within 0-1        normalised 16 bits: wind and places in small textures need no more
     COLOR_n                              normalised bytes, four channels
     JOINTS_n WEIGHTS_n                   bytes (joints: two where there are more than 256); weights sum to 255
     indices                              16 bits up to 65,535 vertices
@@ -56,10 +57,17 @@ def _columns(tables: Tables, mesh: Mesh, skinned: bool) -> dict:
         attributes["COLOR_0"] = _color(tables, np.ones((len(mesh.position), 4)))
     for name, column in mesh.extra.items():
         if not _JOINTS.fullmatch(name):
-            attributes[name] = _color(tables, column) if name.startswith("COLOR_") else tables.column(column.astype("<f4"))
+            attributes[name] = _color(tables, column) if name.startswith("COLOR_") else _further(tables, name, column)
     if skinned:
         attributes |= _influences(tables, mesh)
     return attributes
+
+
+def _further(tables: Tables, name: str, column) -> int:
+    """A texture set beyond the first, in half the bytes where it holds shares; any other column as it is."""
+    if name.startswith("TEXCOORD_") and len(column) and column.min() >= 0 and column.max() <= 1:
+        return tables.column(np.round(np.asarray(column, float) * 65535.0).astype("<u2"), normalized=True)
+    return tables.column(column.astype("<f4"))
 
 
 def _color(tables: Tables, color) -> int:
