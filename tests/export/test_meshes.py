@@ -26,7 +26,7 @@ def test_an_obj_names_its_materials_and_textures(tmp_path):
     assert "mtllib tree.mtl" in (tmp_path / "tree.obj").read_text()
     library = (tmp_path / "tree.mtl").read_text()
     named = [word for line in library.splitlines() for word in line.split()[1:] if word.endswith((".png", ".jpg"))]
-    assert len(named) == 5 and all((tmp_path / name).exists() for name in named)
+    assert len(set(named)) == 5 and all((tmp_path / name).exists() for name in named)
     assert "map_d tree_leaf_checks_alpha.png" in library
 
 
@@ -135,3 +135,9 @@ def test_same_wood_same_3mf(tmp_path):
     for name in ("a.3mf", "b.3mf"):
         write_meshes(tmp_path / name, [textured()])
     assert (tmp_path / "a.3mf").read_bytes() == (tmp_path / "b.3mf").read_bytes()
+
+
+def test_a_normal_map_of_an_obj_has_both_words_that_programs_know(tmp_path):
+    write_meshes(tmp_path / "t.obj", [textured()])
+    lines = (tmp_path / "t.mtl").read_text().splitlines()
+    assert {"norm t_wood_checks_normal.jpg", "map_Bump t_wood_checks_normal.jpg", "map_Kd t_wood_checks_diffuse.jpg", "map_Pr t_wood_checks_rough.jpg"} <= set(lines)

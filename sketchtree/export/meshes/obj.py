@@ -1,7 +1,8 @@
 """OBJ with its `.mtl` and its textures beside it, all named after it. Metres, y up.
 
 What OBJ has no word for, MTL's physically based extension says as Blender writes and reads it: `Pr` and `map_Pr` roughness,
-`norm` a tangent-space normal map. The tint of each leaf has no place in it: the mean of all is in the texture.
+`norm` a tangent-space normal map, and `map_Bump` the same once more, since Blender knows a normal map by that word only. The tint of
+each leaf has no place in it: the mean of all is in the texture.
 """
 
 import dataclasses
@@ -65,5 +66,5 @@ def _material(path: Path, material: Material, files: dict[Path, bytes]) -> str:
             data, media = encode(image, quality)
             name = f"{path.stem}_{material.name}_{part}{ending(media)}"
             files[path.with_name(name)] = data
-            lines.append(f"{word} {name}")
+            lines += [f"{word} {name}", *([f"map_Bump {name}"] if word == "norm" else [])]
     return "\n".join(lines) + "\n"
