@@ -8,7 +8,7 @@ from benchmarks.levels import leaf_area
 from sketchtree.commands import app
 from sketchtree.export.gltf import read_asset
 from sketchtree.geometry.instances import Instances
-from sketchtree.levels import make
+from sketchtree.levels import make, spend
 from sketchtree.levels.impostor import impostor
 from sketchtree.levels.make import SHARES
 from sketchtree.options import FileOptions
@@ -30,6 +30,7 @@ def coarse():
     with pytest.MonkeyPatch.context() as patch:
         patch.setattr(make, "impostor", lambda meshes: impostor(meshes, pixels=64))
         patch.setattr(make, "_PIXELS", 96)
+        patch.setattr(spend, "_PIXELS", 96)
         yield
 
 

@@ -35,7 +35,7 @@ def made():
     with pytest.MonkeyPatch.context() as patch:
         patch.setattr(make, "impostor", lambda meshes: impostor(meshes, pixels=64))
         patch.setattr(make, "_PIXELS", 128)
-        patch.setattr(spend, "_PIXELS", 160)
+        patch.setattr(spend, "_PIXELS", 120)
         model = tree()
         yield model, make_levels(model)
 
@@ -75,7 +75,7 @@ def test_coverages_fall_and_a_larger_error_moves_them_up(made):
     assert coverage == sorted(coverage, reverse=True) and coverage[-1] == 0.0
     with pytest.MonkeyPatch.context() as patch:
         patch.setattr(make, "_PIXELS", 128)
-        patch.setattr(spend, "_PIXELS", 160)
+        patch.setattr(spend, "_PIXELS", 120)
         bold = make_levels(model, pixel_error=3.0, with_impostor=False)
     assert len(bold) == 4 and bold[2].coverage == 0 or bold[2].coverage >= levels[2].coverage
     assert bold[1].coverage == pytest.approx(min(3 * levels[1].coverage, 1.0), rel=1e-6)
@@ -84,7 +84,7 @@ def test_coverages_fall_and_a_larger_error_moves_them_up(made):
 def test_one_level_alone_is_that_of_the_set(made):
     model, levels = made
     with pytest.MonkeyPatch.context() as patch:
-        patch.setattr(spend, "_PIXELS", 160)
+        patch.setattr(spend, "_PIXELS", 120)
         alone = level_of_detail(model, 1)
     assert [part.triangle_count for part in alone] == [part.triangle_count for part in levels[1].parts]
     assert all((one.position == other.position).all() for one, other in zip(alone, levels[1].parts, strict=True))
