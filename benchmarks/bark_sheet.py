@@ -13,7 +13,7 @@ from PIL import Image, ImageDraw, ImageFont
 
 from sketchtree.foliage.painting import to_linear, to_srgb
 from sketchtree.geometry.bark import bark_material, bark_names
-from sketchtree.geometry.bark_relief import TILE
+from sketchtree.geometry.bark.relief import TILE
 
 PAPER, INK = (246, 245, 240), (60, 60, 56)
 SUN = np.array([-0.55, 0.45, 0.70]) / np.linalg.norm([-0.55, 0.45, 0.70])  # x right, y up, z to the viewer

@@ -3,9 +3,9 @@ import pytest
 
 from sketchtree.errors import OptionError
 from sketchtree.geometry.bark import bark_material, bark_names
-from sketchtree.geometry.bark_noise import clouds, dashes, scales
-from sketchtree.geometry.bark_relief import Relief, normal_map
-from sketchtree.geometry.bark_young import YOUNG
+from sketchtree.geometry.bark.noise import clouds, dashes, scales
+from sketchtree.geometry.bark.relief import Relief, normal_map
+from sketchtree.geometry.bark.young import YOUNG
 
 every_bark = pytest.mark.parametrize("name", bark_names())
 

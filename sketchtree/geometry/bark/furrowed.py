@@ -1,7 +1,7 @@
 """Barks that tear into ridges as the stem swells: oak, willow, poplar."""
 
-from sketchtree.geometry.bark_noise import blurred, clouds, dashes, furrows, mixed, ramp, warped
-from sketchtree.geometry.bark_relief import Relief
+from sketchtree.geometry.bark.noise import blurred, clouds, dashes, furrows, mixed, ramp, warped
+from sketchtree.geometry.bark.relief import Relief
 
 
 def oak(pixels: int) -> Relief:

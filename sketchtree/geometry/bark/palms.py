@@ -1,9 +1,9 @@
-"""Stems of palms and dragon trees: coconut, fan palm, dragon tree. The date palm's is `bark_smooth.palm`."""
+"""Stems of palms and dragon trees: coconut, fan palm, dragon tree. The date palm's is `smooth.palm`."""
 
 import numpy as np
 
-from sketchtree.geometry.bark_noise import blurred, clouds, dashes, furrows, mixed, ramp
-from sketchtree.geometry.bark_relief import Relief
+from sketchtree.geometry.bark.noise import blurred, clouds, dashes, furrows, mixed, ramp
+from sketchtree.geometry.bark.relief import Relief
 
 
 def coconut(pixels: int) -> Relief:

@@ -1,41 +1,41 @@
 """Which bark does the wood wear?
 
-Barks are drawn by code: a relief (`bark_furrowed`, `bark_ribbed`, `bark_scaly`, `bark_peeling`, `bark_smooth`, `bark_palms`) gives colour, normals and roughness of one
+Barks are drawn by code: a relief (`furrowed`, `ribbed`, `scaly`, `peeling`, `smooth`, `palms`) gives colour, normals and roughness of one
 tile that repeats without a seam and stands for half a metre of stem.
 """
 
 from functools import lru_cache
 
 from sketchtree.errors import OptionError
-from sketchtree.geometry import bark_furrowed, bark_palms, bark_peeling, bark_ribbed, bark_scaly, bark_smooth
-from sketchtree.geometry.bark_relief import Relief, albedo, normal_map, roughness_map
-from sketchtree.geometry.bark_young import YOUNG, rachis, young
+from sketchtree.geometry.bark import furrowed, palms, peeling, ribbed, scaly, smooth
+from sketchtree.geometry.bark.relief import Relief, albedo, normal_map, roughness_map
+from sketchtree.geometry.bark.young import YOUNG, rachis, young
 from sketchtree.geometry.mesh import Material
 
 _BARKS = {
-    "oak": bark_furrowed.oak,
-    "beech": bark_smooth.beech,
-    "birch": bark_smooth.birch,
-    "willow": bark_furrowed.willow,
-    "poplar": bark_furrowed.poplar,
-    "apple": bark_scaly.apple,
-    "spruce": bark_scaly.spruce,
-    "pine": bark_scaly.pine,
-    "palm": bark_smooth.palm,
-    "ash": bark_ribbed.ash,
-    "lime": bark_ribbed.lime,
-    "elm": bark_ribbed.elm,
-    "maple": bark_ribbed.maple,
-    "plane": bark_peeling.plane,
-    "cherry": bark_peeling.cherry,
-    "chestnut": bark_peeling.chestnut,
-    "cypress": bark_peeling.cypress,
-    "cedar": bark_peeling.cedar,
-    "larch": bark_peeling.larch,
-    "coconut": bark_palms.coconut,
-    "fan_palm": bark_palms.fan_palm,
-    "dragon_tree": bark_palms.dragon_tree,
-    "dead": bark_ribbed.dead,
+    "oak": furrowed.oak,
+    "beech": smooth.beech,
+    "birch": smooth.birch,
+    "willow": furrowed.willow,
+    "poplar": furrowed.poplar,
+    "apple": scaly.apple,
+    "spruce": scaly.spruce,
+    "pine": scaly.pine,
+    "palm": smooth.palm,
+    "ash": ribbed.ash,
+    "lime": ribbed.lime,
+    "elm": ribbed.elm,
+    "maple": ribbed.maple,
+    "plane": peeling.plane,
+    "cherry": peeling.cherry,
+    "chestnut": peeling.chestnut,
+    "cypress": peeling.cypress,
+    "cedar": peeling.cedar,
+    "larch": peeling.larch,
+    "coconut": palms.coconut,
+    "fan_palm": palms.fan_palm,
+    "dragon_tree": palms.dragon_tree,
+    "dead": ribbed.dead,
 }
 
 

@@ -2,8 +2,8 @@
 
 import numpy as np
 
-from sketchtree.geometry.bark_noise import clouds, dashes, mixed, ramp
-from sketchtree.geometry.bark_relief import Relief
+from sketchtree.geometry.bark.noise import clouds, dashes, mixed, ramp
+from sketchtree.geometry.bark.relief import Relief
 
 YOUNG = {
     "oak": (0.47, 0.43, 0.35),

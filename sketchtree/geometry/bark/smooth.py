@@ -2,8 +2,8 @@
 
 import numpy as np
 
-from sketchtree.geometry.bark_noise import blurred, clouds, dashes, mixed, ramp, warped
-from sketchtree.geometry.bark_relief import Relief
+from sketchtree.geometry.bark.noise import blurred, clouds, dashes, mixed, ramp, warped
+from sketchtree.geometry.bark.relief import Relief
 
 
 def beech(pixels: int) -> Relief:

@@ -5,7 +5,7 @@ from dataclasses import dataclass
 import numpy as np
 from jaxtyping import Float, UInt8
 
-from sketchtree.geometry.bark_noise import blurred
+from sketchtree.geometry.bark.noise import blurred
 
 TILE = 0.5  # metres, side of every bark's tile
 
