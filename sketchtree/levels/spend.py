@@ -30,6 +30,7 @@ from sketchtree.skeleton import TreeSkeleton
 _FORMS = (4.0, 3.0, 2.5, 2.0, 1.5, 1.25, 1.0, 0.8, 0.65, 0.5, 0.4, 0.3, 0.22, 0.16, 0.12, 0.08)  # triangles a picture of a leaf
 _STEMS = (6, 3, 1, 0)  # triangles a short shoot
 _WOOD = (1.0, 0.7, 0.5, 0.4, 0.32, 0.26, 0.2, 0.15, 0.11, 0.08, 0.055, 0.035, 0.02)  # shares of the full wood's triangles
+_UNSPENT = 0.75  # of a level, what leaves may leave to the wood
 _SIDES, _SIDE, _PIXELS = 16, 1, 512  # the side that is looked at, of so many round the tree: none that anyone else measures by
 
 
@@ -53,20 +54,19 @@ class Budget:
         self._wood = LevelWood.of(skeleton, bark=dress.bark, habit=dress.habit, leafy=leafy)
         self._views = views_round(full, _SIDES, _PIXELS)[_SIDE : _SIDE + 1]
         self._all = self._shown(full)
-        self._woods: list[_Form] | None = None
-        self._foliage: list[_Form] | None = None
-        self._shoots: list[_Form] | None = None
+        self._made: dict[tuple, _Form] = {}
+        self._total = sum(mesh.triangle_count for mesh in full if not mesh.name.startswith("leaf"))
 
     def meshes(self, triangles: int) -> tuple[Mesh, ...]:
         """At most so many triangles: wood first, then leaves and blossoms if there are any."""
         if not self._worn or not self._views:
             return self._wood.meshes(triangles)
-        self._make(triangles)
+        woods, foliage, shoots = self._woods(triangles), self._foliage(triangles), self._shoots()
         best, chosen = -1.0, None
-        for leaves in self._foliage:
-            for stem in self._shoots:
+        for leaves in foliage:
+            for stem in shoots:
                 left = triangles - leaves.triangles - stem.triangles
-                wood = next((form for form in self._woods if form.triangles <= left), None)
+                wood = next((form for form in woods if form.triangles <= left), None)
                 if left < 0 or wood is None:
                     continue
                 parts = zip(self._all, leaves.shown, stem.shown, wood.shown, strict=True)
@@ -75,17 +75,25 @@ class Budget:
                     best, chosen = found, (leaves.how, stem.how)
         if chosen is None:
             return self._wood.meshes(triangles)
-        foliage = self._cards(*chosen)
-        return (*self._wood.meshes(triangles - sum(mesh.triangle_count for mesh in foliage)), *foliage)
+        worn = self._cards(*chosen)
+        return (*self._wood.meshes(triangles - sum(mesh.triangle_count for mesh in worn)), *worn)
 
-    def _make(self, triangles: int) -> None:
-        """The forms that a level of so many triangles, or one with fewer, may take."""
-        if self._woods is None:
-            total = sum(mesh.triangle_count for mesh in self._full if not mesh.name.startswith("leaf"))
-            self._woods = [self._form(self._wood.meshes(int(share * total)), share) for share in _WOOD] + [self._form((), 0.0)]
-            counts = sorted({self._counts(form) for form in _FORMS}, reverse=True)
-            self._foliage = [self._form(self._cards(count, 0), count) for count in counts if min(count) >= 1 and sum(count) <= triangles]
-            self._shoots = self._stems()
+    def _woods(self, triangles: int) -> list[_Form]:
+        """Forms of the wood that so many triangles allow, the richest first; none at all is the last."""
+        shares = [share for share in _WOOD if share * self._total <= triangles]
+        return [self._kept(("wood", share), lambda share=share: self._wood.meshes(int(share * self._total)), share) for share in shares] + [self._kept(("wood", 0.0), tuple, 0.0)]
+
+    def _foliage(self, triangles: int) -> list[_Form]:
+        """Forms of the leaves that so many triangles allow and that leave no more than `_UNSPENT` of them to the wood, or the poorest."""
+        counts = sorted({self._counts(form) for form in _FORMS if min(self._counts(form)) >= 1}, reverse=True)
+        able = [count for count in counts if sum(count) <= triangles]
+        some = [count for count in able if sum(count) >= (1 - _UNSPENT) * triangles] or able[:1]
+        return [self._kept(("leaf", count), lambda count=count: self._cards(count, 0), count) for count in some]
+
+    def _kept(self, name: tuple, make, how) -> _Form:
+        if name not in self._made:
+            self._made[name] = self._form(make(), how)
+        return self._made[name]
 
     def _counts(self, form: float) -> tuple[int, ...]:
         """Triangles of each set of leaves in a form."""
@@ -95,14 +103,11 @@ class Budget:
         made = [leaf_cards(leaves, season=self._season, triangles=max(count, 1), stem=stem) for leaves, count in zip(self._worn, counts, strict=True)]
         return tuple(mesh for mesh in made if mesh.triangle_count)
 
-    def _stems(self) -> list[_Form]:
-        """Short shoots alone."""
-        shoots = sum(len(leaves.shoot) for leaves in self._worn)
-        forms = []
-        for stem in _STEMS if shoots else (0,):
-            made = [_stem_mesh(leaves, stem) for leaves in self._worn if stem and len(leaves.shoot)]
-            forms.append(_Form(stem * shoots, self._shown(made), stem))
-        return forms
+    def _shoots(self) -> list[_Form]:
+        """Forms of the short shoots."""
+        any_ = any(len(leaves.shoot) for leaves in self._worn)
+        made = lambda stem: [_stem_mesh(leaves, stem) for leaves in self._worn if stem and len(leaves.shoot)]  # noqa: E731
+        return [self._kept(("stem", stem), lambda stem=stem: made(stem), stem) for stem in (_STEMS if any_ else (0,))]
 
     def _form(self, meshes: Sequence[Mesh], how) -> _Form:
         return _Form(sum(mesh.triangle_count for mesh in meshes), self._shown(meshes), how)

@@ -130,7 +130,7 @@ def test_a_folder_that_is_not_there_is_refused_before_drawing(tmp_path):
 
 
 def test_a_missing_file_is_refused(tmp_path):
-    with pytest.raises(ExportError, match=r"can't be read: No such file or directory\. Check the path\."):
+    with pytest.raises(ExportError, match=r"can't be read: no such file or directory\. Check the path\."):
         preview(tmp_path / "none.glb", tmp_path / "a.png")
 
 
