@@ -34,7 +34,8 @@ def strip(leaf: Painting, pictures: list[tuple[Float[np.ndarray, "leaf 2"], Floa
     """The pictures in one texture; each is given by its leaves' feet and headings (radians from upright, positive to the right)."""
     corner = [_triangle(_rim(leaf, *stand)) for stand in pictures]
     pixels = _PIXELS if len(pictures) <= _FEW else _PIXELS // 2
-    drawn = [_drawn(leaf, *stand, box, pixels) for stand, box in zip(pictures, corner, strict=True)]
+    softened: dict[float, dict] = {}
+    drawn = [_drawn(leaf, *stand, box, pixels, softened) for stand, box in zip(pictures, corner, strict=True)]
     columns = int(np.ceil(np.sqrt(len(drawn))))
     rows = [drawn[k : k + columns] for k in range(0, len(drawn), columns)]
     wide = max(sum(one.coverage.shape[1] for one in row) for row in rows)
@@ -141,14 +142,17 @@ def _triangle(point: Float[np.ndarray, "point 2"]) -> Float[np.ndarray, "3 2"]:
     return np.array(best[1])
 
 
-def _drawn(leaf: Painting, foot, heading, corner, pixels: int) -> Painting:
-    """The leaves drawn into the triangle's box, the first on top."""
+def _drawn(leaf: Painting, foot, heading, corner, pixels: int, softened: dict[float, dict]) -> Painting:
+    """The leaves drawn into the triangle's box, the first on top. `softened` keeps the leaf blurred to what a pixel sees of it."""
     low, high = corner.min(axis=0), corner.max(axis=0)
     shape = tuple(np.maximum(32, np.round(pixels * (high - low)[::-1] / (high - low).max())).astype(int))
     up, across = ((np.arange(n) + 0.5) / n for n in shape)
     y, x = np.meshgrid(high[1] - up * (high - low)[1], low[0] + across * (high - low)[0], indexing="ij")
     soft = 0.4 * (high - low)[1] / shape[0] * leaf.coverage.shape[0] / (leaf.top - leaf.bottom)
-    own = {c: ndimage.gaussian_filter(getattr(leaf, c), soft) for c in CHANNELS}
+    soft = float(np.round(4 * soft) / 4)
+    if soft not in softened:
+        softened[soft] = {c: ndimage.gaussian_filter(getattr(leaf, c), soft) for c in CHANNELS}
+    own = softened[soft]
     mixed = {c: np.full(shape, float(c == "shade")) for c in CHANNELS}
     for at, turn in reversed(list(zip(foot, heading, strict=True))):
         place = _places(leaf, x - at[0], y - at[1], turn)

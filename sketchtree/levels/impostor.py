@@ -33,7 +33,7 @@ _APART = 1e-4  # the two sides of a card stand apart, / the tree's width: progra
 _ROUND = 16  # widths of pictures are multiples of it
 _THINNEST = 0.5  # least κ
 _SOFT = 0.6  # pixels, by which coverage is blurred
-_TRIES = 5  # of finding κ
+_TRIES = 3  # of finding κ
 
 
 def impostor(meshes: Sequence[Mesh], *, pixels: int = 512) -> Mesh:
