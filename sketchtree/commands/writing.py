@@ -83,12 +83,15 @@ def write_tree(
     None of the `sketches` it was made of is overwritten."""
     kind = output.suffix.lower()
     warnings: tuple[str, ...] = ()
+    shown = model.meshes
     if files is not None and files.pack:
         _write_pack(model, output, run, files)
     elif kind in MESHES:
         from sketchtree.export.write import write_asset
 
-        warnings += write_asset(output, asset_of(model, run, files), separate=files is not None and files.levels == "apart", kept=sketches)
+        asset = asset_of(model, run, files)
+        warnings += write_asset(output, asset, separate=files is not None and files.levels == "apart", kept=sketches)
+        shown = _whole_meshes(asset) if files is not None and files.lod else shown
     elif kind in SKELETONS:
         _write_skeleton(output, model.skeleton, run)
     elif kind in PROJECTS:
@@ -98,7 +101,14 @@ def write_tree(
     if skeleton is not None:
         _write_skeleton(skeleton, model.skeleton, run)
     pictures = [path for path in (output if kind in PICTURES else None, preview) if path is not None]
-    return warnings + tuple(warning for path in pictures for warning in _picture(model, path))
+    return warnings + tuple(warning for path in pictures for warning in _picture(shown, path))
+
+
+def _whole_meshes(asset) -> list:
+    """What the finest level of a file draws."""
+    from sketchtree.geometry.instances import Instances
+
+    return [part.merged() if isinstance(part, Instances) else part for part in asset.parts]
 
 
 def asset_of(model, run: Run, files=None):
@@ -129,10 +139,10 @@ def _write_pack(model, output: Path, run: Run, files) -> None:
     write_pack(output.parent, game_pack(model, levels if far is None else levels[:-1], far, name=output.stem, about=_about(model, run)))
 
 
-def _picture(model, path: Path) -> tuple[str, ...]:
+def _picture(meshes, path: Path) -> tuple[str, ...]:
     from sketchtree.view import preview
 
-    drawn, reason = preview(model.meshes, path)
+    drawn, reason = preview(meshes, path)
     return () if drawn else (f"{path} was not drawn: {reason}",)
 
 

@@ -24,6 +24,7 @@ from sketchtree.rig.exr import exr_bytes
 from sketchtree.rig.manifest import manifest
 from sketchtree.rig.pivots import axis_texture, position_texture
 from sketchtree.rig.rigging import Rigging
+from sketchtree.rig.textures import even_material
 from sketchtree.skeleton import TreeSkeleton
 
 
@@ -62,7 +63,7 @@ def game_pack(model: Model, levels: Sequence[Level], impostor: Mesh | None = Non
     rigged = tuple(Level(tuple(_rigged(rigging, model, part) for part in level.parts if part.triangle_count), level.coverage) for level in levels)
     fitted = capsules(rigging.lines, rigging.limbs, rigging.bones)
     asset = Asset(rigged, model.skeleton, name, rigging.bones.armature, fitted.capsules, about or {})
-    far = None if impostor is None else rigging.impostor(impostor)
+    far = None if impostor is None else rigging.impostor(dataclasses.replace(impostor, material=even_material(impostor.material)))
     roles = pack_roles(name, len(rigged), far is not None)
     return Pack(asset, far, rigging, manifest(asset, rigging, fitted, roles, None if far is None else far.triangle_count))
 
@@ -110,6 +111,7 @@ def pack_roles(name: str, levels: int, impostor: bool) -> dict[str, str]:
 
 def _rigged(rigging: Rigging, model: Model, part: Mesh | Instances) -> Mesh:
     mesh = part.merged() if isinstance(part, Instances) else part
+    mesh = dataclasses.replace(mesh, material=even_material(mesh.material))
     blossom = getattr(model, "blossom", None)
     leaves = blossom if blossom is not None and "blossom" in mesh.name else model.leaves
     return rigging.leaves(mesh, leaves) if mesh.name.startswith("leaf") and len(leaves) else rigging.wood(mesh)

@@ -76,6 +76,13 @@ def test_one_level_is_that_of_the_set(sketch, together, tmp_path):
     assert json.loads((tmp_path / "r.json").read_text())["options"]["lod"] == 2
 
 
+def test_the_preview_shows_the_level_that_is_written(sketch, tmp_path, monkeypatch):
+    seen = []
+    monkeypatch.setattr("sketchtree.view.preview", lambda meshes, path: (seen.append(sum(mesh.triangle_count for mesh in meshes)), (True, ""))[1])
+    assert build(sketch, tmp_path / "t.glb", "--lod", "3", "--preview", str(tmp_path / "p.png")) == 0
+    assert seen == [read_asset(tmp_path / "t.glb").levels[0].triangle_count]
+
+
 def test_instanced_leaves_are_few_meshes_at_many_places(sketch, together, tmp_path):
     assert build(sketch, tmp_path / "t.glb", "--leaves", "instanced") == 0
     places = [part for part in read_asset(tmp_path / "t.glb").parts if isinstance(part, Instances)]
