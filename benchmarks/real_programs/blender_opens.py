@@ -10,7 +10,7 @@ import subprocess
 import sys
 from pathlib import Path
 
-from benchmarks.real_programs.ours import differences
+from benchmarks.real_programs.ours import compared, differences
 
 SCRIPT = Path(__file__).with_name("blender_side.py")
 VARIABLE = "SKETCHTREE_BLENDER_PYTHON"
@@ -33,17 +33,10 @@ def missing() -> str | None:
 
 
 def main(paths: list[str]) -> int:
-    if why := missing():
-        print(why)
-        return 2
-    failed = 0
-    for path in map(Path, paths):
-        seen = seen_by_blender(path)
-        wrong = differences(seen, path)
-        failed += bool(wrong)
-        found = f"{seen['triangles']} triangles, {len(seen['materials'])} materials, {seen['bones']} bones"
-        print(f"{path.name}: {seen['program']}, {found}: {'; '.join(wrong) or 'as we see it'}")
-    return 1 if failed else 0
+    def told(seen: dict) -> str:
+        return f"{seen['program']}, {seen['triangles']} triangles, {len(seen['materials'])} materials, {seen['bones']} bones"
+
+    return compared(paths, missing(), seen_by_blender, differences, told)
 
 
 if __name__ == "__main__":

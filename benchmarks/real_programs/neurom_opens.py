@@ -13,6 +13,7 @@ from pathlib import Path
 
 import numpy as np
 
+from benchmarks.real_programs.ours import compared
 from sketchtree.skeleton_files import read_swc
 
 VARIABLE = "SKETCHTREE_NEUROM_PYTHON"
@@ -64,16 +65,10 @@ def missing() -> str | None:
 
 
 def main(paths: list[str]) -> int:
-    if why := missing():
-        print(why)
-        return 2
-    failed = 0
-    for path in map(Path, paths):
-        seen = seen_by_neurom(path)
-        wrong = differences(seen, path)
-        failed += bool(wrong)
-        print(f"{path.name}: NeuroM {seen['version']}, {seen['points']} points, {seen['forks']} forks, {seen['length']:.1f} m: {'; '.join(wrong) or 'as we see it'}")
-    return 1 if failed else 0
+    def told(seen: dict) -> str:
+        return f"NeuroM {seen['version']}, {seen['points']} points, {seen['forks']} forks, {seen['length']:.1f} m"
+
+    return compared(paths, missing(), seen_by_neurom, differences, told)
 
 
 if __name__ == "__main__":

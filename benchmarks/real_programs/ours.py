@@ -5,13 +5,12 @@ from pathlib import Path
 import numpy as np
 
 from sketchtree.export.read import read_contents
-from sketchtree.geometry.instances import Instances
 
 
 def holds(path: Path) -> dict:
     """Triangles of the finest level, names of its materials, bounds in metres with y up."""
     parts = [part for part in read_contents(path).asset.parts if part.triangle_count]
-    meshes = [part.merged() if isinstance(part, Instances) else part for part in parts]
+    meshes = [part.merged() for part in parts]
     place = np.concatenate([mesh.position for mesh in meshes]) if meshes else np.zeros((1, 3))
     return {
         "triangles": sum(mesh.triangle_count for mesh in meshes),
@@ -32,6 +31,22 @@ def differences(seen: dict, path: Path) -> list[str]:
     if np.abs(np.subtract(seen["bounds"], ours["bounds"])).max() > 1e-3 * max(size, 1e-9):
         said.append(f"bounds {np.round(seen['bounds'], 3).tolist()}, not {np.round(ours['bounds'], 3).tolist()}")
     return said
+
+
+def compared(paths: list[str], missing: str | None, look, differing, told) -> int:
+    """Look at every file with a program and print a line each; returns the exit status.
+
+    `missing` says why the program can't be run here; `look(path)` what it sees, `differing(seen, path)` what of that is wrong, and `told(seen)` what to print."""
+    if missing:
+        print(missing)
+        return 2
+    failed = 0
+    for path in map(Path, paths):
+        seen = look(path)
+        wrong = differing(seen, path)
+        failed += bool(wrong)
+        print(f"{path.name}: {told(seen)}: {'; '.join(wrong) or 'as we see it'}")
+    return 1 if failed else 0
 
 
 def _same(name: str, seen: str) -> bool:

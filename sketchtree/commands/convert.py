@@ -79,10 +79,9 @@ def _write_asset(target: Path, asset) -> tuple[str, ...]:
 
 
 def _write_picture(target: Path, asset) -> tuple[str, ...]:
-    from sketchtree.geometry.instances import Instances
     from sketchtree.view import preview
 
-    drawn, reason = preview([part.merged() if isinstance(part, Instances) else part for part in asset.parts], target)
+    drawn, reason = preview([part.merged() for part in asset.parts], target)
     return () if drawn else (f"{target} was not drawn: {reason}",)
 
 

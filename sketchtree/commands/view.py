@@ -72,7 +72,6 @@ def _meshes(tree: Path, level: int, seed: int):
     """The meshes to show."""
     from sketchtree.errors import OptionError
     from sketchtree.export.read import read_contents
-    from sketchtree.geometry.instances import Instances
 
     contents = read_contents(tree)
     if contents.asset is None:
@@ -83,7 +82,7 @@ def _meshes(tree: Path, level: int, seed: int):
     levels = contents.asset.levels
     if level >= len(levels):
         raise OptionError(f"{tree} holds {len(levels)} level{'s' if len(levels) > 1 else ''} of detail, none numbered {level}.", remedy="Count from 0.")
-    return [part.merged() if isinstance(part, Instances) else part for part in levels[level].parts]
+    return [part.merged() for part in levels[level].parts]
 
 
 def _draw(meshes, tree: Path, screenshot, turntable, size, wanted: dict):

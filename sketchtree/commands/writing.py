@@ -91,7 +91,7 @@ def write_tree(
 
         asset = asset_of(model, run, files)
         warnings += write_asset(output, asset, separate=files is not None and files.levels == "apart", kept=sketches)
-        shown = _whole_meshes(asset) if files is not None and files.lod else shown
+        shown = [part.merged() for part in asset.parts] if files is not None and files.lod else shown
     elif kind in SKELETONS:
         _write_skeleton(output, model.skeleton, run)
     elif kind in PROJECTS:
@@ -102,13 +102,6 @@ def write_tree(
         _write_skeleton(skeleton, model.skeleton, run)
     pictures = [path for path in (output if kind in PICTURES else None, preview) if path is not None]
     return warnings + tuple(warning for path in pictures for warning in _picture(shown, path))
-
-
-def _whole_meshes(asset) -> list:
-    """What the finest level of a file draws."""
-    from sketchtree.geometry.instances import Instances
-
-    return [part.merged() if isinstance(part, Instances) else part for part in asset.parts]
 
 
 def asset_of(model, run: Run, files=None):

@@ -8,7 +8,6 @@ from pathlib import Path
 from sketchtree.asset import Asset, Level
 from sketchtree.errors import ExportError
 from sketchtree.export.files import MESHES, SKELETONS, check_extension, check_program, check_writable, write_set
-from sketchtree.geometry.instances import Instances
 from sketchtree.skeleton import TreeSkeleton
 
 
@@ -54,7 +53,7 @@ def asset_files(path: Path, asset: Asset, *, separate: bool = False, collision: 
         return usd_files(path, asset)
     from sketchtree.export.meshes import mesh_files
 
-    return mesh_files(path, [part.merged() if isinstance(part, Instances) else part for part in asset.parts])
+    return mesh_files(path, [part.merged() for part in asset.parts])
 
 
 def level_path(path: Path, number: int) -> Path:

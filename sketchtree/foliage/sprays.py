@@ -99,11 +99,6 @@ def layouts(foot: Float[np.ndarray, "spray leaf 3"], tip: Float[np.ndarray, "spr
     return found, which
 
 
-def layout(foot: Float[np.ndarray, "spray leaf 3"], tip: Float[np.ndarray, "spray leaf 3"]) -> Layout:
-    """The one typical picture of some sprays of equally many leaves."""
-    return layouts(foot, tip, 0.0)[0][0]
-
-
 def _in_plane(foot, tip):
     """Feet, and unit vectors to the tips, in each spray's own frame; leaf lengths."""
     size = np.linalg.norm(tip - foot, axis=2).mean(axis=1)[:, None, None]

@@ -41,3 +41,7 @@ class Mesh:
     def triangle_count(self) -> int:
         """How many triangles it draws."""
         return len(self.triangle)
+
+    def merged(self) -> "Mesh":
+        """Itself: what `Instances.merged` is to one mesh at many places."""
+        return self

@@ -25,10 +25,14 @@ def flare(
 ) -> Float[np.ndarray, "ring side"]:
     """Factor on the radius of every vertex of the rings `rows`; 1 but near the foot of a stem."""
     limb = ring.limb[rows]
-    foot = lines.radius[lines.start[:-1]][limb]
-    above = np.maximum(ring.s[rows] - lines.ground[limb], 0.0)
-    fade = np.where(lines.is_stem[limb], np.exp(-above / (1.1 * foot)), 0.0)
-    fade[fade < 1e-3] = 0.0
+    fade = faded(lines, limb, ring.s[rows])
     phase = (lines.limb_id % 65521)[limb] * 0.6180339887
     lobes = sum(size * np.cos(m * theta + (m + 1) * phase[:, None]) for m, size in _LOBES)
     return 1.0 + amount * fade[:, None] * (1.0 + lobes)
+
+
+def faded(lines: CentreLines, limb: Int[np.ndarray, " ring"], s: Float[np.ndarray, " ring"]) -> Float[np.ndarray, " ring"]:
+    """e^(−h / 1.1 R) at places `s` metres along stems, 0 where that is next to nothing and on other limbs."""
+    foot = lines.radius[lines.start[:-1]][limb]
+    fade = np.where(lines.is_stem[limb], np.exp(-np.maximum(s - lines.ground[limb], 0.0) / (1.1 * foot)), 0.0)
+    return np.where(fade < 1e-3, 0.0, fade)

@@ -82,21 +82,30 @@ def wood_of(
     unknown bark or way, and where a solid is wanted without manifold3d.
     """
     check_wood(wood, solid)
-    material = bark_material(bark)
-    frond = is_frond(tree) if habit.leaf_arrangement == "frond" else np.zeros(len(tree), bool)
+    bark_material(bark)  # refuse a wrong name before the work
+    frond = frond_rows(tree, habit)
     lines = centre_lines(tree, apart=frond)
     made = WAYS[1] if solid else made_as(wood, len(lines))
     skin, lines, sunk = _skin(tree, lines, frond, made, key, detail)
-    midrib = frond[lines.first_row]
-    twig = (lines.radius[lines.start[:-1]] < _YOUNG) & (lines.parent != NULL) & ~midrib
-    meshes = [skin(~(midrib | twig), "wood", material)]
-    for name, among, surface in (("wood_twigs", twig, twig_material(bark)), ("wood_rachis", midrib, rachis_material())):
-        if among.any():
-            meshes.append(skin(among, name, surface))
+    meshes = [skin(among, name, surface) for name, surface, among in limb_skins(lines, frond, bark) if name == "wood" or among.any()]
     if solid:
         whole, crumbs = united(meshes)
         return Wood(whole, "solid", (f"{crumbs} small pieces of wood touch no other and are not in the solid.",) if crumbs else ())
     return Wood(tuple(meshes), made, _warnings(wood, made, len(lines), sunk))
+
+
+def frond_rows(tree: TreeSkeleton, habit: Habit) -> Bool[np.ndarray, " segment"]:
+    """Rows that are fronds of a palm; none of other trees."""
+    return is_frond(tree) if habit.leaf_arrangement == "frond" else np.zeros(len(tree), bool)
+
+
+def limb_skins(
+    lines: CentreLines, frond: Bool[np.ndarray, " segment"], bark: str
+) -> tuple[tuple[str, Material, Bool[np.ndarray, " limb"]], ...]:
+    """Name and material of each mesh of wood, and the limbs it holds: `wood` first. Raises `OptionError` for an unknown bark."""
+    midrib = frond[lines.first_row]
+    twig = (lines.radius[lines.start[:-1]] < _YOUNG) & (lines.parent != NULL) & ~midrib
+    return ("wood", bark_material(bark), ~(midrib | twig)), ("wood_twigs", twig_material(bark), twig), ("wood_rachis", rachis_material(), midrib)
 
 
 def check_wood(wood: str | None, solid: bool) -> None:

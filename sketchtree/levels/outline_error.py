@@ -17,7 +17,7 @@ from jaxtyping import Bool
 from scipy import ndimage
 
 from sketchtree.geometry.mesh import Mesh
-from sketchtree.levels.raster import View, silhouette
+from sketchtree.levels.raster import View
 
 ROWS = 1080  # P, of the screen that coverages are reckoned for
 

@@ -39,7 +39,7 @@ class _Form:
     """One form of a part of the tree, and where it is seen."""
 
     triangles: int
-    shown: tuple[Bool[np.ndarray, "row column"], ...]
+    shown: Bool[np.ndarray, "row column"]
     how: object  # what makes it again
 
 
@@ -47,19 +47,20 @@ class Budget:
     """A tree whose triangles are to be spent. What is made once serves every level."""
 
     def __init__(self, skeleton: TreeSkeleton, worn: Sequence[Leaves], full: Sequence[Mesh], dress: Dress):
-        self._worn, self._season, self._full = tuple(worn), dress.season, tuple(full)
+        self._worn, self._season = tuple(worn), dress.season
         leafy = np.zeros(len(skeleton), bool)
         for leaves in worn:
             leafy[leaves.segment] = True
         self._wood = LevelWood.of(skeleton, bark=dress.bark, habit=dress.habit, leafy=leafy)
-        self._views = views_round(full, _SIDES, _PIXELS)[_SIDE : _SIDE + 1]
-        self._all = self._shown(full)
+        views = views_round(full, _SIDES, _PIXELS)
+        self._view = views[_SIDE] if views else None  # None: there is nothing to see
+        self._all = None if self._view is None else silhouette(full, self._view)
         self._made: dict[tuple, _Form] = {}
         self._total = sum(mesh.triangle_count for mesh in full if not mesh.name.startswith("leaf"))
 
     def meshes(self, triangles: int) -> tuple[Mesh, ...]:
         """At most so many triangles: wood first, then leaves and blossoms if there are any."""
-        if not self._worn or not self._views:
+        if not self._worn or self._view is None:
             return self._wood.meshes(triangles)
         woods, foliage, shoots = self._woods(triangles), self._foliage(triangles), self._shoots()
         best, chosen = -1.0, None
@@ -69,8 +70,7 @@ class Budget:
                 wood = next((form for form in woods if form.triangles <= left), None)
                 if left < 0 or wood is None:
                     continue
-                parts = zip(self._all, leaves.shown, stem.shown, wood.shown, strict=True)
-                found = float(np.mean([overlap(whole, one | two | three) for whole, one, two, three in parts]))
+                found = overlap(self._all, leaves.shown | stem.shown | wood.shown)
                 if found > best + 1e-9:
                     best, chosen = found, (leaves.how, stem.how)
         if chosen is None:
@@ -92,7 +92,8 @@ class Budget:
 
     def _kept(self, name: tuple, make, how) -> _Form:
         if name not in self._made:
-            self._made[name] = self._form(make(), how)
+            meshes = make()
+            self._made[name] = _Form(sum(mesh.triangle_count for mesh in meshes), silhouette(meshes, self._view), how)
         return self._made[name]
 
     def _counts(self, form: float) -> tuple[int, ...]:
@@ -108,12 +109,6 @@ class Budget:
         any_ = any(len(leaves.shoot) for leaves in self._worn)
         made = lambda stem: [_stem_mesh(leaves, stem) for leaves in self._worn if stem and len(leaves.shoot)]  # noqa: E731
         return [self._kept(("stem", stem), lambda stem=stem: made(stem), stem) for stem in (_STEMS if any_ else (0,))]
-
-    def _form(self, meshes: Sequence[Mesh], how) -> _Form:
-        return _Form(sum(mesh.triangle_count for mesh in meshes), self._shown(meshes), how)
-
-    def _shown(self, meshes: Sequence[Mesh]) -> tuple[Bool[np.ndarray, "row column"], ...]:
-        return tuple(silhouette(meshes, view) for view in self._views)
 
 
 def pictures(model: LeafModel, form: float) -> int:

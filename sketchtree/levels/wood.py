@@ -9,20 +9,16 @@ from dataclasses import dataclass, replace
 import numpy as np
 from jaxtyping import Bool, Float, Int
 
-from sketchtree.axes import NULL
-from sketchtree.geometry.bark import bark_material, rachis_material, twig_material
 from sketchtree.geometry.detail import Detail
 from sketchtree.geometry.limbs import centre_lines
 from sketchtree.geometry.mesh import Material, Mesh
-from sketchtree.geometry.radii import is_frond
 from sketchtree.geometry.rings import Rings
+from sketchtree.geometry.rootflare import faded
 from sketchtree.geometry.unwrap import circumference, lengthwise, repeats
-from sketchtree.geometry.wood import WoodPlan, plan_wood
+from sketchtree.geometry.wood import WoodPlan, frond_rows, limb_skins, plan_wood
 from sketchtree.levels.shapes import Choices, Shapes, choices_of, choose_shapes, circumradius
 from sketchtree.parameters import Habit
 from sketchtree.skeleton import TreeSkeleton
-
-_YOUNG = 0.012  # metres, radius at its foot of a limb that has no bark yet
 
 
 @dataclass(frozen=True, eq=False)
@@ -42,18 +38,12 @@ class LevelWood:
     ) -> "LevelWood":
         """Of a tree. Limbs of rows that are `leafy` are hidden by their leaves, and weigh only 1 − `hidden`; `detail` is that of the full
         tree. Raises `OptionError` for an unknown bark."""
-        frond = is_frond(tree) if habit.leaf_arrangement == "frond" else np.zeros(len(tree), bool)
+        frond = frond_rows(tree, habit)
         plan = plan_wood(tree, centre_lines(tree, apart=frond), detail)
         lines, ring = plan.lines, _flared(plan, detail.flare)
         full = (plan.side[ring.limb] >> plan.level)[(ring.start[:-1] + ring.start[1:]) // 2] if len(lines) else plan.side
         weight = np.ones(len(lines)) if leafy is None else 1.0 - hidden * leafy[lines.first_row]
-        midrib = frond[lines.first_row]
-        twig = (lines.radius[lines.start[:-1]] < _YOUNG) & (lines.parent != NULL) & ~midrib
-        kind = (
-            ("wood", bark_material(bark), ~(midrib | twig)),
-            ("wood_twigs", twig_material(bark), twig),
-            ("wood_rachis", rachis_material(), midrib),
-        )
+        kind = limb_skins(lines, frond, bark)
         return cls(plan, ring, choices_of(ring, full) if len(lines) else None, full, weight, kind)
 
     def meshes(self, triangles: int) -> tuple[Mesh, ...]:
@@ -66,21 +56,10 @@ class LevelWood:
         return (made[0], *(mesh for mesh in made[1:] if mesh.triangle_count))
 
 
-def level_wood(
-    tree: TreeSkeleton, *, bark: str, habit: Habit, triangles: int, leafy: Bool[np.ndarray, " segment"] | None = None, hidden: float = 0.5,
-    detail: Detail = Detail(),  # noqa: B008 (frozen)
-) -> tuple[Mesh, ...]:
-    """The wood in at most so many triangles, as `LevelWood` draws it."""
-    return LevelWood.of(tree, bark=bark, habit=habit, leafy=leafy, hidden=hidden, detail=detail).meshes(triangles)
-
-
 def _flared(plan: WoodPlan, amount: float) -> Rings:
     """The rings of the full tree, stems widened at the ground, without the buttresses (`geometry.rootflare`)."""
-    ring, lines = plan.ring, plan.lines
-    limb = ring.limb
-    foot = lines.radius[lines.start[:-1]][limb]
-    fade = np.where(lines.is_stem[limb], np.exp(-np.maximum(ring.s - lines.ground[limb], 0.0) / (1.1 * foot)), 0.0)
-    return replace(ring, radius=ring.radius * (1.0 + amount * np.where(fade < 1e-3, 0.0, fade)))
+    ring = plan.ring
+    return replace(ring, radius=ring.radius * (1.0 + amount * faded(plan.lines, ring.limb, ring.s)))
 
 
 def _empty(name: str, material: Material) -> Mesh:

@@ -110,7 +110,7 @@ def pack_roles(name: str, levels: int, impostor: bool) -> dict[str, str]:
 
 
 def _rigged(rigging: Rigging, model: Model, part: Mesh | Instances) -> Mesh:
-    mesh = part.merged() if isinstance(part, Instances) else part
+    mesh = part.merged()
     mesh = dataclasses.replace(mesh, material=even_material(mesh.material))
     blossom = getattr(model, "blossom", None)
     leaves = blossom if blossom is not None and "blossom" in mesh.name else model.leaves

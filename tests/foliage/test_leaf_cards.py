@@ -7,7 +7,7 @@ from sketchtree.foliage.cards import leaf_mesh
 from sketchtree.foliage.leaf_cards import leaf_cards
 from sketchtree.foliage.leaves import Leaves
 from sketchtree.foliage.populate import populate
-from sketchtree.foliage.sprays import layout, sprays
+from sketchtree.foliage.sprays import layouts, sprays
 from sketchtree.levels.raster import View, silhouette
 from tests.foliage.trees import HABIT, crown, small_tree
 
@@ -98,7 +98,7 @@ def test_the_layout_of_flat_sprays_is_their_own_from_wherever_they_are_seen():
     foot = np.array([[0.0, 0.0, 0], [0.0, -0.5, 0]])
     ahead = np.array([[0.5, 0.866, 0], [-0.5, 0.866, 0]])
     turn = np.linalg.qr(rng.normal(size=(20, 3, 3)))[0]
-    found = layout(foot @ turn, (foot + ahead) @ turn)
+    (found,), _ = layouts(foot @ turn, (foot + ahead) @ turn, 1.0)
     assert np.allclose(np.degrees(found.heading), [30, -30], atol=0.1)
     assert np.allclose(found.foot[0] - found.foot[1], [0, 0.5], atol=1e-3)
 

@@ -7,9 +7,13 @@ import pytest
 from sketchtree.geometry.wood import wood_meshes
 from sketchtree.levels.outline_error import overlap, views_round
 from sketchtree.levels.raster import silhouette
-from sketchtree.levels.wood import level_wood
+from sketchtree.levels.wood import LevelWood
 from sketchtree.parameters import Habit
 from sketchtree.skeleton import TreeSkeleton
+
+
+def level_wood(skeleton, *, triangles, **how):
+    return LevelWood.of(skeleton, **how).meshes(triangles)
 
 
 def tree(seed=0, limbs=40):

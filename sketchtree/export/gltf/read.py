@@ -29,7 +29,7 @@ _BROKEN = (KeyError, IndexError, ValueError, TypeError, AttributeError, struct.e
 
 def read_glb(path: str | os.PathLike) -> list[Mesh]:
     """What the finest level draws, as meshes in world metres. Raises ExportError for what is no glTF file."""
-    return [part.merged() if isinstance(part, Instances) else part for part in read_asset(path).parts]
+    return [part.merged() for part in read_asset(path).parts]
 
 
 def read_asset(path: str | os.PathLike) -> Asset:
