@@ -1,0 +1,47 @@
+"""All that a person has made: the drawing, what was done to the tree by hand, the options. A project file keeps this, and so does every step of undo."""
+
+import dataclasses
+from collections.abc import Mapping
+from dataclasses import dataclass, field
+
+from sketchtree.editing.edits import Edits
+from sketchtree.editing.settled import Settled
+from sketchtree.options import ReadingOptions, TreeOptions
+from sketchtree.sketch.strokes import Sketch, Stroke
+
+
+@dataclass(frozen=True)
+class Underlay:
+    """A picture to trace over. It has no part in the tree."""
+
+    picture: bytes = field(repr=False)  # PNG, JPEG or WebP, as it came
+    x: float  # of its top left corner, sketch units
+    y: float  # up
+    width: float  # sketch units
+    height: float
+    opacity: float = 0.4
+
+
+@dataclass(frozen=True, eq=False)
+class Document:
+    """Immutable; `replace` makes the next. Strokes are told by their ids, in the order they were drawn."""
+
+    strokes: Mapping[str, Stroke] = field(default_factory=dict)
+    edits: Edits = Edits()
+    settled: Settled = Settled()  # what the depths have come to; not of the user's making, but the next answer starts here
+    reading: ReadingOptions = ReadingOptions()
+    tree: TreeOptions = TreeOptions()
+    seed: int = 0
+    underlay: Underlay | None = None
+    name: str = "untitled"
+    units: str = "px"
+    page: tuple[float, float, float, float] | None = None  # left, bottom, right, top; y up
+
+    def replace(self, **fields) -> "Document":
+        """The same document with some fields exchanged."""
+        return dataclasses.replace(self, **fields)
+
+    @property
+    def sketch(self) -> Sketch:
+        """The drawing; strokes of turned pages too (`Stroke.view_deg`)."""
+        return Sketch(tuple(self.strokes.values()), name=self.name, units=self.units, page=self.page)

@@ -1,0 +1,77 @@
+"""What does the studio's server ask of the program that makes trees?
+
+The server itself imports neither jax nor any stage: whoever answers here may run in other processes (`studio.crew`). Everything is asked by revision: the newest
+wins, and what comes of an older one is not told.
+"""
+
+from collections.abc import Callable, Mapping
+from dataclasses import dataclass
+from typing import Any, Protocol
+
+from sketchtree.editing.document import Document
+from sketchtree.editing.settled import Settled
+from sketchtree.studio import messages
+
+
+@dataclass(frozen=True, eq=False)
+class Outcome:
+    """Something to tell: an event as it goes to the pages, and what the server is to keep of it."""
+
+    revision: int
+    event: bytes | messages.Event  # bytes: a binary frame, ready to be sent
+    settled: Settled | None = None  # where the depths came to, with a full `Tree`
+    limb_paths: Mapping[int, Any] | None = None  # undrawn limb → Adopted, as `find` gives
+
+
+class Engine(Protocol):
+    """Makes trees of documents. Methods are called on the server's event loop and return at once, or are awaited."""
+
+    on_outcome: Callable[[Outcome], None]  # called on the event loop
+
+    async def start(self) -> None:
+        """Get ready; compile in the background."""
+
+    async def stop(self) -> None:
+        """End all processes."""
+
+    def make(self, revision: int, document: Document) -> None:
+        """Make the tree of this document: `Tree` quick, then `Tree` full, with `Working`, `Read`, `Matches` between, or a `Trouble`. Work on an older revision ends."""
+
+    def refresh(self) -> None:
+        """A page joined: the next `Tree` frames are to be complete. `frame` gives it the present one."""
+
+    async def frame(self) -> bytes | None:
+        """A `Tree` frame with everything in it, as last made; None: nothing yet."""
+
+    def ghost(self, revision: int, document: Document, stroke: messages.Stroke | None, hold: messages.Hold | None) -> None:
+        """A `Ghost` of the stroke in hand, or of a limb that is being dragged."""
+
+    def glance(self, revision: int, document: Document | None) -> None:
+        """A `Tree` of phase "glance" of a document that is not kept."""
+
+    async def alternatives(self, revision: int, document: Document) -> tuple[messages.Alternatives, list[Settled]]:
+        """Other readings, and where the depths are in each."""
+
+    def cancel(self) -> None:
+        """Stop what is going on."""
+
+    async def find(self, document: Document, limb: int) -> Any:
+        """An undrawn limb of the present tree as an `edits.Adopted`; raises SketchTreeError where there is none of that id."""
+
+    async def read(self, data: bytes, name: str) -> Document:
+        """A document of a file: any drawing, or a project. Raises SketchTreeError."""
+
+    async def export(self, document: Document, name: str, options: dict) -> dict[str, bytes]:
+        """The files that this tree becomes, by name. Raises SketchTreeError."""
+
+    async def project(self, document: Document) -> bytes:
+        """The bytes of a project file."""
+
+    async def texture(self, key: str, kind: str) -> bytes | None:
+        """A PNG of a material; None: there is no such."""
+
+    async def picture(self, what: str, name: str) -> bytes | None:
+        """A PNG thumbnail: `what` is template, leaf, bark or example."""
+
+    async def catalogue(self) -> messages.Welcome:
+        """What there is to choose from; folder and files are the server's to fill in."""
