@@ -1,0 +1,141 @@
+// What the page knows, and who is told when it changes. Nothing here touches the document or a canvas.
+//
+//     link/  →  Store.take(event)  →  listeners (draw/, tree/, panel/)          listeners  →  Store.send(request)  →  link/
+//
+// `known` mirrors what the program said last; `ui` is this page's own and is never sent.
+
+import type { Alternatives, Changed, Edit, Event, Ghost, Limb, Matches, Options, Read, Request, Stroke, Tree, Trouble, Underlay, Welcome, Working } from "./messages";
+
+export type Tool = "branch" | "crown" | "obstacle" | "erase" | "select" | "pan";
+
+/** Arrays of a binary frame by name. */
+export type Arrays = Map<string, Float32Array | Uint32Array | Uint16Array | Uint8Array | Int16Array | Int8Array>;
+
+export interface Known {
+  welcome: Welcome | null;
+  connected: boolean;
+  strokes: Map<string, Stroke>; // in drawing order; y down
+  options: Options | null;
+  edits: Edit[];
+  underlay: Underlay | null;
+  name: string | null;
+  revision: number;
+  undo: string | null;
+  redo: string | null;
+  saved: boolean;
+  working: Working | null;
+  matches: Matches | null;
+  alternatives: Alternatives | null;
+  read: Read | null;
+  tree: Tree | null; // head of the last frame; its meshes are tree/'s
+  limbs: Limb[]; // of the last frame that had any
+  trouble: Trouble | null;
+}
+
+export interface Ui {
+  tool: Tool;
+  layout: "beside" | "over"; // page and tree side by side, or the page over the tree
+  turn: number; // degrees: azimuth the tree is seen from and drawn on; 0 the front
+  selected: string | null; // limb id
+  selectedStrokes: string[]; // ids
+  uncertainty: boolean;
+  figure: boolean; // the 1.8 m person
+  theme: "light" | "dark";
+  palm: boolean; // a pen was seen: fingers pan and never draw
+  stabiliser: number; // 0-1
+  width: number; // of the pen, page units
+}
+
+export type Topic = keyof Known | keyof Ui | "frame" | "ghost" | "changed";
+
+type Listener = () => void;
+
+export class Store {
+  readonly known: Known = {
+    welcome: null, connected: false, strokes: new Map(), options: null, edits: [], underlay: null, name: null, revision: 0, undo: null, redo: null,
+    saved: true, working: null, matches: null, alternatives: null, read: null, tree: null, limbs: [], trouble: null,
+  };
+  readonly ui: Ui = {
+    tool: "branch", layout: "beside", turn: 0, selected: null, selectedStrokes: [], uncertainty: false, figure: true, theme: "light", palm: false,
+    stabiliser: 0.35, width: 4,
+  };
+  frame: { head: Tree; arrays: Arrays } | null = null; // the frame just come; listeners of "frame" take it at once
+  ghost: { head: Ghost; arrays: Arrays } | null = null;
+  send: (request: Request) => void = () => {}; // set by link/
+
+  private readonly listeners = new Map<Topic, Set<Listener>>();
+
+  /** Be told whenever one of these changes; returns what ends it. */
+  on(topics: Topic | Topic[], listener: Listener): () => void {
+    const all = Array.isArray(topics) ? topics : [topics];
+    for (const topic of all) {
+      if (!this.listeners.has(topic)) this.listeners.set(topic, new Set());
+      this.listeners.get(topic)!.add(listener);
+    }
+    return () => all.forEach((topic) => this.listeners.get(topic)?.delete(listener));
+  }
+
+  /** Tell the listeners, each once. */
+  tell(...topics: Topic[]): void {
+    const called = new Set<Listener>();
+    for (const topic of topics) for (const listener of this.listeners.get(topic) ?? []) called.add(listener);
+    called.forEach((listener) => listener());
+  }
+
+  /** Something of this page's own is different. */
+  set<K extends keyof Ui>(name: K, value: Ui[K]): void {
+    if (this.ui[name] === value) return;
+    this.ui[name] = value;
+    this.tell(name);
+  }
+
+  /** The connection came or went. */
+  connected(is: boolean): void {
+    this.known.connected = is;
+    this.tell("connected");
+  }
+
+  /** Take what the program said. */
+  take(event: Event, arrays: Arrays = new Map()): void {
+    const known = this.known;
+    switch (event.type) {
+      case "welcome": known.welcome = event; this.tell("welcome"); break;
+      case "changed": this.tell("changed", ...this.change(event)); break;
+      case "working": known.working = event; this.tell("working"); break;
+      case "trouble": known.trouble = event; this.tell("trouble"); break;
+      case "matches": known.matches = event; this.tell("matches"); break;
+      case "alternatives": known.alternatives = event; this.tell("alternatives"); break;
+      case "read": known.read = event; this.tell("read"); break;
+      case "saved": if (known.welcome) known.welcome = { ...known.welcome, files: event.files }; known.name = event.name; known.saved = true; this.tell("saved", "name", "welcome"); break;
+      case "tree":
+        known.tree = event;
+        if (event.limbs) known.limbs = event.limbs;
+        this.frame = { head: event, arrays };
+        this.tell("frame", "tree", ...(event.limbs ? (["limbs"] as Topic[]) : []));
+        this.frame = null;
+        break;
+      case "ghost": this.ghost = { head: event, arrays }; this.tell("ghost"); this.ghost = null; break;
+    }
+  }
+
+  private change(event: Changed): Topic[] {
+    const known = this.known;
+    const topics: Topic[] = ["revision", "undo", "redo", "saved"];
+    if (event.since === 0) known.strokes = new Map();
+    if (event.since === 0 || event.put?.length || event.gone?.length || event.order) {
+      for (const id of event.gone ?? []) known.strokes.delete(id);
+      for (const stroke of event.put ?? []) known.strokes.set(stroke.id, stroke);
+      if (event.order) known.strokes = new Map(event.order.flatMap((id) => (known.strokes.has(id) ? [[id, known.strokes.get(id)!] as const] : [])));
+      topics.push("strokes");
+    }
+    if (event.options) { known.options = event.options; topics.push("options"); }
+    if (event.edits) { known.edits = event.edits; topics.push("edits"); }
+    if (event.underlay_changed || event.since === 0) { known.underlay = event.underlay ?? null; topics.push("underlay"); }
+    if (event.name != null) { known.name = event.name; topics.push("name"); }
+    known.revision = event.revision;
+    known.undo = event.undo ?? null;
+    known.redo = event.redo ?? null;
+    known.saved = event.saved ?? false;
+    return topics;
+  }
+}
