@@ -162,6 +162,12 @@ class Delete(_Said):
     limb: LimbId
 
 
+class Release(_Said):
+    """What was done to this limb by hand is so no more: a held one is free, an adopted one grows as it would, one that was cleared grows again."""
+
+    limb: LimbId
+
+
 class Settle(_Said):
     """Infer all depths anew that nobody holds, whatever they were."""
 
@@ -214,7 +220,7 @@ class SetUnderlay(_Said):
 
 
 Request = (
-    Hello | Strokes | Sketching | Choose | Glance | Hold | Flip | Mirror | Lock | Delete | Settle | Readings | Pick | Undo | Redo | Cancel | New | Open
+    Hello | Strokes | Sketching | Choose | Glance | Hold | Flip | Mirror | Lock | Delete | Release | Settle | Readings | Pick | Undo | Redo | Cancel | New | Open
     | Save | SetUnderlay
 )  # fmt: skip
 

@@ -339,6 +339,12 @@ export interface Delete {
   limb: string;
 }
 
+/** What was done to this limb by hand is so no more: a held one is free, an adopted one grows as it would, one that was cleared grows again. */
+export interface Release {
+  type: "release";
+  limb: string;
+}
+
 /** Infer all depths anew that nobody holds, whatever they were. */
 export interface Settle {
   type: "settle";
@@ -406,5 +412,5 @@ export interface SetUnderlay {
   underlay?: SentUnderlay | null;
 }
 
-export type Request = Hello | Strokes | Sketching | Choose | Glance | Hold | Flip | Mirror | Lock | Delete | Settle | Readings | Pick | Undo | Redo | Cancel | New | Open | Save | SetUnderlay;
+export type Request = Hello | Strokes | Sketching | Choose | Glance | Hold | Flip | Mirror | Lock | Delete | Release | Settle | Readings | Pick | Undo | Redo | Cancel | New | Open | Save | SetUnderlay;
 export type Event = Welcome | Changed | Working | Trouble | Matches | Alternatives | Saved | Read | Tree | Ghost;
