@@ -1,0 +1,8 @@
+// (stub)
+
+import type { Store } from "../store";
+
+export function mountBar(root: HTMLElement, store: Store): void {
+  void root;
+  void store;
+}

@@ -1,0 +1,70 @@
+// Which part of the page is on screen? Page units → CSS pixels of the canvas: one scale and one shift. The tree view reads it when the page lies over it.
+
+export interface Frame {
+  left: number;
+  top: number;
+  width: number;
+  height: number;
+}
+
+const LEAST = 0.02;
+const MOST = 40;
+
+export class PageCamera {
+  scale = 1; // CSS pixels a page unit
+  x = 0; // CSS pixels, from the canvas's left, of the page's origin
+  y = 0;
+  width = 1; // of the canvas, CSS pixels
+  height = 1;
+  private readonly listeners = new Set<() => void>();
+
+  /** Be told when it moves; returns what ends it. */
+  on(listener: () => void): () => void {
+    this.listeners.add(listener);
+    return () => this.listeners.delete(listener);
+  }
+
+  toPage(px: number, py: number): [number, number] {
+    return [(px - this.x) / this.scale, (py - this.y) / this.scale];
+  }
+
+  toScreen(x: number, y: number): [number, number] {
+    return [x * this.scale + this.x, y * this.scale + this.y];
+  }
+
+  pan(dx: number, dy: number): void {
+    this.place(this.scale, this.x + dx, this.y + dy);
+  }
+
+  /** Closer or farther by a factor; the point under (px, py) stays where it is. */
+  zoom(factor: number, px: number, py: number): void {
+    const scale = Math.min(MOST, Math.max(LEAST, this.scale * factor));
+    const real = scale / this.scale;
+    this.place(scale, px - (px - this.x) * real, py - (py - this.y) * real);
+  }
+
+  /** All of a box of the page, with a margin around it. */
+  fit(box: Frame, margin = 0.1): void {
+    const scale = Math.min(MOST, Math.max(LEAST, (1 - 2 * margin) * Math.min(this.width / Math.max(box.width, 1e-6), this.height / Math.max(box.height, 1e-6))));
+    this.place(scale, this.width / 2 - (box.left + box.width / 2) * scale, this.height / 2 - (box.top + box.height / 2) * scale);
+  }
+
+  /** The canvas has another size: what was in its middle stays there. */
+  resize(width: number, height: number): void {
+    const dx = (width - this.width) / 2;
+    const dy = (height - this.height) / 2;
+    this.width = width;
+    this.height = height;
+    this.place(this.scale, this.x + dx, this.y + dy);
+  }
+
+  private place(scale: number, x: number, y: number): void {
+    this.scale = scale;
+    this.x = x;
+    this.y = y;
+    this.listeners.forEach((listener) => listener());
+  }
+}
+
+/** The page's one camera. */
+export const camera = new PageCamera();
