@@ -220,8 +220,8 @@ class SetUnderlay(_Said):
 
 
 Request = (
-    Hello | Strokes | Sketching | Choose | Glance | Hold | Flip | Mirror | Lock | Delete | Release | Settle | Readings | Pick | Undo | Redo | Cancel | New | Open
-    | Save | SetUnderlay
+    Hello | Strokes | Sketching | Choose | Glance | Hold | Flip | Mirror | Lock | Delete | Release | Settle | Readings | Pick | Undo | Redo | Cancel | New
+    | Open | Save | SetUnderlay
 )  # fmt: skip
 
 
