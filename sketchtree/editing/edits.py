@@ -13,11 +13,12 @@ from jaxtyping import Float
 
 @dataclass(frozen=True, eq=False)
 class Held:
-    """The depth of a drawn or adopted limb at some places along it."""
+    """The depth of a drawn limb at some places along it."""
 
     limb: int
     share: Float[np.ndarray, " place"]  # rising; 0 its foot, 1 its tip, by length on the page it was drawn on
     depth: Float[np.ndarray, " place"]  # sketch units, towards the viewer of that page, 0 in the plane through the first root
+    whole: bool = False  # between the places too: the limb is locked as it is
 
 
 @dataclass(frozen=True, eq=False)
@@ -34,7 +35,7 @@ class Adopted:
     """An undrawn limb is kept as if it had been drawn in space."""
 
     limb: int
-    parent: int  # the limb it grows on
+    parent: int  # the drawn or adopted limb it grows on
     share: float  # where on it, 0-1 of the parent's length
     path: Float[np.ndarray, "point 3"]  # from its foot, which is 0 0 0; sketch units
     radius: float  # at its foot, sketch units

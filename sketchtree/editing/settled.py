@@ -6,14 +6,22 @@ from dataclasses import dataclass, field
 import numpy as np
 from jaxtyping import Float
 
+from sketchtree.parameters import TreeParameters
+
+COURSE = 9  # places along a limb by which its course is told from another
+
 
 @dataclass(frozen=True, eq=False)
 class Depths:
-    """One limb's."""
+    """One limb's, that was drawn or adopted."""
 
-    share: Float[np.ndarray, " node"]  # rising from 0, its foot, to 1, its tip
+    share: Float[np.ndarray, " node"]  # rising from 0, its foot, to 1, its tip; by length on the page it was drawn on
     depth: Float[np.ndarray, " node"]  # sketch units, as `Held.depth`
-    course: str  # digest of its course on the page and of what it hangs on: another course is another limb to solve
+    sd: Float[np.ndarray, " node"]  # of the depth, sketch units; NaN unknown
+    course: Float[np.ndarray, "place 2"]  # where on that page it runs, at even shares: another course is another limb to solve
+    parent: int | None  # the limb it grows on; None for a stem
+    strokes: tuple[str, ...]  # ids of the strokes that drew it; none: adopted
+    view_deg: float = 0.0  # azimuth of its page
 
 
 @dataclass(frozen=True, eq=False)
@@ -21,9 +29,21 @@ class Settled:
     """All limbs'. Empty: nothing is known yet."""
 
     limbs: Mapping[int, Depths] = field(default_factory=dict)
-    parents: Mapping[int, int] = field(default_factory=dict)  # limb → the limb it grows on; trunks have none
     template: str | None = None  # the exemplar that was used; None: none yet
-    asked: str = ""  # digest of the options that bear on depths: with others, all limbs are solved again
+    asked: str = ""  # the options that bear on depths: with others, all limbs are solved again
+    theta: TreeParameters | None = None  # by which the rest grows, kept until the drawing is another
+    counted: int = 0  # limbs when it was measured
 
     def __len__(self) -> int:
         return len(self.limbs)
+
+    def borne(self, limb: int) -> tuple[int, ...]:
+        """All limbs that grow, at any remove, on this one."""
+        on: dict[int, list[int]] = {}
+        for one, depths in self.limbs.items():
+            on.setdefault(depths.parent, []).append(one)
+        found, queue = [], list(on.get(limb, ()))
+        while queue:
+            found.append(queue.pop())
+            queue += on.get(found[-1], ())
+        return tuple(found)
