@@ -150,7 +150,7 @@ class Mirror(_Said):
 
 
 class Lock(_Said):
-    """A limb stays as it is, or is free again. An undrawn limb is adopted by locking."""
+    """A limb stays as it is, or is free again: an adopted one is given up, one that was deleted may grow again. An undrawn limb is adopted by locking."""
 
     limb: LimbId
     on: bool
@@ -158,12 +158,6 @@ class Lock(_Said):
 
 class Delete(_Said):
     """A limb and all it bears. Nothing grows again where an undrawn one stood."""
-
-    limb: LimbId
-
-
-class Release(_Said):
-    """What was done to this limb by hand is so no more: a held one is free, an adopted one grows as it would, one that was cleared grows again."""
 
     limb: LimbId
 
@@ -220,7 +214,7 @@ class SetUnderlay(_Said):
 
 
 Request = (
-    Hello | Strokes | Sketching | Choose | Glance | Hold | Flip | Mirror | Lock | Delete | Release | Settle | Readings | Pick | Undo | Redo | Cancel | New
+    Hello | Strokes | Sketching | Choose | Glance | Hold | Flip | Mirror | Lock | Delete | Settle | Readings | Pick | Undo | Redo | Cancel | New
     | Open | Save | SetUnderlay
 )  # fmt: skip
 

@@ -326,7 +326,7 @@ export interface Mirror {
   type: "mirror";
 }
 
-/** A limb stays as it is, or is free again. An undrawn limb is adopted by locking. */
+/** A limb stays as it is, or is free again: an adopted one is given up, one that was deleted may grow again. An undrawn limb is adopted by locking. */
 export interface Lock {
   type: "lock";
   limb: string;
@@ -336,12 +336,6 @@ export interface Lock {
 /** A limb and all it bears. Nothing grows again where an undrawn one stood. */
 export interface Delete {
   type: "delete";
-  limb: string;
-}
-
-/** What was done to this limb by hand is so no more: a held one is free, an adopted one grows as it would, one that was cleared grows again. */
-export interface Release {
-  type: "release";
   limb: string;
 }
 
@@ -412,5 +406,5 @@ export interface SetUnderlay {
   underlay?: SentUnderlay | null;
 }
 
-export type Request = Hello | Strokes | Sketching | Choose | Glance | Hold | Flip | Mirror | Lock | Delete | Release | Settle | Readings | Pick | Undo | Redo | Cancel | New | Open | Save | SetUnderlay;
+export type Request = Hello | Strokes | Sketching | Choose | Glance | Hold | Flip | Mirror | Lock | Delete | Settle | Readings | Pick | Undo | Redo | Cancel | New | Open | Save | SetUnderlay;
 export type Event = Welcome | Changed | Working | Trouble | Matches | Alternatives | Saved | Read | Tree | Ghost;
