@@ -10,7 +10,8 @@ import numpy as np
 
 from sketchtree.editing.document import Document
 from sketchtree.editing.edits import Adopted, Cleared, Edits, Held
-from sketchtree.editing.settled import Depths, Settled
+from sketchtree.editing.settled import COURSE, Depths, Settled
+from sketchtree.editing.turning import in_front
 from sketchtree.errors import OptionError
 
 _SAME_PLACE = 0.03  # share of a limb: two places nearer than that are one
@@ -95,7 +96,7 @@ def adopt(document: Document, adopted: Adopted) -> Document:
     if adopted.parent not in document.settled.limbs:
         raise OptionError("What this limb grows on was not drawn.", remedy="Lock the limb it grows on first.")
     edits = dataclasses.replace(document.edits, adopted={**document.edits.adopted, adopted.limb: adopted})
-    limbs = {**document.settled.limbs, adopted.limb: adopted_depths(adopted, document.settled.limbs[adopted.parent])}
+    limbs = {**document.settled.limbs, adopted.limb: adopted_depths(adopted, document.settled)}
     return document.replace(edits=edits, settled=dataclasses.replace(document.settled, limbs=limbs))
 
 
@@ -103,32 +104,26 @@ def clear(document: Document, adopted: Adopted) -> Document:
     """Nothing grows any more where this limb stands. Raises OptionError if what it grows on was not drawn."""
     if adopted.parent not in document.settled.limbs:
         raise OptionError("What this limb grows on was not drawn.", remedy="Lock the limb it grows on first.")
-    foot = foot_on(document.settled.limbs[adopted.parent], adopted.share)
+    foot = foot_on(document.settled, adopted.parent, adopted.share)
     length = float(np.linalg.norm(np.diff(adopted.path, axis=0), axis=1).sum())
     room = Cleared(adopted.limb, adopted.path + foot, max(_ROOM * length, adopted.radius))
     return document.replace(edits=dataclasses.replace(document.edits, cleared={**document.edits.cleared, adopted.limb: room}))
 
 
-def foot_on(parent: Depths, share: float):
-    """Where on the parent limb a place is: x, y, z of the front page, sketch units; between the places that are known of its course."""
+def foot_on(settled: Settled, limb: int, share: float):
+    """Where a place on a limb is: x, y, z of the front page, sketch units; between the places that are known of its course."""
+    parent = settled.limbs[limb]
     even = np.linspace(0.0, 1.0, len(parent.course))
     page = [np.interp(share, even, parent.course[:, axis]) for axis in (0, 1)]
-    return in_front(np.array([*page, np.interp(share, parent.share, parent.depth)]), parent.view_deg)
+    return in_front(np.array([*page, np.interp(share, parent.share, parent.depth)]), parent.view_deg, settled.axis)
 
 
-def in_front(point, view_deg: float):
-    """x, y, z of the front page of points on a page turned by `view_deg` about the y axis (x to the right, y up, z to the viewer)."""
-    turn = np.radians(view_deg)
-    x, y, z = np.moveaxis(np.asarray(point, float), -1, 0)
-    return np.stack([x * np.cos(turn) + z * np.sin(turn), y, z * np.cos(turn) - x * np.sin(turn)], axis=-1)
-
-
-def adopted_depths(adopted: Adopted, parent: Depths) -> Depths:
+def adopted_depths(adopted: Adopted, settled: Settled) -> Depths:
     """An adopted limb as a limb that is settled; it stands on the front page."""
-    path = adopted.path + foot_on(parent, adopted.share)
+    path = adopted.path + foot_on(settled, adopted.parent, adopted.share)
     along = np.r_[0.0, np.cumsum(np.linalg.norm(np.diff(path[:, :2], axis=0), axis=1))]
     share = along / max(along[-1], 1e-300)
-    even = np.linspace(0.0, 1.0, 9)
+    even = np.linspace(0.0, 1.0, COURSE)
     course = np.stack([np.interp(even, share, path[:, axis]) for axis in (0, 1)], axis=1)
     return Depths(share, path[:, 2], np.zeros(len(path)), course, adopted.parent, ())
 

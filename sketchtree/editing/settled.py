@@ -33,6 +33,7 @@ class Settled:
     asked: str = ""  # the options that bear on depths: with others, all limbs are solved again
     theta: TreeParameters | None = None  # by which the rest grows, kept until the drawing is another
     counted: int = 0  # limbs when it was measured
+    axis: float = 0.0  # x of the first root, sketch units: turned pages turn about the vertical through it
 
     def __len__(self) -> int:
         return len(self.limbs)

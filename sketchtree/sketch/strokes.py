@@ -32,6 +32,7 @@ class Stroke:
     filled: bool = False  # painted as an area rather than as a line
     wood: bool = False  # its width is the limb's own thickness, measured on the drawing; no pen set it
     layer: str | None = None  # name of the innermost layer or group it lies in, where the file has one
+    view_deg: float = 0.0  # azimuth of the page it was drawn on, from that of the sketch: other than 0 on a turned page
 
     def __post_init__(self):
         points = np.array(self.points, np.float64).reshape(-1, 2)
@@ -39,6 +40,8 @@ class Stroke:
         object.__setattr__(self, "points", points)
         if len(points) == 0:
             raise SketchError("it has no points.", stroke=self.id, remedy="Delete it or draw it again.")
+        if not np.isfinite(self.view_deg):
+            raise SketchError("the azimuth of its page is not a finite number.", stroke=self.id, remedy="Delete it or draw it again.")
         if not np.isfinite(points).all():
             raise SketchError(
                 "it has a coordinate that is not a finite number.",

@@ -2,9 +2,9 @@
 
     {"sketchtree": 1, "units": "px", "y": "down", "view_deg": 0, "page": [left, top, right, bottom],
      "strokes": [{"id": "trunk", "kind": "branch", "points": [[x, y, pressure?, t_ms?], ...], "width": 3, "layer": "tree",
-                  "closed": false, "filled": false, "labelled": false, "wood": false}, ...]}
+                  "closed": false, "filled": false, "labelled": false, "wood": false, "view_deg": 0}, ...]}
 
-`page` has the file's own y: its edges as a reader sees them. `wood`: the width is the limb's own thickness. A pen without
+`page` has the file's own y: its edges as a reader sees them. `view_deg` of a stroke: it was drawn on a page turned by so much. `wood`: the width is the limb's own thickness. A pen without
 pressure gives `[x, y, null, t_ms]`. Only `sketchtree` and every stroke's `points` are required; other keys are passed over. A
 kind that is written out counts as labelled unless `labelled` says otherwise. Pressures beyond 1 are parts of the file's
 greatest. What is written reads back as the same sketch, bit for bit.
@@ -101,6 +101,9 @@ def _stroke(row: Any, k: int, name: str, up: bool) -> Stroke:
     width = row.get("width")
     if width is not None and not (_is_number(width) and 0 <= width < np.inf):
         raise SketchError(f"in {name}, its width is {width!r}; a number of at least 0 was expected.", stroke=stroke_id, remedy=_REMEDY)
+    view = row.get("view_deg", 0.0)
+    if not (_is_number(view) and np.isfinite(view)):
+        raise SketchError(f"in {name}, its 'view_deg' is {view!r}; degrees were expected.", stroke=stroke_id, remedy=_REMEDY)
     layer = row.get("layer")
     if layer is not None and not isinstance(layer, str):
         raise SketchError(f"in {name}, its layer is {layer!r}; a name was expected.", stroke=stroke_id, remedy=_REMEDY)
@@ -117,6 +120,7 @@ def _stroke(row: Any, k: int, name: str, up: bool) -> Stroke:
             pressure=columns[:, 2] if columns.shape[1] > 2 and not _without_pressure(columns) else None,
             time=columns[:, 3] if columns.shape[1] > 3 else None,
             layer=layer,
+            view_deg=float(view),
             **flags,
         )
     except SketchError as error:
@@ -186,6 +190,7 @@ def _row(stroke: Stroke) -> dict[str, Any]:
     row = {"id": stroke.id, "kind": str(stroke.kind), "labelled": bool(stroke.labelled), "points": np.hstack(columns).tolist()}
     row |= {flag: True for flag in ("closed", "filled", "wood") if getattr(stroke, flag)}
     row |= {} if stroke.layer is None else {"layer": stroke.layer}
+    row |= {"view_deg": float(stroke.view_deg)} if stroke.view_deg else {}
     return row | ({} if stroke.width is None else {"width": float(stroke.width)})
 
 
