@@ -4,7 +4,8 @@
 //
 // `known` mirrors what the program said last; `ui` is this page's own and is never sent.
 
-import type { Alternatives, Changed, Edit, Event, Ghost, Limb, Matches, Options, Read, Request, Stroke, Tree, Trouble, Underlay, Welcome, Working } from "./messages";
+import type { Alternatives, Changed, Edit, Event, Ghost, Limb, Matches, Options, Read, Request, Stroke, Strokes, Tree, Trouble, Underlay, Welcome, Working } from "./messages";
+import { shown } from "./link/echo";
 
 export type Tool = "branch" | "crown" | "obstacle" | "erase" | "select" | "pan";
 
@@ -63,6 +64,9 @@ export class Store {
   ghost: { head: Ghost; arrays: Arrays } | null = null;
   send: (request: Request) => void = () => {}; // set by link/
 
+  pending: Strokes[] = []; // sent and not confirmed yet; link/ keeps it
+  private truth = new Map<string, Stroke>(); // as the program has them; `known.strokes` shows those on their way as well
+
   private readonly listeners = new Map<Topic, Set<Listener>>();
 
   /** Be told whenever one of these changes; returns what ends it. */
@@ -95,6 +99,13 @@ export class Store {
     this.tell("connected");
   }
 
+  /** Strokes are on their way, or were refused: show it. */
+  setPending(pending: Strokes[]): void {
+    this.pending = pending;
+    this.known.strokes = shown(this.truth, pending);
+    this.tell("strokes");
+  }
+
   /** Take what the program said. */
   take(event: Event, arrays: Arrays = new Map()): void {
     const known = this.known;
@@ -121,13 +132,13 @@ export class Store {
   private change(event: Changed): Topic[] {
     const known = this.known;
     const topics: Topic[] = ["revision", "undo", "redo", "saved"];
-    if (event.since === 0) known.strokes = new Map();
-    if (event.since === 0 || event.put?.length || event.gone?.length || event.order) {
-      for (const id of event.gone ?? []) known.strokes.delete(id);
-      for (const stroke of event.put ?? []) known.strokes.set(stroke.id, stroke);
-      if (event.order) known.strokes = new Map(event.order.flatMap((id) => (known.strokes.has(id) ? [[id, known.strokes.get(id)!] as const] : [])));
-      topics.push("strokes");
-    }
+    const before = known.strokes;
+    if (event.since === 0) this.truth = new Map();
+    for (const id of event.gone) this.truth.delete(id);
+    for (const stroke of event.put) this.truth.set(stroke.id, stroke);
+    if (event.order) this.truth = new Map(event.order.flatMap((id) => (this.truth.has(id) ? [[id, this.truth.get(id)!] as const] : [])));
+    known.strokes = shown(this.truth, this.pending);
+    if (known.strokes !== before || event.put.length || event.gone.length) topics.push("strokes");
     if (event.options) { known.options = event.options; topics.push("options"); }
     if (event.edits) { known.edits = event.edits; topics.push("edits"); }
     if (event.underlay_changed || event.since === 0) { known.underlay = event.underlay ?? null; topics.push("underlay"); }

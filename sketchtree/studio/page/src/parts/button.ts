@@ -15,7 +15,7 @@ export interface ButtonLook {
 }
 
 export function button(look: ButtonLook): HTMLButtonElement {
-  const made = element("button", { class: `button ${look.look ?? "plain"}${look.iconOnly ? " only" : ""}`, "data-testid": look.testId });
+  const made = element("button", { class: `button ${look.look ?? "plain"}${look.iconOnly ? " only" : ""}`, testId: look.testId });
   made.type = "button";
   if (look.icon) made.append(icon(look.icon));
   if (look.iconOnly) made.setAttribute("aria-label", look.label);

@@ -26,10 +26,10 @@ export interface Choice<T extends string> {
 }
 
 export function choice<T extends string>(look: ChoiceLook<T>): Choice<T> {
-  const row = element("div", { class: "choice", role: "radiogroup", "aria-label": look.label, "data-testid": look.testId });
+  const row = element("div", { class: "choice", role: "radiogroup", aria: { label: look.label }, testId: look.testId });
   const root = look.showLabel ? element("div", { class: "row" }, element("span", { class: "row-label" }, look.label), row) : row;
   const buttons = look.options.map((option) => {
-    const made = element("button", { class: "choice-option", role: "radio", title: option.title, "data-testid": option.testId, "data-value": option.value });
+    const made = element("button", { class: "choice-option", role: "radio", title: option.title, testId: option.testId, data: { value: option.value } });
     made.type = "button";
     if (option.icon) made.append(icon(option.icon));
     made.append(element("span", {}, option.label));

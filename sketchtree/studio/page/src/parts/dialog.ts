@@ -20,7 +20,7 @@ export interface Dialog {
 
 export function dialog(look: DialogLook): Dialog {
   const id = freshId("dialog");
-  const root = element("dialog", { class: `dialog${look.wide ? " wide" : ""}`, "data-testid": look.testId, "aria-labelledby": id });
+  const root = element("dialog", { class: `dialog${look.wide ? " wide" : ""}`, testId: look.testId, aria: { labelledby: id } });
   const close = (): void => root.close();
   const shut = button({ label: "Close", icon: "close", iconOnly: true, look: "quiet", onPress: close });
   const head = element("header", { class: "dialog-head" }, element("h2", { id }, look.title), shut);

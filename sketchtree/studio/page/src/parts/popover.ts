@@ -11,7 +11,7 @@ export interface Popover {
 const APART = 6; // CSS pixels between it and its anchor
 
 export function popover(anchor: HTMLElement, content: HTMLElement, testId?: string): Popover {
-  const root = element("div", { class: "popover", "data-testid": testId }, content);
+  const root = element("div", { class: "popover", testId }, content);
   root.popover = "auto";
   anchor.setAttribute("aria-haspopup", "dialog");
   root.addEventListener("toggle", (event) => anchor.setAttribute("aria-expanded", String((event as ToggleEvent).newState === "open")));

@@ -24,7 +24,7 @@ export interface Slider {
 
 export function slider(look: SliderLook): Slider {
   const id = freshId("slider");
-  const input = element("input", { class: "slider", id, "data-testid": look.testId, title: look.hint });
+  const input = element("input", { class: "slider", id, testId: look.testId, title: look.hint });
   input.type = "range";
   input.min = String(look.min);
   input.max = String(look.max);
@@ -35,7 +35,7 @@ export function slider(look: SliderLook): Slider {
   value.htmlFor.add(id);
   const head = element("div", { class: "slider-head" }, label, value);
   if (look.reset) {
-    const back = element("button", { class: "button quiet only tiny", title: look.reset.label, "aria-label": `${look.label}: ${look.reset.label}` }, icon("reset"));
+    const back = element("button", { class: "button quiet only tiny", title: look.reset.label, aria: { label: `${look.label}: ${look.reset.label}` } }, icon("reset"));
     back.type = "button";
     back.addEventListener("click", look.reset.onReset);
     head.append(back);

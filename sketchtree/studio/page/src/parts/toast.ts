@@ -16,7 +16,7 @@ let shelf: HTMLElement | null = null;
 
 /** Show it; returns what takes it away. */
 export function toast(message: string, look: ToastLook = {}): () => void {
-  shelf ??= element("div", { class: "toasts", role: "status", "aria-live": "polite" });
+  shelf ??= element("div", { class: "toasts", role: "status", aria: { live: "polite" } });
   if (!shelf.isConnected) document.body.append(shelf);
   const wrong = look.kind === "wrong";
   const words = element("div", { class: "toast-words" }, element("strong", {}, message), look.remedy ? element("span", {}, look.remedy) : null);

@@ -16,7 +16,7 @@ export interface Toggle {
 }
 
 export function toggle(look: ToggleLook): Toggle {
-  const knob = element("button", { class: "switch", role: "switch", title: look.hint, "aria-label": look.label, "data-testid": look.testId }, element("span", { class: "switch-knob" }));
+  const knob = element("button", { class: "switch", role: "switch", title: look.hint, aria: { label: look.label }, testId: look.testId }, element("span", { class: "switch-knob" }));
   knob.type = "button";
   const set = (on: boolean): void => knob.setAttribute("aria-checked", String(on));
   const flip = (): void => {
@@ -25,7 +25,7 @@ export function toggle(look: ToggleLook): Toggle {
     look.onSwitch(on);
   };
   knob.addEventListener("click", flip);
-  const label = element("span", { class: "row-label", "aria-hidden": "true" }, look.label);
+  const label = element("span", { class: "row-label", aria: { hidden: "true" } }, look.label);
   label.addEventListener("click", flip);
   set(look.on);
   return { root: element("div", { class: "row" }, label, knob), set };
