@@ -63,6 +63,7 @@ export class Store {
   frame: { head: Tree; arrays: Arrays } | null = null; // the frame just come; listeners of "frame" take it at once
   ghost: { head: Ghost; arrays: Arrays } | null = null;
   send: (request: Request) => void = () => {}; // set by link/
+  address: (path: string) => string = (path) => path; // where a picture of the program is ("/texture/…", "/underlay/…"); link/ may know better: a notebook has no server
 
   pending: Strokes[] = []; // sent and not confirmed yet; link/ keeps it
   private truth = new Map<string, Stroke>(); // as the program has them; `known.strokes` shows those on their way as well
