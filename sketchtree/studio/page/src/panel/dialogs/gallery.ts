@@ -1,0 +1,39 @@
+// What can be drawn? Examples, each opened by a click.
+
+import { dialog } from "../../parts/dialog";
+import { element } from "../../parts/element";
+import type { Choice } from "../../messages";
+import type { Store } from "../../store";
+import { roving } from "../roving";
+
+export function gallery(store: Store): () => void {
+  const box = dialog({ title: "Examples", testId: "gallery-dialog", wide: true });
+  const grid = element("div", { class: "gallery", role: "group", aria: { label: "Examples" } });
+  const walk = roving(grid, () => [...grid.querySelectorAll<HTMLElement>("button")]);
+  box.body.append(element("p", { class: "hint" }, "Open one, draw a branch more, take one away. Undo brings back what is on the page now."), grid);
+  store.on("welcome", () => {
+    grid.replaceChildren(...(store.known.welcome?.examples ?? []).map((one) => example(one, () => {
+      box.close();
+      store.send({ type: "open", name: one.name, example: true });
+    })));
+    walk.keep();
+  });
+  return box.open;
+}
+
+function example(choice: Choice, onPress: () => void): HTMLElement {
+  const made = element("button", { class: "example", title: `Open ${choice.title}`, testId: `example-${choice.name}` });
+  made.type = "button";
+  const frame = element("span", { class: "example-picture" });
+  if (choice.picture !== null) {
+    const image = element("img");
+    image.alt = "";
+    image.loading = "lazy";
+    image.decoding = "async";
+    image.src = choice.picture;
+    frame.append(image);
+  }
+  made.append(frame, element("span", {}, choice.title));
+  made.addEventListener("click", onPress);
+  return made;
+}

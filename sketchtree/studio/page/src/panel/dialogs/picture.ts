@@ -1,0 +1,46 @@
+// A picture: is it to be traced over, or do its lines become strokes?
+
+import { button } from "../../parts/button";
+import { dialog } from "../../parts/dialog";
+import { element } from "../../parts/element";
+
+export type PictureUse = "underlay" | "drawing";
+
+/** Ask; `null`: neither. */
+export function pictureDialog(file: File): Promise<PictureUse | null> {
+  return new Promise((resolve) => {
+    let answer: PictureUse | null = null;
+    const address = URL.createObjectURL(file);
+    const box = dialog({
+      title: "What is this picture for?", testId: "picture-dialog",
+      onClose: () => {
+        URL.revokeObjectURL(address);
+        box.root.remove();
+        resolve(answer);
+      },
+    });
+    const choose = (use: PictureUse): void => {
+      answer = use;
+      box.close();
+    };
+    const shown = element("img", { class: "picture-shown" });
+    shown.alt = file.name;
+    shown.src = address;
+    shown.addEventListener("error", () => shown.remove());
+    box.body.append(
+      shown,
+      element("div", { class: "ways" },
+        way("Trace over it", "It lies faintly under the page, and you draw the branches yourself. For photos and sketches of any kind.", "picture-underlay", () => choose("underlay")),
+        way("Read its lines", "Dark lines on light paper become strokes. For line drawings, scans and pencil pages.", "picture-drawing", () => choose("drawing"))),
+    );
+    box.foot.append(button({ label: "Cancel", look: "quiet", onPress: box.close }));
+    box.open();
+  });
+}
+
+function way(title: string, text: string, testId: string, onPress: () => void): HTMLElement {
+  const made = element("button", { class: "way", testId }, element("strong", {}, title), element("span", {}, text));
+  made.type = "button";
+  made.addEventListener("click", onPress);
+  return made;
+}

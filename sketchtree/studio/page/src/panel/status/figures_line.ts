@@ -1,0 +1,27 @@
+// How big is the tree? Its figures, as the program told them last.
+
+import { element } from "../../parts/element";
+import type { Store } from "../../store";
+import type { RoundTrip } from "./round_trip";
+import { figures, type Said } from "./words";
+
+export function figuresLine(store: Store, trip: RoundTrip): HTMLElement {
+  const root = element("span", { class: "figures" });
+  const show = (): void => {
+    const { tree, strokes, welcome } = store.known;
+    if (tree?.phase === "glance") return;
+    if (!tree || strokes.size === 0) {
+      root.replaceChildren(element("span", {}, "Nothing drawn yet"));
+      return;
+    }
+    const title = welcome?.templates.find((one) => one.name === tree.template)?.title ?? tree.template;
+    root.replaceChildren(...figures(tree, title, trip.last).map(figure));
+  };
+  store.on(["tree", "strokes", "welcome"], show);
+  show();
+  return root;
+}
+
+function figure(said: Said): HTMLElement {
+  return element("span", { class: `figure-${said.name}`, title: said.title }, said.value);
+}

@@ -1,0 +1,117 @@
+// Which template has the tree? A strip of all of them, the most alike first; resting on one shows the tree with it, a click keeps it.
+
+import { element } from "../../parts/element";
+import type { Store } from "../../store";
+import { linger } from "../linger";
+import { roving, type Roving } from "../roving";
+import { card, type TemplateCard } from "./card";
+import { answers, rank } from "./ranking";
+import { search } from "./search";
+
+const REST = 250; // milliseconds until a look is worth a tree
+
+export function mountStrip(root: HTMLElement, store: Store): void {
+  const strip = new Strip(store);
+  const find = search("Find a template", (typed) => strip.find(typed));
+  root.append(element("div", { class: "strip-head" }, element("h2", {}, "Template"), find), strip.list);
+  store.on("welcome", () => strip.fill());
+  store.on(["matches", "options", "tree"], () => strip.show());
+}
+
+class Strip {
+  readonly list = element("div", { class: "strip-list", role: "group", aria: { label: "Templates, the most alike first" }, testId: "template-strip" });
+  private readonly cards = new Map<string, TemplateCard>();
+  private readonly walk: Roving;
+  private readonly glance;
+  private typed = "";
+  private late = false; // another order waits until the pointer has left
+
+  constructor(private readonly store: Store) {
+    this.walk = roving(this.list, () => this.shown());
+    this.glance = linger<string>(REST, (template) => store.send({ type: "glance", template }), () => store.send({ type: "glance", template: null }));
+    this.list.addEventListener("wheel", (event) => this.wheel(event), { passive: false });
+    for (const leave of ["pointerleave", "focusout"]) this.list.addEventListener(leave, () => { if (this.late && !this.inHand()) this.order(); });
+  }
+
+  /** The cards there are. */
+  fill(): void {
+    const welcome = this.store.known.welcome;
+    if (!welcome) return;
+    this.cards.clear();
+    this.add("auto", "Automatic", null, "The template most like the drawing, chosen anew whenever it changes");
+    for (const one of welcome.templates) this.add(one.name, one.title, one.picture, `${one.title}: rest here to see the tree with it, click to keep it`);
+    this.add("none", "No template", null, "Only what the drawing itself says, with plain leaves and bark");
+    this.list.replaceChildren(...[...this.cards.values()].map((one) => one.root));
+    this.order();
+    this.show();
+  }
+
+  find(typed: string): void {
+    this.typed = typed;
+    const welcome = this.store.known.welcome;
+    for (const choice of welcome?.templates ?? []) this.cards.get(choice.name)!.root.hidden = !answers(choice, typed);
+    for (const name of ["auto", "none"]) this.cards.get(name)?.root.toggleAttribute("hidden", typed.trim() !== "");
+    this.list.dataset["empty"] = String(this.shown().length === 0);
+    this.list.scrollLeft = 0;
+    this.walk.keep();
+  }
+
+  /** Choice, use and likeness as they are now. */
+  show(): void {
+    const { welcome, options, matches } = this.store.known;
+    if (!welcome || this.cards.size === 0) return;
+    const used = matches?.used ?? null;
+    const chosen = options?.template ?? "auto";
+    const bars = new Map(rank(welcome.templates, matches?.ranked ?? []).map((one) => [one.choice.name, one.bar]));
+    const title = welcome.templates.find((one) => one.name === used)?.title ?? null;
+    for (const [name, one] of this.cards) {
+      const note = name === "auto" && chosen === "auto" ? title : null;
+      one.show({ chosen: name === chosen, used: name === used, bar: bars.get(name) ?? null, note });
+    }
+    if (this.inHand()) this.late = true;
+    else this.order();
+  }
+
+  /** Best first; "auto" before all, "none" after all. */
+  private order(): void {
+    const { welcome, matches } = this.store.known;
+    if (!welcome) return;
+    this.late = false;
+    const names = ["auto", ...rank(welcome.templates, matches?.ranked ?? []).map((one) => one.choice.name), "none"];
+    const wanted = names.map((name) => this.cards.get(name)!.root);
+    if (wanted.some((one, index) => this.list.children[index] !== one)) this.list.replaceChildren(...wanted);
+    if (this.typed) this.find(this.typed);
+    else this.walk.keep();
+  }
+
+  private add(name: string, title: string, picture: string | null, hint: string): void {
+    const made = card({ name, title, picture, hint });
+    const root = made.root;
+    root.addEventListener("click", () => this.choose(name));
+    root.addEventListener("pointerenter", (event) => { if (event.pointerType !== "touch") this.glance.over(name); });
+    root.addEventListener("pointerleave", () => this.glance.away());
+    root.addEventListener("focus", () => { if (root.matches(":focus-visible")) this.glance.over(name); });
+    root.addEventListener("blur", () => this.glance.away());
+    this.cards.set(name, made);
+  }
+
+  private choose(name: string): void {
+    this.glance.away();
+    this.store.send({ type: "choose", options: { template: name } });
+  }
+
+  /** Nothing moves under the pointer, or from under the focus. */
+  private inHand(): boolean {
+    return this.list.matches(":hover") || this.list.contains(document.activeElement);
+  }
+
+  private shown(): HTMLElement[] {
+    return [...this.list.children].filter((one): one is HTMLElement => one instanceof HTMLElement && !one.hidden);
+  }
+
+  private wheel(event: WheelEvent): void {
+    if (event.ctrlKey || Math.abs(event.deltaX) > Math.abs(event.deltaY)) return;
+    event.preventDefault();
+    this.list.scrollLeft += event.deltaY * (event.deltaMode === WheelEvent.DOM_DELTA_LINE ? 30 : 1);
+  }
+}
