@@ -10,15 +10,28 @@ from sketchtree.templates.exemplar import Exemplar
 from sketchtree.templates.matching.match import Match, match
 
 
-def choose_template(graph: SketchGraph, templates: Database | None, wanted: str) -> tuple[list[Match], Exemplar | None]:
-    """All exemplars ranked (§7), and the one to use: the best, or the one the user named."""
+_LOYAL = 3.0  # nats that another exemplar must be likelier than the one in use before it takes its place
+
+
+def choose_template(
+    graph: SketchGraph, templates: Database | None, wanted: str, *, before: str | None = None, rank: bool = True
+) -> tuple[list[Match], Exemplar | None]:
+    """All exemplars ranked (§7), and the one to use: the one the user named, or the best; the one in use `before` stays while no other is much likelier.
+    Without `rank` a named one is taken unranked. Raises TemplateError."""
     if wanted == "none" or templates is None:
         return [], None
     if wanted != "auto" and wanted not in templates.names:
         names = ", ".join(templates.names)
         raise TemplateError(f"There is no template called “{wanted}”.", remedy=f"Choose auto, none or one of: {names}.")
+    if wanted != "auto" and not rank:
+        return [], templates.exemplar(wanted)
     matches = match(graph, templates)
-    return matches, templates.exemplar(matches[0].name if wanted == "auto" else wanted)
+    return matches, templates.exemplar(_best(matches, before) if wanted == "auto" else wanted)
+
+
+def _best(matches: list[Match], before: str | None) -> str:
+    loyal = next((one for one in matches if one.name == before and one.score > matches[0].score - _LOYAL), matches[0])
+    return loyal.name
 
 
 def leaf_model(wanted: str | None, habit: Habit, templates: Database | None) -> str | None:

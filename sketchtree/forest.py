@@ -14,6 +14,7 @@ from jaxtyping import Array, Float, Key
 from sketchtree import limb_ids, planting
 from sketchtree.axes import NULL
 from sketchtree.choose import bark_model, leaf_model
+from sketchtree.editing.clearing import cleared
 from sketchtree.errors import SketchTreeError
 from sketchtree.geometry.mesh import Mesh
 from sketchtree.geometry.wood import check_wood
@@ -117,7 +118,7 @@ def _grown(drawn, place, keys, obstacles, options: TreeOptions) -> list[Propagat
     for one, at, key in zip(drawn, place, keys, strict=True):
         near = tuple(mesh.copy().apply_translation(-at) for mesh in obstacles)
         planted.append(Planted(one.skeleton, propagation(one, share, near), stage_key(key, "propagate"), at))
-    return propagate_together(planted)
+    return [cleared(grown, one.edits.cleared.values(), one.similarity) for one, grown in zip(drawn, propagate_together(planted), strict=True)]
 
 
 def _name(sketch) -> str:

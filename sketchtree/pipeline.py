@@ -3,17 +3,16 @@
     strokes → sketch graph → template → depths → skeleton → propagation → radii → sag, shedding, untangling, pruning → leaves → meshes
 """
 
-import dataclasses
 from dataclasses import dataclass
 from pathlib import Path
 
 import numpy as np
 from jaxtyping import Array, Float, Key
 
-from sketchtree.choose import bark_model, choose_template, leaf_model
-from sketchtree.drawing import read_drawing
+from sketchtree.choose import bark_model, leaf_model
+from sketchtree.drawn_tree import DrawnTree, SketchSource, draw_out
 from sketchtree.dressing import Dress
-from sketchtree.errors import InferenceError
+from sketchtree.editing.clearing import cleared
 from sketchtree.foliage.blossom import blossom
 from sketchtree.foliage.cards import leaf_mesh
 from sketchtree.foliage.leaves import Leaves
@@ -22,15 +21,8 @@ from sketchtree.geometry.mesh import Mesh
 from sketchtree.geometry.radii import PipeRadii
 from sketchtree.geometry.wood import check_wood, wood_of
 from sketchtree.keys import stage_key
-from sketchtree.mrf.factor_graph import factor_graph
-from sketchtree.mrf.infer import Fit, infer
-from sketchtree.mrf.lift import lift
-from sketchtree.mrf.methods import solver_named
-from sketchtree.mrf.prior import Prior
-from sketchtree.mrf.solver import RESULTS
 from sketchtree.options import ReadingOptions, TreeOptions
-from sketchtree.page import drawn_radius, page_to_world
-from sketchtree.parameters import GENERIC, Habit, TreeParameters
+from sketchtree.parameters import Habit
 from sketchtree.propagate.after.each_tree import sagged
 from sketchtree.propagate.after.level import kept_weight
 from sketchtree.propagate.after.prune import Prune
@@ -38,47 +30,14 @@ from sketchtree.propagate.after.shed import Shed
 from sketchtree.propagate.after.untangle import Untangle
 from sketchtree.propagate.generations import Propagate, Propagation
 from sketchtree.propagate.scale import to_scale
-from sketchtree.roots import root_depth
-from sketchtree.similarity import Similarity
 from sketchtree.skeleton import TreeSkeleton
 from sketchtree.skeleton_joined import moved
-from sketchtree.sketch.graph import SketchGraph
 from sketchtree.sketch.strokes import Sketch
 from sketchtree.templates.store.database import Database
-from sketchtree.templates.exemplar import Exemplar
-from sketchtree.templates.matching.match import Match
 from sketchtree.watch import Watch
 
 STAGES = ("read", "match", "infer", "propagate", "foliage", "mesh", "export")
 """Stages in the order they run; `seconds` in the report has one entry each."""
-
-
-@dataclass(frozen=True, eq=False)
-class DrawnTree:
-    """The drawn branches in 3D, and how they came to be."""
-
-    graph: SketchGraph
-    matches: list[Match]  # best first; empty without templates
-    exemplar: Exemplar | None  # the template used
-    fit: Fit
-    similarity: Similarity  # sketch units → metres
-    skeleton: TreeSkeleton  # metres; rows are those of the graph
-    radius: Float[np.ndarray, " segment"]  # as drawn, metres; NaN where the lines' widths say nothing
-    habit: Habit
-    held: bool  # Θ is the template's, whatever was drawn
-    theta: TreeParameters  # by which the rest grows: measured on these branches, or the template's where Θ is fixed
-    sketch: Sketch  # as read
-
-    @property
-    def crown(self) -> tuple[Float[np.ndarray, "point 2"], ...]:
-        """The drawn crown's outlines, world metres."""
-        return tuple(self.similarity.to_world(outline) for outline in self.graph.crown)
-
-    @property
-    def warnings(self) -> tuple[str, ...]:
-        """What the user should know about the reading and the depths."""
-        unsettled = () if self.fit.result == RESULTS.converged else (str(RESULTS[self.fit.result]),)
-        return self.graph.warnings + unsettled + self.fit.warnings
 
 
 @dataclass(frozen=True, eq=False)
@@ -113,52 +72,6 @@ def sketch_to_tree(
     return complete(drawn, templates, key=key, options=tree, obstacles=obstacles, watch=watch)
 
 
-def draw_out(
-    sketch: Sketch | str | Path,
-    templates: Database | None = None,
-    *,
-    key: Key[Array, ""],
-    options: ReadingOptions = ReadingOptions(),
-    watch: Watch | None = None,
-) -> DrawnTree:
-    """Strokes → sketch graph → template → depths: the drawn branches in 3D (§5, §7)."""
-    watch = watch or Watch()
-    with watch("read"):
-        sketch, graph = read_drawing(sketch, options, watch)
-        above = graph.above_ground()
-    with watch("match"):
-        templates = templates if templates is not None or options.template == "none" else Database.open()
-        matches, exemplar = choose_template(above, templates, options.template)
-        habit = exemplar.habit if exemplar else Habit()
-        prior = Prior(exemplar.theta, exemplar.limbs) if exemplar else Prior(GENERIC)
-    with watch("infer"):
-        factors = factor_graph(above)
-        solver = solver_named(options.method, theta=options.theta, planar=options.planar)
-        solver = solver.with_samples(options.samples, factors) if options.samples else solver
-        fit = infer(factors, prior, solver, key=stage_key(key, "infer"), alternatives=options.alternatives, throw=False)
-        if fit.result == RESULTS.not_finite:
-            raise InferenceError(f"The depths could not be inferred by `{options.method}`.", remedy=str(RESULTS[fit.result]))
-        fit = _with_roots(fit, graph)
-        similarity = page_to_world(above, options.height or habit.height)
-        radius = np.full(len(graph), np.nan)
-        radius[~graph.root] = drawn_radius(sketch, above, similarity, habit)
-        skeleton = lift(graph, fit.depth, similarity, depth_sd=fit.depth_sd)
-        skeleton = PipeRadii(habit, radius)(skeleton, key=stage_key(key, "radii"))
-    held = options.theta == "fixed"
-    theta = fit.theta_before if held else fit.theta
-    return DrawnTree(graph, matches, exemplar, fit, similarity, skeleton, radius, habit, held, theta, sketch)
-
-
-def _with_roots(fit: Fit, graph: SketchGraph) -> Fit:
-    """The fit with a row for every drawn root too (they stand last in the graph)."""
-    if not graph.root.any():
-        return fit
-    depth, sd = root_depth(graph), np.full(len(graph), np.nan)
-    depth[~graph.root], sd[~graph.root] = fit.depth, fit.depth_sd
-    others = tuple(reading._replace(depth=np.r_[reading.depth, depth[graph.root]]) for reading in fit.alternatives)
-    return dataclasses.replace(fit, depth=depth, depth_sd=sd, alternatives=others)
-
-
 def complete(
     drawn: DrawnTree,
     templates: Database | None = None,
@@ -174,8 +87,50 @@ def complete(
     watch = watch or Watch()
     with watch("propagate"):
         obstacles = read_obstacles(options) if obstacles is None else obstacles
-        grown = propagation(drawn, options, obstacles).run(drawn.skeleton, key=stage_key(key, "propagate"))
+        grown = grow(drawn, options, obstacles, key=key)
     return finish(drawn, grown, templates, key=key, options=options, watch=watch)
+
+
+def grow(drawn: DrawnTree, options: TreeOptions, obstacles: tuple = (), *, key: Key[Array, ""]) -> Propagation:
+    """What the sketch left out, grown (§6); nothing where a limb was cleared away by hand."""
+    grown = propagation(drawn, options, obstacles).run(drawn.skeleton, key=stage_key(key, "propagate"))
+    return cleared(grown, drawn.edits.cleared.values(), drawn.similarity)
+
+
+@dataclass(frozen=True, eq=False)
+class LeafyTree:
+    """A tree that has grown, with its leaves; all but its meshes."""
+
+    skeleton: TreeSkeleton
+    leaves: Leaves
+    blossom: Leaves | None
+    dress: Dress
+    warnings: tuple[str, ...]
+
+
+def leafy(
+    drawn: DrawnTree,
+    grown: Propagation,
+    templates: Database | None = None,
+    *,
+    key: Key[Array, ""],
+    options: TreeOptions = TreeOptions(),
+    place: Float[np.ndarray, " 3"] | None = None,
+    watch: Watch | None = None,
+) -> LeafyTree:
+    """Radii, sag, shedding, pruning and leaves of a tree that has grown; at another place (metres) than it was drawn, if asked."""
+    watch = watch or Watch()
+    habit = drawn.habit
+    dress = Dress(bark_model(options.bark, habit), leaf_model(options.leaf, habit, templates), options.season, habit)
+    with watch("propagate"):
+        left, tangled = _weathered(drawn, grown, options)
+        skeleton, told = _pruned(left if place is None else moved(left, place), options)
+        warnings = grown.warnings + tangled + told
+    with watch("foliage"):
+        leaves, flowers = foliage(skeleton, dress, key=key)
+    if leaves.kept < 1:
+        warnings += (f"Only {leaves.kept:.1%} of the leaves were kept (at most {len(leaves)}), each larger, so that their area is right.",)
+    return LeafyTree(skeleton, leaves, flowers, dress, warnings)
 
 
 def finish(
@@ -190,27 +145,19 @@ def finish(
 ) -> TreeModel:
     """Radii, sag, shedding, pruning, leaves and meshes of a tree that has grown; at another place (metres) than it was drawn, if asked."""
     watch = watch or Watch()
-    habit = drawn.habit
-    leaf = leaf_model(options.leaf, habit, templates)
-    bark = bark_model(options.bark, habit)
-    with watch("propagate"):
-        left, tangled = _weathered(drawn, grown, options)
-        skeleton, told = _pruned(left if place is None else moved(left, place), options)
-        warnings = grown.warnings + tangled + told
-    with watch("foliage"):
-        leaves, flowers = _foliage(skeleton, habit, leaf, options.season, stage_key(key, "foliage"))
-    if leaves.kept < 1:
-        warnings += (f"Only {leaves.kept:.1%} of the leaves were kept (at most {len(leaves)}), each larger, so that their area is right.",)
+    tree = leafy(drawn, grown, templates, key=key, options=options, place=place, watch=watch)
+    dress = tree.dress
     with watch("mesh"):
-        wood = wood_of(skeleton, bark=bark, habit=habit, key=stage_key(key, "mesh"), wood=options.wood, solid=options.solid)
+        wood = wood_of(tree.skeleton, bark=dress.bark, habit=dress.habit, key=stage_key(key, "mesh"), wood=options.wood, solid=options.solid)
         meshes = [*wood.meshes]
-        meshes += [leaf_mesh(worn, season=options.season) for worn in (leaves, flowers) if worn is not None and len(worn)]
-    warnings = drawn.warnings + warnings + wood.warnings
-    return TreeModel(drawn, skeleton, leaves, tuple(meshes), warnings, flowers, Dress(bark, leaf, options.season, habit), wood.made)
+        meshes += [leaf_mesh(worn, season=options.season) for worn in (tree.leaves, tree.blossom) if worn is not None and len(worn)]
+    warnings = drawn.warnings + tree.warnings + wood.warnings
+    return TreeModel(drawn, tree.skeleton, tree.leaves, tuple(meshes), warnings, tree.blossom, dress, wood.made)
 
 
-def _foliage(tree: TreeSkeleton, habit: Habit, leaf: str | None, season: str, key: Key[Array, ""]) -> tuple[Leaves, Leaves | None]:
+def foliage(tree: TreeSkeleton, dress: Dress, *, key: Key[Array, ""]) -> tuple[Leaves, Leaves | None]:
     """The leaves, and the blossoms of a spring."""
+    habit, leaf, season, key = dress.habit, dress.leaf, dress.season, stage_key(key, "foliage")
     if leaf is None:
         return Leaves.none(habit.leaf), None
     return populate(tree, habit, key=key, model=leaf, season=season), blossom(tree, habit, key=key, model=leaf, season=season)
@@ -274,13 +221,3 @@ def _weathered(drawn: DrawnTree, grown: Propagation, options: TreeOptions) -> tu
         weight = None if weight is None else kept_weight(tree, freed, weight)
         return PipeRadii(drawn.habit, radius[freed.rows], weight)(freed.skeleton), freed.warnings
     return freed.skeleton, freed.warnings
-
-
-@dataclass(frozen=True)
-class SketchSource:
-    """The built-in source: a sketch, or a path to one, becomes its drawn branches in 3D."""
-
-    options: ReadingOptions = ReadingOptions()
-
-    def __call__(self, input: Sketch | str | Path, *, key: Key[Array, ""]) -> TreeSkeleton:
-        return draw_out(input, key=key, options=self.options).skeleton

@@ -56,7 +56,7 @@ def curve_depth(graph: SketchGraph, depth: Float[np.ndarray, " segment"]) -> Flo
     if len(graph.curve_points) == 0:
         return np.zeros(0)
     row = np.repeat(np.arange(len(graph)), np.diff(graph.curve_start))
-    along, page_length = _along(graph, row)
+    along, page_length = along_curves(graph, row)
     above = np.maximum(graph.parent, 0)
     slope_in, slope_out = _node_slopes(graph, depth, page_length)
     h = np.maximum(page_length, 1e-300)[row]
@@ -66,8 +66,8 @@ def curve_depth(graph: SketchGraph, depth: Float[np.ndarray, " segment"]) -> Flo
     return hermite + h * ((t**3 - 2 * t**2 + t) * slope_in[row] + (t**3 - t**2) * slope_out[row])
 
 
-def _along(graph, row):
-    """Length on the page from the segment's start to every curve point, and of every whole segment."""
+def along_curves(graph: SketchGraph, row):
+    """Length on the page from the start of its segment (`row`) to every curve point, and of every whole segment; sketch units."""
     count = np.diff(graph.curve_start)
     first = graph.curve_start[:-1]
     before = np.empty_like(graph.curve_points)

@@ -1,0 +1,188 @@
+"""Strokes in, the drawn branches in space out: reading, template, depths.
+
+    strokes → sketch graph → template → depths (what was done by hand kept) → strokes of turned pages, adopted limbs → skeleton
+"""
+
+import dataclasses
+from dataclasses import dataclass
+from pathlib import Path
+
+import numpy as np
+from jaxtyping import Array, Float, Key
+
+from sketchtree.choose import choose_template
+from sketchtree.drawing import read_drawing, read_hand_work
+from sketchtree.editing.attached import Hanging, attach_turned, is_turned, sd_of_rows
+from sketchtree.editing.edits import Edits
+from sketchtree.editing.limbs import LimbLines
+from sketchtree.editing.rows import Drawing
+from sketchtree.editing.settle import Settling, settle
+from sketchtree.editing.settled import Settled
+from sketchtree.errors import InferenceError
+from sketchtree.geometry.radii import PipeRadii
+from sketchtree.keys import stage_key
+from sketchtree.mrf.factor_graph import factor_graph
+from sketchtree.mrf.infer import Fit
+from sketchtree.mrf.lift import lift
+from sketchtree.mrf.methods import solver_named
+from sketchtree.mrf.prior import Prior
+from sketchtree.mrf.solver import RESULTS
+from sketchtree.options import ReadingOptions
+from sketchtree.page import drawn_radius, page_to_world
+from sketchtree.parameters import GENERIC, Habit, TreeParameters
+from sketchtree.roots import root_depth
+from sketchtree.similarity import Similarity
+from sketchtree.sketch.graph import SketchGraph
+from sketchtree.sketch.strokes import Sketch
+from sketchtree.skeleton import Kind, TreeSkeleton
+from sketchtree.templates.exemplar import Exemplar
+from sketchtree.templates.matching.match import Match
+from sketchtree.templates.store.database import Database
+from sketchtree.watch import Watch
+
+_ANOTHER = 0.15  # Θ is measured anew when the drawing has so many more limbs, or fewer
+
+
+@dataclass(frozen=True, eq=False)
+class DrawnTree:
+    """The drawn branches in 3D, and how they came to be."""
+
+    graph: SketchGraph
+    matches: list[Match]  # best first; empty without templates
+    exemplar: Exemplar | None  # the template used
+    fit: Fit
+    similarity: Similarity  # sketch units → metres
+    skeleton: TreeSkeleton  # metres; rows are those of the graph
+    radius: Float[np.ndarray, " segment"]  # as drawn, metres; NaN where the lines' widths say nothing
+    habit: Habit
+    held: bool  # Θ is the template's, whatever was drawn
+    theta: TreeParameters  # by which the rest grows: measured on these branches, or the template's where Θ is fixed
+    sketch: Sketch  # as read
+    edits: Edits = Edits()  # what was done by hand
+    settled: Settled = Settled()  # what the depths have come to
+    touched: frozenset[int] = frozenset()  # ids of the limbs that were solved
+    remarks: tuple[str, ...] = ()  # what could not be done as asked by hand
+
+    @property
+    def crown(self) -> tuple[Float[np.ndarray, "point 2"], ...]:
+        """The drawn crown's outlines, world metres."""
+        return tuple(self.similarity.to_world(outline) for outline in self.graph.crown)
+
+    @property
+    def warnings(self) -> tuple[str, ...]:
+        """What the user should know about the reading and the depths."""
+        unsettled = () if self.fit.result == RESULTS.converged else (str(RESULTS[self.fit.result]),)
+        return self.graph.warnings + unsettled + self.fit.warnings + self.remarks
+
+
+def draw_out(
+    sketch: Sketch | str | Path,
+    templates: Database | None = None,
+    *,
+    key: Key[Array, ""],
+    options: ReadingOptions = ReadingOptions(),
+    edits: Edits | None = None,
+    settled: Settled | None = None,
+    similarity: Similarity | None = None,
+    quick: bool = False,
+    watch: Watch | None = None,
+) -> DrawnTree:
+    """Strokes → sketch graph → template → depths: the drawn branches in 3D (§5, §7).
+
+    A project file brings what was done to its tree by hand; `edits` and `settled` say so otherwise. What is settled already is not solved again. `quick`: the shortest run that finds a side for what
+    was touched, in the scale of `similarity` if given."""
+    watch = watch or Watch()
+    with watch("read"):
+        by_hand = read_hand_work(sketch) if edits is None or settled is None else None
+        edits, settled = by_hand.edits if edits is None else edits, by_hand.settled if settled is None else settled
+        sketch, graph = read_drawing(sketch, options, watch)
+        above = graph.above_ground()
+    with watch("match"):
+        templates = templates if templates is not None or options.template == "none" else Database.open()
+        wanted = settled.template if quick and settled.template and options.template == "auto" else options.template
+        matches, exemplar = choose_template(above, templates, wanted, before=settled.template, rank=not quick)
+        habit = exemplar.habit if exemplar else Habit()
+        prior = Prior(exemplar.theta, exemplar.limbs) if exemplar else Prior(GENERIC)
+    with watch("infer"):
+        factors = factor_graph(above)
+        solver = solver_named(options.method, theta=options.theta, planar=options.planar)
+        solver = solver.with_samples(options.samples, factors) if options.samples else solver
+        asked = f"{options.method} {options.theta} {options.planar} {exemplar.name if exemplar else 'none'}"
+        open_all = bool(len(settled)) and settled.asked != asked
+        infer_key = stage_key(key, "infer")
+        settling = settle(
+            above, factors, prior, solver, edits=edits, settled=settled, key=infer_key, quick=quick, alternatives=options.alternatives, open_all=open_all
+        )
+        fit = settling.fit
+        if fit.result == RESULTS.not_finite:
+            raise InferenceError(f"The depths could not be inferred by `{options.method}`.", remedy=str(RESULTS[fit.result]))
+        similarity = similarity or page_to_world(above, options.height or habit.height)
+        width = np.full(len(graph), np.nan)
+        width[~graph.root] = drawn_radius(sketch, above, similarity, habit)
+        limbs = _settled_limbs(above, fit)
+        fit = _with_roots(fit, graph)
+        tree = lift(graph, fit.depth, Similarity(1.0, (0.0, 0.0, 0.0)), depth_sd=fit.depth_sd)
+        hanging = Hanging(graph, prior, solver, edits, settled, float(above.xy[np.flatnonzero(above.is_base)[0], 0]), infer_key, quick)
+        strokes = {number: stroke for number, stroke in enumerate(sketch.strokes) if is_turned(stroke)}
+        touched, remarks, radius = settling.touched, settling.warnings, width
+        if strokes or edits.adopted:
+            attached = attach_turned(Drawing(tree, np.arange(len(graph))), strokes, hanging)
+            drawing, known = attached.drawing, attached.drawing.source >= 0
+            fit = _of_rows(fit, drawing, sd_of_rows(drawing, fit.depth_sd, attached.settled))
+            graph, tree = drawing.graph(graph, graph.stroke_ids), drawing.tree
+            radius = np.where(known, width[drawing.source], np.nan)
+            limbs, touched, remarks = limbs | attached.settled, touched | attached.touched, (*remarks, *attached.warnings)
+        skeleton = _in_world(tree, similarity, fit.depth_sd)
+        skeleton = PipeRadii(habit, radius)(skeleton, key=stage_key(key, "radii"))
+    held = options.theta == "fixed"
+    now = _as_settled(limbs, settled, fit, exemplar, asked, hanging.axis)
+    theta = fit.theta_before if held else now.theta
+    return DrawnTree(graph, matches, exemplar, fit, similarity, skeleton, radius, habit, held, theta, sketch, edits, now, touched, remarks)
+
+
+def _settled_limbs(graph: SketchGraph, fit: Fit) -> dict:
+    lines = LimbLines.of(graph)
+    return {line.limb: line.depths(graph, fit.depth, fit.depth_sd, graph.stroke_ids) for line in lines.lines}
+
+
+def _as_settled(limbs: dict, before: Settled, fit: Fit, exemplar: Exemplar | None, asked: str, axis: float) -> Settled:
+    """What is settled now. Θ stays what it was while the drawing is about as large and the question the same: one stroke more leaves what grew elsewhere alone."""
+    same = before.theta is not None and before.asked == asked and abs(len(limbs) - before.counted) <= _ANOTHER * before.counted
+    theta, counted = (before.theta, before.counted) if same else (fit.theta, len(limbs))
+    return Settled(limbs, exemplar.name if exemplar else None, asked, theta, counted, axis)
+
+
+def _with_roots(fit: Fit, graph: SketchGraph) -> Fit:
+    """The fit with a row for every drawn root too (they stand last in the graph)."""
+    if not graph.root.any():
+        return fit
+    depth, sd = root_depth(graph), np.full(len(graph), np.nan)
+    depth[~graph.root], sd[~graph.root] = fit.depth, fit.depth_sd
+    others = tuple(reading._replace(depth=np.r_[reading.depth, depth[graph.root]]) for reading in fit.alternatives)
+    return dataclasses.replace(fit, depth=depth, depth_sd=sd, alternatives=others)
+
+
+def _of_rows(fit: Fit, drawing: Drawing, sd) -> Fit:
+    """The fit with a row for every row of a drawing that has more; its posterior and other readings are those of the front page and are left out."""
+    place = np.flatnonzero(drawing.source >= 0)
+    row = np.zeros(drawing.source.max() + 1, np.int64)
+    row[drawing.source[place]] = place
+    return dataclasses.replace(fit, depth=np.array(drawing.tree.tip[:, 2]), depth_sd=sd, posterior=None, alternatives=(), wanted=0, overlaps=row[fit.overlaps])
+
+
+def _in_world(tree: TreeSkeleton, similarity: Similarity, sd) -> TreeSkeleton:
+    """A skeleton in sketch units as one in metres."""
+    return tree.replace(
+        tip=similarity.to_world(tree.tip), radius=tree.radius * similarity.scale, depth_sd=np.asarray(sd) * similarity.scale,
+        curve_points=similarity.to_world(tree.curve_points),
+    )  # fmt: skip
+
+
+@dataclass(frozen=True)
+class SketchSource:
+    """The built-in source: a sketch, or a path to one, becomes its drawn branches in 3D."""
+
+    options: ReadingOptions = ReadingOptions()
+
+    def __call__(self, input: Sketch | str | Path, *, key: Key[Array, ""]) -> TreeSkeleton:
+        return draw_out(input, key=key, options=self.options).skeleton
