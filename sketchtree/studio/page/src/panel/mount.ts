@@ -1,6 +1,22 @@
-// Controls at the side, the strip of templates, the status line, the dialogs (stub).
+// Controls at the side, the strip of templates, the status line, the dialogs, and what is said in the first minute.
 
+import { exportTree } from "./dialogs/export";
+import { gallery } from "./dialogs/gallery";
+import { mountDrop } from "./dialogs/drop";
+import { openFile } from "./dialogs/open";
+import { saveProject } from "./dialogs/save";
+import type { Views } from "./dialogs/views";
+import { emptyPage } from "./first/empty";
+import { goneBanner } from "./first/gone";
+import { hintCard } from "./first/hint";
+import { hintButton } from "./first/hint_button";
+import { welcomeBack } from "./first/welcome_back";
+import { mountSide } from "./side/mount";
+import { mountStatus } from "./status/mount";
+import { troubleCard } from "./status/trouble";
+import { mountStrip } from "./strip/strip";
 import type { Store } from "../store";
+import "./panel.css";
 
 export type Dialog = "open" | "save" | "gallery" | "export";
 
@@ -8,14 +24,29 @@ export interface PanelRoots {
   side: HTMLElement;
   strip: HTMLElement;
   status: HTMLElement;
+  page: HTMLElement; // what is said about the drawing stands on it
 }
 
-export function mountPanels(roots: PanelRoots, store: Store): void {
-  void roots;
-  void store;
+const dialogs = new Map<Dialog, () => void>();
+
+export function mountPanels(roots: PanelRoots, store: Store, views: Views): void {
+  dialogs.set("open", openFile(store));
+  dialogs.set("save", saveProject(store));
+  dialogs.set("gallery", gallery(store));
+  dialogs.set("export", exportTree(store, views));
+  mountSide(roots.side, store);
+  mountStrip(roots.strip, store);
+  mountStatus(roots.status, store);
+  const hint = hintCard(store);
+  const words = document.createElement("div");
+  words.className = "page-words";
+  words.append(goneBanner(store), troubleCard(store), hint.root);
+  roots.page.append(emptyPage(store, { gallery: () => openDialog("gallery"), open: () => openDialog("open") }), words, hintButton(store, hint));
+  welcomeBack(store);
+  mountDrop();
 }
 
 /** Show one of the dialogs. */
 export function openDialog(which: Dialog): void {
-  void which;
+  dialogs.get(which)?.();
 }

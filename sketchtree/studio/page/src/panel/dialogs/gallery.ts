@@ -12,7 +12,7 @@ export function gallery(store: Store): () => void {
   const walk = roving(grid, () => [...grid.querySelectorAll<HTMLElement>("button")]);
   box.body.append(element("p", { class: "hint" }, "Open one, draw a branch more, take one away. Undo brings back what is on the page now."), grid);
   store.on("welcome", () => {
-    grid.replaceChildren(...(store.known.welcome?.examples ?? []).map((one) => example(one, () => {
+    grid.replaceChildren(...(store.known.welcome?.examples ?? []).map((one) => example({ ...one, picture: one.picture && store.address(one.picture) }, () => {
       box.close();
       store.send({ type: "open", name: one.name, example: true });
     })));

@@ -12,7 +12,7 @@ export function barkPicker(store: Store): HTMLElement {
   });
   store.on("welcome", () => made.fill([
     { value: OWN, title: "Auto", picture: null },
-    ...(store.known.welcome?.barks ?? []).map((one) => ({ value: one.name, title: one.title, picture: one.picture })),
+    ...(store.known.welcome?.barks ?? []).map((one) => ({ value: one.name, title: one.title, picture: one.picture && store.address(one.picture) })),
   ]));
   store.on(["options", "tree", "welcome"], () => {
     const { options, tree, welcome } = store.known;

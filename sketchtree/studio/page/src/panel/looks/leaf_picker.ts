@@ -13,7 +13,7 @@ export function leafPicker(store: Store): HTMLElement {
   store.on("welcome", () => made.fill([
     { value: OWN, title: "Auto", picture: null },
     { value: "none", title: "None", picture: null },
-    ...(store.known.welcome?.leaves ?? []).filter((one) => one.name !== "none").map((one) => ({ value: one.name, title: one.title, picture: one.picture })),
+    ...(store.known.welcome?.leaves ?? []).filter((one) => one.name !== "none").map((one) => ({ value: one.name, title: one.title, picture: one.picture && store.address(one.picture) })),
   ]));
   store.on(["options", "tree", "welcome"], () => {
     const { options, tree, welcome } = store.known;

@@ -1,0 +1,59 @@
+// One format of the export dialog: a press makes the file and saves it. It says how long it works, how big the file is, or why there is none.
+
+import { element } from "../../parts/element";
+import type { Choice } from "../../messages";
+import { ask, Refused } from "../ask";
+import { download, nameOf } from "../download";
+import { bytes, duration } from "../figures";
+import type { ExportOptions } from "./export_options";
+
+const TICK = 200; // milliseconds between two figures of the clock
+
+export interface FormatLook {
+  format: Choice;
+  hint: string;
+  request: () => { options: ExportOptions; revision: number };
+  refused: (error: Refused) => void; // what went wrong, for the dialog to tell
+  started: () => void;
+}
+
+export function formatButton(look: FormatLook): HTMLButtonElement {
+  const extension = look.format.name.replace(/^\./, "");
+  const note = element("span", { class: "format-note" }, look.hint);
+  const made = element("button", { class: "format", title: `${look.format.title}: make it and save it`, testId: `export-${extension}` }, element("strong", {}, `.${extension}`), element("span", {}, look.format.title), note);
+  made.type = "button";
+  let working: AbortController | null = null;
+  made.addEventListener("click", () => {
+    if (working) return working.abort();
+    working = new AbortController();
+    look.started();
+    void make(look, working.signal, note).finally(() => {
+      working = null;
+      made.classList.remove("working");
+    });
+    made.classList.add("working");
+  });
+  return made;
+}
+
+async function make(look: FormatLook, signal: AbortSignal, note: HTMLElement): Promise<void> {
+  const began = performance.now();
+  const clock = setInterval(() => { note.textContent = `Working, ${duration(Math.floor((performance.now() - began) / 100) * 100)}; press to stop`; }, TICK);
+  note.textContent = "Working; press to stop";
+  try {
+    const body = JSON.stringify({ format: look.format.name, ...look.request() });
+    const answer = await ask("export", { method: "POST", headers: { "content-type": "application/json" }, body, signal });
+    const contents = await answer.blob();
+    download(contents, nameOf(answer, `tree${look.format.name}`));
+    note.textContent = `Saved, ${bytes(contents.size)} in ${duration(performance.now() - began)}`;
+  } catch (error) {
+    if (error instanceof DOMException && error.name === "AbortError") {
+      note.textContent = "Stopped";
+      return;
+    }
+    note.textContent = "Not made";
+    look.refused(error instanceof Refused ? error : new Refused("The file could not be made.", "Try again; if it stays so, start the studio again."));
+  } finally {
+    clearInterval(clock);
+  }
+}

@@ -1,0 +1,14 @@
+// Calls the hint again: a small button in the page's corner.
+
+import { button } from "../../parts/button";
+import type { Store } from "../../store";
+import type { Hint } from "./hint";
+
+export function hintButton(store: Store, hint: Hint): HTMLButtonElement {
+  const made = button({ label: "What do I draw?", icon: "help", iconOnly: true, look: "quiet", hint: "What do I draw?", testId: "hint-again", onPress: () => (hint.root.hidden ? hint.show() : (hint.root.hidden = true)) });
+  made.classList.add("hint-again");
+  const follow = (): void => { made.hidden = store.known.strokes.size === 0; };
+  store.on("strokes", follow);
+  follow();
+  return made;
+}

@@ -1,0 +1,32 @@
+// The panel at the side: how the tree grows, what it wears, how the drawing is read, what was done by hand.
+
+import { crownToggle } from "../grow/crown_toggle";
+import { density } from "../grow/density";
+import { fill } from "../grow/fill";
+import { generations } from "../grow/generations";
+import { gravity } from "../grow/gravity";
+import { height } from "../grow/height";
+import { light } from "../grow/light";
+import { planar } from "../grow/planar";
+import { seed } from "../grow/seed";
+import { thetaMode } from "../grow/theta_mode";
+import { editsList } from "../edits/list";
+import { barkPicker } from "../looks/bark_picker";
+import { leafPicker } from "../looks/leaf_picker";
+import { seasonPicker } from "../looks/season_picker";
+import { alternatives } from "../readings/alternatives";
+import { uncertainty } from "../readings/uncertainty";
+import { wholeTree } from "../readings/whole_tree";
+import type { Store } from "../../store";
+import { section } from "./section";
+
+export function mountSide(root: HTMLElement, store: Store): void {
+  const hand = section("edits", "Done by hand", true);
+  hand.body.append(editsList(store, hand.mark));
+  root.append(
+    section("tree", "Tree", true, seed(store), generations(store), density(store), gravity(store), light(store), height(store), crownToggle(store), fill(store), planar(store), thetaMode(store)).root,
+    section("looks", "Looks", true, seasonPicker(store), leafPicker(store), barkPicker(store)).root,
+    section("depth", "Depth", true, uncertainty(store), alternatives(store), wholeTree(store)).root,
+    hand.root,
+  );
+}
