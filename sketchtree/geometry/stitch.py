@@ -28,6 +28,7 @@ class Surface:
     normal: Float[np.ndarray, "vertex 3"]
     uv: Float[np.ndarray, "vertex 2"]
     triangle: Int[np.ndarray, "triangle 3"]
+    limb: Int[np.ndarray, " vertex"] | None = None  # of the centre lines, for tubes
 
 
 @dataclass(frozen=True, eq=False)
@@ -77,6 +78,7 @@ def stitch(
         np.concatenate([normal[ring, around], end_normal]),
         np.concatenate([uv, _end_uv(uv, stored, low, high, rings, limbs, tile)]),
         np.concatenate([sides(stored, start), fan(stored, low, foot)[:, [1, 0, 2]], fan(stored, high, tip)]),
+        np.concatenate([limbs[limb[ring]], limbs, limbs]),
     )
 
 

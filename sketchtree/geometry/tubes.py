@@ -39,10 +39,10 @@ def sweep(
     parts, total = [], 0
     for n in np.unique(side[among]):
         part = _sweep_alike(lines, ring, np.flatnonzero((side == n) & among), int(n), level, collar_top, offset, bark, detail, tolerance)
-        parts.append(Surface(part.position, part.normal, part.uv, part.triangle + total))
+        parts.append(Surface(part.position, part.normal, part.uv, part.triangle + total, part.limb))
         total += len(part.position)
     if not parts:
-        return Surface(np.zeros((0, 3)), np.zeros((0, 3)), np.zeros((0, 2)), np.zeros((0, 3), np.int64))
+        return Surface(np.zeros((0, 3)), np.zeros((0, 3)), np.zeros((0, 2)), np.zeros((0, 3), np.int64), np.zeros(0, np.int64))
     return Surface(*(np.concatenate([getattr(part, name) for part in parts]) for name in Surface.__dataclass_fields__))
 
 

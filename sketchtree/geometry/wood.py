@@ -186,9 +186,13 @@ def plan_wood(tree: TreeSkeleton, lines: CentreLines, detail: Detail) -> WoodPla
 
 def swept(plan: WoodPlan, among: Bool[np.ndarray, " limb"], name: str, material: Material, key: Key[Array, ""]) -> Mesh:
     """The mesh of the limbs `among` all."""
+    return Mesh(name, *_of(swept_surface(plan, among, key)), material)
+
+
+def swept_surface(plan: WoodPlan, among: Bool[np.ndarray, " limb"], key: Key[Array, ""]) -> Surface:
+    """The same before it is a mesh: each vertex knows its limb."""
     shape = plan.side, plan.level
-    surface = sweep(plan.lines, plan.ring, shape, plan.collar_top, _shift(plan.lines, key), plan.detail, plan.tolerance, among)
-    return Mesh(name, *_of(surface), material)
+    return sweep(plan.lines, plan.ring, shape, plan.collar_top, _shift(plan.lines, key), plan.detail, plan.tolerance, among)
 
 
 def _plan(lines: CentreLines, detail: Detail, height: float) -> WoodPlan:

@@ -3,7 +3,7 @@
 import numpy as np
 from jaxtyping import Array, Bool, Float, Key
 
-from sketchtree.keys import normal
+from sketchtree.keys import draw_key, normal
 from sketchtree.mrf.factor_graph import FactorGraph
 
 SD = 0.5  # radians, of a lateral's first ψ
@@ -23,7 +23,7 @@ def starts(
     """ψ of every chain, padded to `segments`. Where ψ is `known` (not NaN) chains begin near it, the first at it;
     rows that are `held` are the same in all."""
     start = np.zeros((chain_count, segments), np.float32)
-    limb = np.arange(graph.limb_count)
+    limb, key = np.arange(graph.limb_count), draw_key(key)
     for chain in range(chain_count):
         psi = np.clip(SD * normal(key, limb, chain), -WIDEST, WIDEST) * graph.limb_spreads
         row = psi[graph.limb]

@@ -26,6 +26,7 @@ from sketchtree.templates.store.migrate import SOURCE, filled, stored
 from sketchtree.templates.store.writer import FORMAT
 
 ENVIRONMENT = "SKETCHTREE_DB"
+KEPT = 8  # exemplars that stay in memory once read
 SLAB = 2**24  # bytes read at a time while a checksum is compared
 _REBUILD = "Rebuild it with `sketchtree templates build`, or name another file with --db."
 
@@ -36,6 +37,7 @@ class Database:
     def __init__(self, path: Path | str):
         self.path = Path(path)
         self._digest, self._root, self.schema = {}, None, 0
+        self._read: dict[str, tuple[object, Exemplar]] = {}  # with what the file was then
         with _Guarded(self.path) as file:
             self._check_head(file)
             self.names = tuple(name.decode("utf-8") for name in self._whole(file, "exemplar/name"))
@@ -59,10 +61,13 @@ class Database:
         )
 
     def exemplar(self, name: str) -> Exemplar:
-        """One exemplar, read now."""
-        index = self.index(name)
-        with self._file() as file:
-            return exemplar_at(lambda column, first, last: self._part(file, column, first, last), index)
+        """One exemplar, read when it is first asked for; the last few are kept."""
+        index, file_now = self.index(name), _signature(self.path)
+        if self._read.get(name, (None,))[0] != file_now:
+            with self._file() as file:
+                found = exemplar_at(lambda column, first, last: self._part(file, column, first, last), index)
+            self._read = dict([*self._read.items()][1 - KEPT :]) | {name: (file_now, found)}
+        return self._read[name][1]
 
     def blocks(self) -> Iterator[dict[str, np.ndarray]]:
         """The columns of one exemplar after another, for writing them again."""
@@ -163,6 +168,15 @@ class Database:
     def _check(self, name: str, dataset, pieces) -> None:
         if digest_of(name, pieces, dataset.dtype, dataset.shape, schema=self.schema) != self._digest[name]:
             raise _damaged(self.path, f"the checksum of `{name}` is wrong")
+
+
+def _signature(path: Path) -> object:
+    """Other than before once the file has been replaced; None where there is none."""
+    try:
+        state = path.stat()
+    except OSError:
+        return None
+    return state.st_mtime_ns, state.st_size, state.st_ino
 
 
 def _slabs(dataset):
