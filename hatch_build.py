@@ -20,6 +20,7 @@ from typing import Any
 from hatchling.builders.hooks.plugin.interface import BuildHookInterface
 
 PAGE = "sketchtree/studio/page"
+EXAMPLES = "sketchtree/studio/examples"  # in the wheel, the drawings of examples/: the studio's gallery
 SOURCES = ("index.html", "package.json", "package-lock.json", ".npmrc", "tsconfig.json", "*.config.ts", "public/**/*", "src/**/*")
 STAMP = "built-from.txt"  # in dist/: the digest of the sources that it was built from
 OLDEST_NODE = (20, 19)
@@ -49,6 +50,9 @@ class PageHook(BuildHookInterface):
             except PageNotBuilt as reason:
                 self.app.display_warning(f"The studio's page was not built: {reason} All but `sketchtree studio` and the drawing widget works without it.")
         build_data["artifacts"].append(f"/{PAGE}/dist/")
+        if self.target_name == "wheel" and version != "editable":
+            drawings = [path for path in Path(self.root, "examples").glob("*") if path.suffix in (".svg", ".json")]
+            build_data["force_include"].update({str(path): f"{EXAMPLES}/{path.name}" for path in drawings})
 
 
 class PageNotBuilt(Exception):

@@ -69,7 +69,7 @@ def initialize(hook, page):
     warnings = []
     root = page.parents[2]
     made = hook.PageHook(str(root), {}, None, None, "", "wheel", SimpleNamespace(display_warning=warnings.append))
-    data = {"artifacts": []}
+    data = {"artifacts": [], "force_include": {}}
     made.initialize("standard", data)
     return data["artifacts"], warnings, made.dependencies()
 
@@ -86,6 +86,16 @@ def test_the_page_is_built_into_dist_and_is_part_of_the_package(hook, page, tmp_
     assert not warnings
     assert asked(tmp_path) == ["ci", "run"]
     assert {path.name for path in page.iterdir()} == {"package.json", "src", "dist"}, "npm works in a folder of its own"
+
+
+def test_the_wheel_holds_the_drawings_of_the_gallery(hook, page):
+    root = page.parents[2]
+    (root / "examples").mkdir()
+    for name in ("oak.svg", "apple.json", "README.md"):
+        (root / "examples" / name).write_text("{}")
+    data = {"artifacts": [], "force_include": {}}
+    hook.PageHook(str(root), {}, None, None, "", "wheel", SimpleNamespace()).initialize("standard", data)
+    assert sorted(data["force_include"].values()) == ["sketchtree/studio/examples/apple.json", "sketchtree/studio/examples/oak.svg"]
 
 
 def test_a_second_build_has_nothing_to_do(hook, page, tmp_path):
