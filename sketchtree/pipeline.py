@@ -123,9 +123,7 @@ def leafy(
     habit = drawn.habit
     dress = Dress(bark_model(options.bark, habit), leaf_model(options.leaf, habit, templates), options.season, habit)
     with watch("propagate"):
-        left, tangled = _weathered(drawn, grown, options)
-        skeleton, told = _pruned(left if place is None else moved(left, place), options)
-        warnings = grown.warnings + tangled + told
+        skeleton, warnings = weathered(drawn, grown, options, place)
     with watch("foliage"):
         leaves, flowers = foliage(skeleton, dress, key=key)
     if leaves.kept < 1:
@@ -153,6 +151,15 @@ def finish(
         meshes += [leaf_mesh(worn, season=options.season) for worn in (tree.leaves, tree.blossom) if worn is not None and len(worn)]
     warnings = drawn.warnings + tree.warnings + wood.warnings
     return TreeModel(drawn, tree.skeleton, tree.leaves, tuple(meshes), warnings, tree.blossom, dress, wood.made)
+
+
+def weathered(
+    drawn: DrawnTree, grown: Propagation, options: TreeOptions, place: Float[np.ndarray, " 3"] | None = None
+) -> tuple[TreeSkeleton, tuple[str, ...]]:
+    """What weight, shade, others in the way and the shears leave of a grown tree, with its radii; and what the user should know."""
+    left, tangled = _weathered(drawn, grown, options)
+    skeleton, told = _pruned(left if place is None else moved(left, place), options)
+    return skeleton, grown.warnings + tangled + told
 
 
 def foliage(tree: TreeSkeleton, dress: Dress, *, key: Key[Array, ""]) -> tuple[Leaves, Leaves | None]:

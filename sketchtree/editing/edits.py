@@ -39,6 +39,9 @@ class Adopted:
     share: float  # where on it, 0-1 of the parent's length
     path: Float[np.ndarray, "point 3"]  # from its foot, which is 0 0 0; sketch units
     radius: float  # at its foot, sketch units
+    was: int = -1  # its id while it was undrawn
+    foot: Float[np.ndarray, " 3"] | None = None  # where it started when it was found; not kept
+    on: "Adopted | None" = None  # the undrawn limb it grows on, which has to be adopted first; not kept
 
 
 @dataclass(frozen=True, eq=False)

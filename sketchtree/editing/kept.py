@@ -1,7 +1,7 @@
 """What was done by hand, and what the depths have come to, as JSON: how a project file and a recovery journal keep it.
 
     edits     [{"op": "hold", "limb": "…", "share": […], "depth": […], "whole": false}, {"op": "clear", "limb", "path": [[x, y, z], …], "radius"},
-               {"op": "adopt", "limb", "parent", "share", "path", "radius"}, …]       limb ids are decimal text; sketch units, y up
+               {"op": "adopt", "limb", "parent", "share", "path", "radius", "was"}, …]       limb ids are decimal text; sketch units, y up
     settled   {"template", "asked", "theta": {…}, "counted", "axis", "limbs": {id: {"share", "depth", "sd", "course", "parent", "strokes", "view_deg"}}}
 
 Numbers are written so that they read back to the last bit; an sd that is not known is null.
@@ -23,7 +23,7 @@ def edits_as_json(edits: Edits) -> list[dict]:
     held = [{"op": "hold", "limb": str(one.limb), "share": _list(one.share), "depth": _list(one.depth), "whole": one.whole} for one in edits.held.values()]
     cleared = [{"op": "clear", "limb": str(one.limb), "path": _list(one.path), "radius": float(one.radius)} for one in edits.cleared.values()]
     adopted = [
-        {"op": "adopt", "limb": str(one.limb), "parent": str(one.parent), "share": float(one.share), "path": _list(one.path), "radius": float(one.radius)}
+        {"op": "adopt", "limb": str(one.limb), "parent": str(one.parent), "share": float(one.share), "path": _list(one.path), "radius": float(one.radius), "was": str(one.was)}
         for one in edits.adopted.values()
     ]
     return [*held, *cleared, *adopted]
@@ -39,7 +39,7 @@ def edits_from_json(rows: Any) -> Edits:
         elif row.get("op") == "clear":
             cleared[limb] = Cleared(limb, _path(row["path"]), _number(row["radius"]))
         elif row.get("op") == "adopt":
-            adopted[limb] = Adopted(limb, _limb(row["parent"]), _number(row["share"]), _path(row["path"]), _number(row["radius"]))
+            adopted[limb] = Adopted(limb, _limb(row["parent"]), _number(row["share"]), _path(row["path"]), _number(row["radius"]), int(row.get("was", -1)))
         else:
             raise ValueError(f"unknown operation {row.get('op')!r}")
     return Edits(held, cleared, adopted)

@@ -20,6 +20,7 @@ _ROOM = 0.12  # radius of the room that a deleted limb leaves, of its length
 
 def hold(document: Document, limb: int, share: float, depth: float) -> Document:
     """The limb's depth at one place is `depth` (sketch units) from now on. Raises OptionError for an unknown limb, or one that is locked as a whole elsewhere."""
+    limb = limb_now(document, limb)
     own = _known(document, limb)
     if limb in document.edits.adopted:
         return _bent(document, limb, share, depth - float(np.interp(share, own.share, own.depth)))
@@ -35,6 +36,7 @@ def hold(document: Document, limb: int, share: float, depth: float) -> Document:
 
 def flip(document: Document, limb: int) -> Document:
     """The limb, and all that grows on it, to the other side of where it starts; it is held there. Raises OptionError."""
+    limb = limb_now(document, limb)
     own = _known(document, limb)
     if own.parent is None:
         raise OptionError("A trunk has no other side.", remedy="Mirror the whole tree instead.")
@@ -55,7 +57,7 @@ def mirror(document: Document) -> Document:
 
 def lock(document: Document, limb: int, on: bool) -> Document:
     """The limb stays as it is, or is free again; a limb that was adopted is given up, one that was cleared may grow again. Raises OptionError for an unknown one."""
-    edits = document.edits
+    limb, edits = limb_now(document, limb), document.edits
     if on:
         own = _known(document, limb)
         return document if limb in edits.adopted else _held(document, Held(limb, own.share, own.depth, True))
@@ -67,6 +69,7 @@ def lock(document: Document, limb: int, on: bool) -> Document:
 
 def delete(document: Document, limb: int) -> Document:
     """The limb and all that grows on it, their strokes too, are gone; where an adopted one stood nothing grows again. Raises OptionError for an unknown limb."""
+    limb = limb_now(document, limb)
     _known(document, limb)
     gone = {limb, *document.settled.borne(limb)}
     adopted = document.edits.adopted.get(limb)
@@ -92,22 +95,32 @@ def pick(document: Document, settled: Settled) -> Document:
 
 
 def adopt(document: Document, adopted: Adopted) -> Document:
-    """An undrawn limb counts as drawn from now on. Raises OptionError if what it grows on was not drawn."""
-    if adopted.parent not in document.settled.limbs:
-        raise OptionError("What this limb grows on was not drawn.", remedy="Lock the limb it grows on first.")
-    edits = dataclasses.replace(document.edits, adopted={**document.edits.adopted, adopted.limb: adopted})
-    limbs = {**document.settled.limbs, adopted.limb: adopted_depths(adopted, document.settled)}
+    """An undrawn limb counts as drawn from now on, and so does the undrawn limb it grows on. Raises OptionError if that is not there any more."""
+    if adopted.on is not None:
+        document = adopt(document, adopted.on)
+    _known(document, adopted.parent)
+    kept = dataclasses.replace(adopted, foot=None, on=None)
+    edits = dataclasses.replace(document.edits, adopted={**document.edits.adopted, adopted.limb: kept})
+    limbs = {**document.settled.limbs, adopted.limb: adopted_depths(kept, document.settled)}
     return document.replace(edits=edits, settled=dataclasses.replace(document.settled, limbs=limbs))
 
 
 def clear(document: Document, adopted: Adopted) -> Document:
-    """Nothing grows any more where this limb stands. Raises OptionError if what it grows on was not drawn."""
-    if adopted.parent not in document.settled.limbs:
-        raise OptionError("What this limb grows on was not drawn.", remedy="Lock the limb it grows on first.")
-    foot = foot_on(document.settled, adopted.parent, adopted.share)
+    """Nothing grows any more where this limb stands. Raises OptionError if what it grows on is not there any more."""
+    if adopted.foot is None:
+        _known(document, adopted.parent)
+    foot = foot_on(document.settled, adopted.parent, adopted.share) if adopted.foot is None else adopted.foot
     length = float(np.linalg.norm(np.diff(adopted.path, axis=0), axis=1).sum())
-    room = Cleared(adopted.limb, adopted.path + foot, max(_ROOM * length, adopted.radius))
-    return document.replace(edits=dataclasses.replace(document.edits, cleared={**document.edits.cleared, adopted.limb: room}))
+    limb = adopted.limb if adopted.was < 0 else adopted.was
+    room = Cleared(limb, adopted.path + foot, max(_ROOM * length, adopted.radius))
+    return document.replace(edits=dataclasses.replace(document.edits, cleared={**document.edits.cleared, limb: room}))
+
+
+def limb_now(document: Document, limb: int) -> int:
+    """The id that a limb has now: an adopted one has another than when it was undrawn, since its place on its parent may grow anew."""
+    if limb in document.settled.limbs:
+        return limb
+    return next((one.limb for one in document.edits.adopted.values() if one.was == limb), limb)
 
 
 def foot_on(settled: Settled, limb: int, share: float):

@@ -23,7 +23,7 @@ _BENDS = 3  # cards that differ in their curl
 
 def leaf_instances(leaves: Leaves, *, season: str = "summer") -> tuple[Instances, ...]:
     """The leaves as instances of up to three cards, and of one stem for the short shoots: `leaf_0`, `leaf_1`, `leaf_2`, `leaf_stem`
-    (`leaf_blossom_0`, …). What no leaf uses is left out. Raises OptionError."""
+    (`leaf_blossom_0`, …). What no leaf uses is left out. Those of cards name their leaves' rows. Raises OptionError."""
     check_season(season)
     model = leaf_model(leaves.model)
     material, factor = leaf_material(leaves.model, season), leaf_factor(leaves.model, season, leaves.tint, crown_light(leaves))
@@ -35,7 +35,7 @@ def leaf_instances(leaves: Leaves, *, season: str = "summer") -> tuple[Instances
     for k in np.unique(kind):
         of = kind == k
         mesh = _card_mesh(leaves.model, f"{mesh_name(leaves.model)}_{k}", 0.4 + 1.2 * (k + 0.5) / kinds, material)
-        found.append(Instances(mesh, leaves.position[of], turn[of], np.repeat(leaves.size[of, None], 3, axis=1), factor[of]))
+        found.append(Instances(mesh, leaves.position[of], turn[of], np.repeat(leaves.size[of, None], 3, axis=1), factor[of], np.flatnonzero(of)))
     return (*found, _stem_instances(leaves, material)) if len(leaves.shoot) else tuple(found)
 
 

@@ -8,7 +8,7 @@ A vertex p of the mesh stands, at each place, at
 from dataclasses import dataclass
 
 import numpy as np
-from jaxtyping import Float
+from jaxtyping import Float, Int
 from scipy.spatial.transform import Rotation
 
 from sketchtree.geometry.mesh import Mesh
@@ -23,6 +23,7 @@ class Instances:
     rotation: Float[np.ndarray, "instance 4"]  # unit quaternion, x y z w
     scale: Float[np.ndarray, "instance 3"]
     color: Float[np.ndarray, "instance 4"] | None = None  # linear factor
+    source: Int[np.ndarray, " instance"] | None = None  # row of the table they were made of, where there is one
 
     def __len__(self) -> int:
         return len(self.translation)

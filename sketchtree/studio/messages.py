@@ -361,6 +361,7 @@ class Limb(_Record):
     path: list[float]  # x, y, z … metres, world
     sd: list[float]  # of the depth at each point of `path`, metres; -1 unknown
     view_deg: float  # of the page it was drawn on
+    was: str | None = None  # adopted: its id while it was undrawn
 
 
 class Material(_Record):

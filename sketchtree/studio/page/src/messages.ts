@@ -218,6 +218,7 @@ export interface Limb {
   path: number[]; // x, y, z … metres, world
   sd: number[]; // of the depth at each point of `path`, metres; -1 unknown
   view_deg: number; // of the page it was drawn on
+  was: string | null; // adopted: its id while it was undrawn
 }
 
 /** Where an array lies in the frame, and what it is. */

@@ -121,13 +121,21 @@ export class Store {
       case "saved": if (known.welcome) known.welcome = { ...known.welcome, files: event.files }; known.name = event.name; known.saved = true; this.tell("saved", "name", "welcome"); break;
       case "tree":
         known.tree = event;
-        if (event.limbs) known.limbs = event.limbs;
+        if (event.limbs) this.limbs(event.limbs);
         this.frame = { head: event, arrays };
         this.tell("frame", "tree", ...(event.limbs ? (["limbs"] as Topic[]) : []));
         this.frame = null;
         break;
       case "ghost": this.ghost = { head: event, arrays }; this.tell("ghost"); this.ghost = null; break;
     }
+  }
+
+  /** The limbs as they are now; a selected limb that was adopted goes by another id. */
+  private limbs(limbs: Limb[]): void {
+    this.known.limbs = limbs;
+    const selected = this.ui.selected;
+    const adopted = selected === null || limbs.some((limb) => limb.id === selected) ? undefined : limbs.find((limb) => limb.was === selected);
+    if (adopted) this.set("selected", adopted.id);
   }
 
   private change(event: Changed): Topic[] {
