@@ -1,8 +1,66 @@
-// (stub)
+// The page one draws on: canvases, the pen and its tools, the view of it, and what is said over it.
 
+import { element } from "../parts/element";
 import type { Store } from "../store";
+import { camera } from "./camera";
+import type { Desk } from "./desk";
+import { followDrawing } from "./following";
+import { drawing } from "./hand/drawing";
+import { erasing } from "./hand/erasing";
+import { panning } from "./hand/panning";
+import { Pen } from "./hand/pen";
+import { selecting } from "./hand/selecting";
+import type { Tool } from "./hand/touch";
+import { mountWheel } from "./hand/wheel";
+import { listenKeys } from "./keys";
+import { mountOptions } from "./options";
+import { paintDrawing, paintLive } from "./paint/painter";
+import { readPalette } from "./paint/palette";
+import { makeSurface } from "./paint/surface";
+import { pairSelections } from "./selection";
+import { mountTip } from "./tip";
+import { mountViewCorner } from "./view_corner";
 
 export function mountDraw(root: HTMLElement, store: Store): void {
-  void root;
-  void store;
+  const below = element("canvas", { class: "page-layer", aria: { hidden: "true" } });
+  const top = element("canvas", { class: "page-layer", testId: "page-canvas", tabindex: 0, role: "application", aria: { label: "Drawing page. Draw with a pen, mouse or finger; press ? for the keys." } });
+  let palette = readPalette(root);
+  const picture = new Image();
+  const desk: Desk = {
+    store, camera, live: null, instead: new Map(), hovered: null, lasso: [], eraser: null, erases: "whole", underlay: null, movesUnderlay: false, trouble: null,
+    repaint: () => surface.repaint(), repaintLive: () => surface.repaintLive(),
+  };
+  const surface = makeSurface(root, below, top, {
+    onPaint: () => paintDrawing(surface.drawing, surface.ratio(), desk, palette, picture.src ? picture : null),
+    onPaintLive: () => paintLive(surface.live, surface.ratio(), desk, palette),
+    onSize: (width, height) => camera.resize(width, height),
+  });
+  const tools = { branch: drawing(desk, "branch"), crown: drawing(desk, "crown"), obstacle: drawing(desk, "obstacle"), erase: erasing(desk), select: selecting(desk), pan: panning(desk) } satisfies Record<Store["ui"]["tool"], Tool>;
+  const pen = new Pen(top, desk, { current: () => tools[store.ui.tool], eraser: tools.erase, panning: tools.pan });
+
+  camera.on(desk.repaint);
+  pairSelections(store);
+  followDrawing(desk);
+  mountWheel(top, camera);
+  mountTip(root, top, desk);
+  listenKeys(root, desk, pen);
+  root.append(element("div", { class: "page-foot" }, mountOptions(desk), mountViewCorner(desk)));
+
+  store.on("tool", () => {
+    pen.cancel();
+    tools[store.ui.tool === "erase" ? "select" : "erase"].hover(null);
+    pen.showCursor();
+  });
+  store.on("theme", () => {
+    palette = readPalette(root);
+    desk.repaint();
+  });
+  store.on("underlay", () => {
+    const digest = store.known.underlay?.digest;
+    if (digest) picture.src = store.address(`/underlay/${digest}`);
+    else picture.removeAttribute("src");
+  });
+  picture.addEventListener("load", desk.repaint);
+  store.on(["strokes", "read", "limbs", "tree", "selected", "selectedStrokes", "turn", "layout", "underlay", "trouble"], desk.repaint);
+  pen.showCursor();
 }

@@ -1,8 +1,46 @@
-// (stub)
+// The tool rail: what the pen does, and what can be done to the branch that is chosen.
 
-import type { Store } from "../store";
+import { block, button, press, swapIcon } from "../parts/button";
+import { element } from "../parts/element";
+import type { Store, Tool } from "../store";
+import type { IconName } from "../style/icons";
+import { flip, lock } from "./keys";
+import { selectedLimb } from "./selection";
+
+const TOOLS: { tool: Tool; icon: IconName; label: string; hint: string; key: string }[] = [
+  { tool: "branch", icon: "branch", label: "Branch", hint: "Draw a branch, from where it grows to its tip", key: "B" },
+  { tool: "crown", icon: "crown", label: "Crown", hint: "Outline the crown; it closes by itself", key: "C" },
+  { tool: "obstacle", icon: "obstacle", label: "Obstacle", hint: "Outline a wall or a rock: branches keep out of it", key: "O" },
+  { tool: "erase", icon: "erase", label: "Erase", hint: "Erase lines; with Alt only a part", key: "E" },
+  { tool: "select", icon: "select", label: "Select", hint: "Select, reshape and move", key: "V" },
+  { tool: "pan", icon: "pan", label: "Move the page", hint: "Move the page; or hold Space and drag", key: "H" },
+];
 
 export function mountTools(root: HTMLElement, store: Store): void {
-  void root;
-  void store;
+  const made = TOOLS.map(({ tool, icon, label, hint, key }) => {
+    const one = button({ label, icon, iconOnly: true, look: "quiet", hint, key, testId: `tool-${tool}`, onPress: () => store.set("tool", tool) });
+    one.classList.add("tool");
+    return { tool, one };
+  });
+  const showTool = (): void => made.forEach(({ tool, one }) => press(one, store.ui.tool === tool));
+  store.on("tool", showTool);
+  showTool();
+  root.append(...made.map(({ one }) => one), element("span", { class: "rail-gap", role: "separator" }), ...branchButtons(store));
+}
+
+function branchButtons(store: Store): HTMLButtonElement[] {
+  const flips = button({ label: "Flip", icon: "flip", iconOnly: true, look: "quiet", hint: "Flip the branch to the other side of the page", key: "F", testId: "tool-flip", onPress: () => flip(store) });
+  const locks = button({ label: "Lock", icon: "lock", iconOnly: true, look: "quiet", hint: "Lock the branch as it is, or free it", key: "L", testId: "tool-lock", onPress: () => lock(store) });
+  const show = (): void => {
+    const limb = selectedLimb(store);
+    const reason = limb ? null : store.ui.selectedStrokes.length ? "its branch is not known yet" : "select a branch first";
+    block(flips, reason);
+    block(locks, reason);
+    press(locks, limb?.locked ?? false);
+    swapIcon(locks, limb?.locked ? "unlock" : "lock");
+  };
+  store.on(["selected", "selectedStrokes", "limbs"], show);
+  show();
+  for (const one of [flips, locks]) one.classList.add("tool");
+  return [flips, locks];
 }

@@ -1,0 +1,53 @@
+// What does the page do by itself? It shows all of a drawing that was opened, keeps what one draws where it is, and lights the stroke that made trouble.
+
+import type { Desk } from "./desk";
+import { around } from "./line/nearness";
+
+const PEN = 4; // CSS pixels: width of the pen on a drawing just opened
+const EMPTY = { left: 0.5, top: 0.86 }; // where on an empty page the tree's root is to be
+
+export function followDrawing(desk: Desk): void {
+  const { store, camera } = desk;
+  let before = new Set<string>();
+  let placed = false;
+
+  /** All of the drawing, and the ground below it. */
+  const fit = (): boolean => {
+    const box = around(store.known.strokes.values());
+    if (!box || camera.width < 2) return false;
+    camera.fit(box);
+    return true;
+  };
+  camera.on(() => {
+    if (placed || camera.width < 2) return;
+    placed = true;
+    camera.pan(camera.width * EMPTY.left - camera.x, camera.height * EMPTY.top - camera.y);
+  });
+  store.on("strokes", () => {
+    const ids = [...store.known.strokes.keys()];
+    const opened = ids.length > 0 && !ids.some((id) => before.has(id)) && store.pending.length === 0;
+    const alone = ids.length === 1 && before.size === 0; // the first line, drawn here or on another page
+    before = new Set(ids);
+    if (!opened || alone || !fit()) return;
+    store.set("width", Number((PEN / camera.scale).toPrecision(2)));
+  });
+  let wrongAt = -1;
+  store.on("trouble", () => {
+    desk.trouble = store.known.trouble?.stroke ?? null;
+    wrongAt = store.known.revision;
+  });
+  store.on("tree", () => {
+    if (desk.trouble !== null && (store.known.tree?.revision ?? 0) > wrongAt) desk.trouble = null;
+  });
+}
+
+/** All of the drawing on screen, or the empty page as it was at first. */
+export function showAll(desk: Desk): void {
+  const { camera, store } = desk;
+  const box = around(store.known.strokes.values());
+  if (box) camera.fit(box);
+  else {
+    camera.zoom(1 / camera.scale, 0, 0);
+    camera.pan(camera.width * EMPTY.left - camera.x, camera.height * EMPTY.top - camera.y);
+  }
+}

@@ -1,0 +1,80 @@
+// What can be set on the tool in hand? A small bar at the page's foot: the pen's width and steadiness, what the eraser takes, what a drag does.
+
+import { choice } from "../parts/choice";
+import { element } from "../parts/element";
+import { slider, type Slider } from "../parts/slider";
+import { toggle } from "../parts/toggle";
+import type { Desk, Eraser } from "./desk";
+
+const THINNEST = 1; // CSS pixels
+const THICKEST = 24;
+
+export function mountOptions(desk: Desk): HTMLElement {
+  const { store } = desk;
+  const root = element("div", { class: "page-options", role: "group", aria: { label: "Options of the tool" } });
+  const pen = penOptions(desk);
+  const eraser = choice<Eraser>({
+    label: "What the eraser takes", value: desk.erases, options: [{ value: "whole", label: "Whole lines", testId: "erase-whole" }, { value: "part", label: "Parts", testId: "erase-part" }],
+    onPick: (value) => { desk.erases = value; },
+  });
+  const hint = element("p", { class: "hint" }, "");
+  const underlay = underlayOptions(desk);
+  const show = (): void => {
+    const { tool, selectedStrokes } = store.ui;
+    const draws = tool === "branch" || tool === "crown" || tool === "obstacle";
+    hint.textContent = selectedStrokes.length > 1 ? "Drag to move · Delete to erase" : selectedStrokes.length === 1 ? "Drag to reshape · Alt and drag to move" : "Click a line, or drag around several";
+    const parts: HTMLElement[] = draws ? [pen] : tool === "erase" ? [eraser.root] : tool === "select" ? [hint] : [];
+    if (store.known.underlay && (tool === "select" || draws)) parts.push(underlay);
+    root.hidden = parts.length === 0;
+    if (!sameParts(root, parts)) root.replaceChildren(...parts);
+    if (tool !== "select" && desk.movesUnderlay) desk.movesUnderlay = false;
+  };
+  store.on(["tool", "selectedStrokes", "underlay"], show);
+  show();
+  return root;
+}
+
+function sameParts(root: HTMLElement, parts: HTMLElement[]): boolean {
+  return root.childElementCount === parts.length && parts.every((part, at) => root.children[at] === part);
+}
+
+function penOptions(desk: Desk): HTMLElement {
+  const { store, camera } = desk;
+  const shown = (): number => store.ui.width * camera.scale;
+  const width: Slider = slider({
+    label: "Width", min: Math.log(THINNEST), max: Math.log(THICKEST), step: 0.01, value: Math.log(shown()), hint: "Width of the pen ([ and ])",
+    show: (value) => `${Math.exp(value).toFixed(1)} px`, onInput: (value) => store.set("width", Number((Math.exp(value) / camera.scale).toPrecision(3))),
+  });
+  const steady = slider({
+    label: "Steady", min: 0, max: 1, step: 0.05, value: store.ui.stabiliser, hint: "How much a shaking hand is steadied",
+    show: (value) => `${Math.round(100 * value)} %`, onInput: (value) => store.set("stabiliser", value),
+  });
+  const follow = (): void => { if (document.activeElement !== width.input) width.set(Math.log(shown()), `${shown().toFixed(1)} px`); };
+  store.on("width", follow);
+  camera.on(follow);
+  follow();
+  return element("div", { class: "page-pen" }, width.root, steady.root);
+}
+
+function underlayOptions(desk: Desk): HTMLElement {
+  const { store } = desk;
+  const opacity = slider({
+    label: "Picture", min: 0, max: 1, step: 0.05, value: store.known.underlay?.opacity ?? 0.4, hint: "How strong the picture to trace over is",
+    show: (value) => `${Math.round(100 * value)} %`,
+    onInput: (value) => {
+      const { underlay } = store.known;
+      if (!underlay) return;
+      store.known.underlay = { ...underlay, opacity: value };
+      desk.repaint();
+    },
+  });
+  opacity.input.addEventListener("change", () => { if (store.known.underlay) store.send({ type: "setunderlay", underlay: store.known.underlay }); });
+  const moves = toggle({ label: "Move it", on: false, hint: "Drag the picture, or its lower right corner, with the select tool", onSwitch: (on) => {
+    desk.movesUnderlay = on;
+    if (on) store.set("tool", "select");
+    desk.repaint();
+  } });
+  store.on("underlay", () => { if (store.known.underlay) opacity.set(store.known.underlay.opacity); });
+  store.on("tool", () => moves.set(desk.movesUnderlay && store.ui.tool === "select"));
+  return element("div", { class: "page-pen" }, opacity.root, moves.root);
+}

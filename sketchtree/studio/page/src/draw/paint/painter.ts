@@ -1,0 +1,129 @@
+// What is on the page, from below to above? Paper, the picture to trace over, the ground, limbs of other pages, strokes, marks; and above all what is in hand.
+
+import type { Stroke } from "../../messages";
+import { type Desk, here, isSamePage } from "../desk";
+import { around } from "../line/nearness";
+import { outline, widths } from "../line/outline";
+import { projected } from "../turned";
+import { paintGuide, paintMarks } from "./marks";
+import { type Palette } from "./palette";
+import { paintGrid, paintGround, paintUnderlay } from "./paper";
+import { type Look, paintStroke, smooth, type State } from "./strokes";
+
+const DEFAULT_WIDTH = 0.006; // of the drawing's height: strokes that have no width of their own
+
+/** Everything that stays when the pen is lifted. */
+export function paintDrawing(on: CanvasRenderingContext2D, ratio: number, desk: Desk, palette: Palette, picture: HTMLImageElement | null): void {
+  const { camera, store } = desk;
+  const over = store.ui.layout === "over";
+  clear(on, ratio);
+  if (!over) paintGrid(on, camera, palette);
+  const underlay = desk.underlay ?? store.known.underlay;
+  if (underlay && picture && isSamePage(store.ui.turn, 0)) paintUnderlay(on, camera, palette, underlay, picture, desk.movesUnderlay);
+  if (!over) paintGround(on, camera, palette, groundLevel(desk));
+  if (!isSamePage(store.ui.turn, 0) || turnedStrokes(desk)) paintGuides(on, desk, palette);
+  on.setTransform(ratio * camera.scale, 0, 0, ratio * camera.scale, ratio * camera.x, ratio * camera.y);
+  const look: Look = { palette, scale: camera.scale, width: usualWidth(desk) };
+  const shownHere = here(store);
+  const areasFirst = [...shownHere.filter((one) => one.kind !== "branch"), ...shownHere.filter((one) => one.kind === "branch")];
+  for (const stroke of areasFirst) paintOne(on, desk, look, stroke);
+  on.setTransform(ratio, 0, 0, ratio, 0, 0);
+  if (desk.instead.size === 0) paintMarks(on, camera, palette, marksHere(desk));
+}
+
+function paintOne(on: CanvasRenderingContext2D, desk: Desk, look: Look, stroke: Stroke): void {
+  const instead = desk.instead.get(stroke.id);
+  if (instead?.length === 0) return paintStroke(on, stroke, look, "faint");
+  for (const one of instead ?? [stroke]) paintStroke(on, one, look, stateOf(desk, stroke));
+}
+
+function stateOf(desk: Desk, stroke: Stroke): State {
+  if (desk.trouble === stroke.id) return "wrong";
+  if (desk.store.ui.selectedStrokes.includes(stroke.id)) return "selected";
+  return desk.hovered === stroke.id ? "hovered" : "plain";
+}
+
+/** What is in hand: the line being drawn, the lasso, the eraser. */
+export function paintLive(on: CanvasRenderingContext2D, ratio: number, desk: Desk, palette: Palette): void {
+  const { camera, live, lasso, eraser } = desk;
+  clear(on, ratio);
+  on.setTransform(ratio * camera.scale, 0, 0, ratio * camera.scale, ratio * camera.x, ratio * camera.y);
+  if (live && live.line.length > 1) paintInHand(on, live, palette, camera.scale);
+  if (lasso.length > 4) {
+    on.strokeStyle = palette.accent;
+    on.lineWidth = 1.25 / camera.scale;
+    on.setLineDash([4 / camera.scale, 4 / camera.scale]);
+    on.stroke(smooth(lasso, true));
+    on.setLineDash([]);
+  }
+  if (!eraser) return;
+  on.beginPath();
+  on.arc(eraser.x, eraser.y, eraser.radius, 0, 2 * Math.PI);
+  on.strokeStyle = palette.soft;
+  on.lineWidth = 1.25 / camera.scale;
+  on.stroke();
+}
+
+function paintInHand(on: CanvasRenderingContext2D, live: NonNullable<Desk["live"]>, palette: Palette, scale: number): void {
+  const xy = live.line.flatMap((sample) => [sample.x, sample.y]);
+  if (live.kind === "branch") {
+    on.fillStyle = palette.ink;
+    on.fill(smooth(outline(xy, widths(live.line.length, live.width, live.pressed ? live.line.map((sample) => sample.pressure) : null, true)), true));
+    return;
+  }
+  on.strokeStyle = live.kind === "crown" ? palette.crown : palette.obstacle;
+  on.lineWidth = 2 / scale;
+  on.stroke(smooth(xy, false));
+  on.beginPath(); // how it will close
+  on.moveTo(xy[xy.length - 2]!, xy[xy.length - 1]!);
+  on.lineTo(xy[0]!, xy[1]!);
+  on.globalAlpha = 0.5;
+  on.setLineDash([3 / scale, 5 / scale]);
+  on.stroke();
+  on.setLineDash([]);
+  on.globalAlpha = 1;
+}
+
+function paintGuides(on: CanvasRenderingContext2D, desk: Desk, palette: Palette): void {
+  const { camera, store } = desk;
+  const { tree, limbs } = store.known;
+  if (!tree) return;
+  for (const limb of limbs) {
+    if (limb.strokes.length && isSamePage(limb.view_deg, store.ui.turn)) continue; // its ink is here
+    paintGuide(on, camera, palette, limb, projected(limb, tree, store.ui.turn), limb.id === store.ui.selected);
+  }
+}
+
+/** Some were drawn on another page. */
+function turnedStrokes(desk: Desk): boolean {
+  return desk.store.known.limbs.some((limb) => limb.strokes.length > 0 && !isSamePage(limb.view_deg, desk.store.ui.turn));
+}
+
+export function marksHere(desk: Desk): NonNullable<Desk["store"]["known"]["read"]>["marks"] {
+  const { read, strokes } = desk.store.known;
+  return (read?.marks ?? []).filter((mark) => {
+    const stroke = strokes.get(mark.stroke);
+    return stroke !== undefined && isSamePage(stroke.view_deg, desk.store.ui.turn);
+  });
+}
+
+/** Where the ground is: at the tree's root; before there is one, at the foot of the drawing, or of an empty page. */
+export function groundLevel(desk: Desk): number {
+  const { tree, strokes } = desk.store.known;
+  if (tree && strokes.size) return tree.root[1] ?? 0;
+  const branches = [...strokes.values()].filter((stroke) => stroke.kind === "branch");
+  const box = around(branches);
+  return box ? box.top + box.height : 0;
+}
+
+function usualWidth(desk: Desk): number {
+  const box = around(desk.store.known.strokes.values());
+  return box ? Math.max(box.width, box.height) * DEFAULT_WIDTH : desk.store.ui.width;
+}
+
+function clear(on: CanvasRenderingContext2D, ratio: number): void {
+  on.setTransform(1, 0, 0, 1, 0, 0);
+  on.clearRect(0, 0, on.canvas.width, on.canvas.height);
+  on.setTransform(ratio, 0, 0, ratio, 0, 0);
+  on.lineCap = on.lineJoin = "round";
+}

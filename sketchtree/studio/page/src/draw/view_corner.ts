@@ -1,0 +1,38 @@
+// How is the page looked at? Which side of the tree it faces, how close it is, and buttons for both.
+
+import { block, button } from "../parts/button";
+import { element } from "../parts/element";
+import { type Desk, isSamePage, wrapped } from "./desk";
+import { showAll } from "./following";
+
+const TURN = 15;
+const CLOSER = 1.25;
+const SIDES: Record<string, string> = { 0: "Front", 90: "From the right", 180: "From behind", "-90": "From the left" };
+
+/** An azimuth in words. */
+export function sideName(turn: number): string {
+  return SIDES[String(Math.round(turn))] ?? `Turned ${Math.round(turn)}°`;
+}
+
+export function mountViewCorner(desk: Desk): HTMLElement {
+  const { store, camera } = desk;
+  const turn = (by: number) => (): void => store.set("turn", wrapped(Math.round((store.ui.turn + by) / TURN) * TURN));
+  const closer = (factor: number) => (): void => camera.zoom(factor, camera.width / 2, camera.height / 2);
+  const small = (label: string, icon: Parameters<typeof button>[0]["icon"], key: string, onPress: () => void): HTMLButtonElement => button({ label, icon, iconOnly: true, look: "quiet", key, onPress });
+  const front = button({ label: "Front", look: "quiet", hint: "Back to the front", key: "Home", testId: "page-side", onPress: () => store.set("turn", 0) });
+  front.classList.add("page-side");
+  const size = button({ label: "100 %", look: "quiet", hint: "Show the whole drawing", key: "0", testId: "page-zoom", onPress: () => showAll(desk) });
+  size.classList.add("page-zoom");
+  const show = (): void => {
+    front.querySelector("span")!.textContent = sideName(store.ui.turn);
+    front.classList.toggle("turned", !isSamePage(store.ui.turn, 0));
+    block(front, isSamePage(store.ui.turn, 0) ? "this is the front" : null);
+    size.querySelector("span")!.textContent = `${Math.round(100 * camera.scale)} %`;
+  };
+  store.on("turn", show);
+  camera.on(show);
+  show();
+  return element("div", { class: "page-corner" },
+    element("div", { class: "page-group", role: "group", aria: { label: "Side of the tree that the page faces" } }, small("Turn the page left", "left", "ArrowLeft", turn(-TURN)), front, small("Turn the page right", "right", "ArrowRight", turn(TURN))),
+    element("div", { class: "page-group", role: "group", aria: { label: "Closer or farther" } }, small("Farther", "minus", "-", closer(1 / CLOSER)), size, small("Closer", "plus", "+", closer(CLOSER))));
+}
