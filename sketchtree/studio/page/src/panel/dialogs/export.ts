@@ -32,13 +32,14 @@ export function exportTree(store: Store, views: Views): () => void {
       request: () => ({ options: fitting(controls.options(), format.name), revision: store.known.revision }),
     })))))));
   const empty = element("p", { class: "hint" }, "There is no tree yet: draw a trunk and a few branches first.");
-  box.body.append(empty, trouble, element("div", { class: "export-halves" }, formats, element("section", { class: "export-side" }, element("h3", {}, "Options"), controls.root)));
+  box.body.append(empty, trouble, element("div", { class: "export-halves" }, formats, element("section", { class: "export-side" }, element("h3", {}, "Options"), controls.root, element("p", { class: "hint how" }, "Press a format on the left: the file is made with these options, and saved."))));
   box.foot.append(command.root, pictureButton(views, name), filmButton(views, name), button({ label: "Project", icon: "save", testId: "download-project", hint: "Download the project: drawing, edits and settings in one file", onPress: () => { void project(); } }));
   return () => {
     tell(null);
     command.reset();
     empty.hidden = store.known.strokes.size > 0;
     box.open();
+    formats.querySelector("button")?.focus();
   };
 }
 

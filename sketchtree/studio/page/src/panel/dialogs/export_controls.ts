@@ -46,6 +46,7 @@ export function exportControls(): ExportControls {
   const pack = toggle({ label: "Game pack", on: false, testId: "export-pack", hint: "All that a game needs: levels, wind, pivots, bones, collision (glTF and USD)", onSwitch: (on) => change({ pack: on ? "game" : null }) });
   const solid = toggle({ label: "Solid wood, for 3D printing", on: false, testId: "export-solid", hint: "The wood united into one solid that meets itself nowhere", onSwitch: (on) => change({ solid: on }) });
   const rows: [OptionName, HTMLElement][] = [["lod", lod.root], ["levels", levels.root], ["leaves", leaves.root], ["wood", wood.root], ["pack", pack.root], ["solid", solid.root]];
+  const reasons = element("p", { class: "hint", role: "status" });
   const show = (): void => {
     const why = blocked(now);
     lod.set(String(now.lod));
@@ -54,11 +55,9 @@ export function exportControls(): ExportControls {
     wood.set(now.wood ?? "auto");
     pack.set(now.pack !== null);
     solid.set(now.solid);
-    for (const [name, row] of rows) {
-      row.inert = why[name] !== undefined;
-      row.title = why[name] ?? "";
-    }
+    for (const [name, row] of rows) row.inert = why[name] !== undefined;
+    reasons.textContent = [...new Set(Object.values(why))].map((reason) => `${reason}.`).join(" ");
   };
   show();
-  return { root: element("div", { class: "export-options" }, ...rows.map(([, row]) => row)), options: () => now };
+  return { root: element("div", { class: "export-options" }, ...rows.map(([, row]) => row), reasons), options: () => now };
 }

@@ -38,8 +38,8 @@ export function formatButton(look: FormatLook): HTMLButtonElement {
 
 async function make(look: FormatLook, signal: AbortSignal, note: HTMLElement): Promise<void> {
   const began = performance.now();
-  const clock = setInterval(() => { note.textContent = `Working, ${duration(Math.floor((performance.now() - began) / 100) * 100)}; press to stop`; }, TICK);
-  note.textContent = "Working; press to stop";
+  const clock = setInterval(() => { note.textContent = `${((performance.now() - began) / 1000).toFixed(1)} s … press to stop`; }, TICK);
+  note.textContent = "Working … press to stop";
   try {
     const body = JSON.stringify({ format: look.format.name, ...look.request() });
     const answer = await ask("export", { method: "POST", headers: { "content-type": "application/json" }, body, signal });

@@ -24,15 +24,15 @@ export function isMesh(format: string): boolean {
   return MESHES.includes(format);
 }
 
-/** Why an option cannot be changed beside the others, in a few words; those that can are absent. */
+/** Why an option cannot be changed beside the others, for people; those that can are absent. */
 export function blocked(options: ExportOptions): Partial<Record<OptionName, string>> {
   const why: Partial<Record<OptionName, string>> = {};
   if (options.pack) {
-    why.lod = why.levels = "a game pack has all levels";
-    why.leaves = "a game pack's leaves are one mesh";
+    why.lod = why.levels = "A game pack has all levels of detail";
+    why.leaves = "Its leaves are one mesh";
   } else {
-    if (options.levels !== "one") why.lod = "all levels are written";
-    if (options.lod > 0) why.leaves = "coarser leaves are one mesh";
+    if (options.levels !== "one") why.lod = "All levels of detail are written";
+    if (options.lod > 0) why.leaves = "Leaves of less than full detail are one mesh";
   }
   return why;
 }

@@ -18,7 +18,10 @@ export function gallery(store: Store): () => void {
     })));
     walk.keep();
   });
-  return box.open;
+  return () => {
+    box.open();
+    grid.querySelector("button")?.focus();
+  };
 }
 
 function example(choice: Choice, onPress: () => void): HTMLElement {

@@ -7,7 +7,7 @@ import { icon } from "../../style/icons";
 import type { Store } from "../../store";
 import { roving } from "../roving";
 import { take } from "./take";
-import { READABLE } from "./upload";
+import { isPicture, READABLE } from "./upload";
 
 export function openFile(store: Store): () => void {
   const box = dialog({ title: "Open", testId: "open-dialog" });
@@ -26,6 +26,7 @@ export function openFile(store: Store): () => void {
     box.close();
     void take(file);
   });
+  const choose = button({ label: "Choose a file …", icon: "open", look: "primary", testId: "open-choose", onPress: () => picker.click() });
   const fill = (): void => {
     const welcome = store.known.welcome;
     const files = welcome?.files ?? [];
@@ -40,18 +41,18 @@ export function openFile(store: Store): () => void {
   box.body.append(where, list, picker);
   box.foot.append(
     element("p", { class: "hint foot-words" }, "SVG, Excalidraw, InkML, sketch JSON, pictures, projects. Undo brings back what is on the page now."),
-    button({ label: "Choose a file …", icon: "open", look: "primary", testId: "open-choose", onPress: () => picker.click() }),
+    choose,
   );
   store.on(["welcome", "name"], () => { if (box.root.open) fill(); });
   return () => {
     fill();
     box.open();
+    (list.querySelector("button") ?? choose).focus();
   };
 }
 
 function file(name: string, current: boolean, onPress: () => void): HTMLElement {
-  const project = name.endsWith(".sketchtree");
-  const made = element("button", { class: "file", title: `Open ${name}`, data: { name } }, icon(project ? "leaf" : "picture"), element("span", {}, name), current ? element("span", { class: "file-note" }, "open now") : null);
+  const made = element("button", { class: "file", title: `Open ${name}`, data: { name } }, icon(name.endsWith(".sketchtree") ? "leaf" : isPicture(name) ? "picture" : "branch"), element("span", {}, name), current ? element("span", { class: "file-note" }, "open now") : null);
   made.type = "button";
   made.addEventListener("click", onPress);
   return made;

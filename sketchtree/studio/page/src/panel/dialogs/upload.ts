@@ -5,8 +5,8 @@ import { ask, Refused } from "../ask";
 import { bytes } from "../figures";
 
 /** What the program reads; a picture may also be traced over. */
-export const READABLE = ".svg,.json,.excalidraw,.inkml,.ndjson,.sketchtree,.png,.jpg,.jpeg,.webp,.tif,.tiff,.bmp";
-const PICTURES = /\.(png|jpe?g|webp|tiff?|bmp)$/i;
+export const READABLE = ".sketchtree,.svg,.svgz,.json,.excalidraw,.excalidrawlib,.inkml,.ndjson,.png,.jpg,.jpeg,.webp,.tif,.tiff,.gif,.bmp";
+const PICTURES = /\.(png|jpe?g|webp|tiff?|gif|bmp)$/i;
 
 export function isPicture(name: string): boolean {
   return PICTURES.test(name);

@@ -13,7 +13,7 @@ export interface CardState {
   chosen: boolean; // the user's choice, "auto" too
   used: boolean; // the tree wears it
   bar: number | null; // 0-1
-  note: string | null; // in place of the bar: what "auto" chose
+  title: string; // of "auto" also what it chose
 }
 
 export interface TemplateCard {
@@ -26,16 +26,15 @@ export function card(look: CardLook): TemplateCard {
   root.type = "button";
   root.tabIndex = -1;
   const bar = element("span", { class: "template-bar", aria: { hidden: "true" } }, element("i"));
-  const note = element("span", { class: "template-note" });
   const used = element("span", { class: "template-used" }, "in use");
-  root.append(picture(look), element("span", { class: "template-title" }, look.title), bar, note, used);
+  const title = element("span", { class: "template-title" }, look.title);
+  root.append(picture(look), title, bar, used);
   const show = (state: CardState): void => {
     root.setAttribute("aria-pressed", String(state.chosen));
     root.classList.toggle("used", state.used);
     used.hidden = !state.used;
-    note.hidden = state.note === null;
-    note.textContent = state.note ?? "";
-    bar.hidden = state.bar === null || state.note !== null;
+    title.textContent = state.title;
+    bar.hidden = state.bar === null;
     bar.style.setProperty("--share", `${Math.round(100 * (state.bar ?? 0))}%`);
   };
   return { root, show };

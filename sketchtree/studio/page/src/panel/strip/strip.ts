@@ -13,22 +13,24 @@ const REST = 250; // milliseconds until a look is worth a tree
 export function mountStrip(root: HTMLElement, store: Store): void {
   const strip = new Strip(store);
   const find = search("Find a template", (typed) => strip.find(typed));
-  root.append(element("div", { class: "strip-head" }, element("h2", {}, "Template"), find), strip.list);
+  root.append(element("div", { class: "strip-head" }, element("h2", {}, "Template"), strip.words, find), strip.list);
   store.on("welcome", () => strip.fill());
   store.on(["matches", "options", "tree"], () => strip.show());
 }
 
 class Strip {
   readonly list = element("div", { class: "strip-list", role: "group", aria: { label: "Templates, the most alike first" }, testId: "template-strip" });
+  readonly words = element("span", { class: "strip-words", role: "status" });
   private readonly cards = new Map<string, TemplateCard>();
   private readonly walk: Roving;
   private readonly glance;
+  private chosen = "auto";
   private typed = "";
   private late = false; // another order waits until the pointer has left
 
   constructor(private readonly store: Store) {
     this.walk = roving(this.list, () => this.shown());
-    this.glance = linger<string>(REST, (template) => store.send({ type: "glance", template }), () => store.send({ type: "glance", template: null }));
+    this.glance = linger<string>(REST, (template) => this.look(template), () => this.look(null));
     this.list.addEventListener("wheel", (event) => this.wheel(event), { passive: false });
     for (const leave of ["pointerleave", "focusout"]) this.list.addEventListener(leave, () => { if (this.late && !this.inHand()) this.order(); });
   }
@@ -63,11 +65,12 @@ class Strip {
     const used = matches?.used ?? null;
     const chosen = options?.template ?? "auto";
     const bars = new Map(rank(welcome.templates, matches?.ranked ?? []).map((one) => [one.choice.name, one.bar]));
-    const title = welcome.templates.find((one) => one.name === used)?.title ?? null;
     for (const [name, one] of this.cards) {
-      const note = name === "auto" && chosen === "auto" ? title : null;
-      one.show({ chosen: name === chosen, used: name === used, bar: bars.get(name) ?? null, note });
+      const title = name === "auto" && chosen === "auto" && used !== null ? `Auto: ${this.title(used)}` : this.title(name);
+      one.show({ chosen: name === chosen, used: name === used, bar: bars.get(name) ?? null, title });
     }
+    if (chosen !== this.chosen && !this.inHand()) this.cards.get(chosen)?.root.scrollIntoView({ block: "nearest", inline: "nearest" });
+    this.chosen = chosen;
     if (this.inHand()) this.late = true;
     else this.order();
   }
@@ -93,6 +96,17 @@ class Strip {
     root.addEventListener("focus", () => { if (root.matches(":focus-visible")) this.glance.over(name); });
     root.addEventListener("blur", () => this.glance.away());
     this.cards.set(name, made);
+  }
+
+  /** Show the tree with another template for as long as one looks at it. */
+  private look(template: string | null): void {
+    this.store.send({ type: "glance", template });
+    this.words.textContent = template === null ? "" : `Looking at ${this.title(template)}: click to keep it`;
+  }
+
+  private title(name: string): string {
+    if (name === "auto") return "Automatic";
+    return this.store.known.welcome?.templates.find((one) => one.name === name)?.title ?? (name === "none" ? "No template" : name);
   }
 
   private choose(name: string): void {
