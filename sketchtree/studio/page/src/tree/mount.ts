@@ -1,8 +1,215 @@
-// The tree in 3D (stub).
+// How does the tree come on the screen? Frames become a plant, the plant becomes scenery, and around it stand sky, ground, person, drawing and what a hand can do.
 
+import { element } from "../parts/element";
+import { camera as pageCamera } from "../draw/camera";
 import type { Store } from "../store";
+import { byHand } from "./eye/flight";
+import { listen } from "./eye/gestures";
+import { panned, shortest, zoomed } from "./eye/eye";
+import { Chosen } from "./hand/chosen";
+import { Guide } from "./hand/guide";
+import { Handles } from "./hand/handles";
+import { listenKeys } from "./hand/keys";
+import { Toolbar } from "./hand/toolbar";
+import { described } from "./hand/wood_of";
+import { Ghosts } from "./page/ghosts";
+import { Ink } from "./page/ink";
+import { doubtColours } from "./plant/doubt";
+import { Marks } from "./plant/marks";
+import { Plants } from "./plant/plants";
+import { Scenery } from "./plant/scenery";
+import { Sky, type Lighting } from "./plant/surface";
+import { Textures } from "./plant/textures";
+import { mountBench } from "./show/bench";
+import { filmOf, pictureOf, type PictureWish, type Tidy } from "./show/capture";
+import { Labels } from "./show/labels";
+import { legend } from "./show/legend";
+import { noWebgl, watchContext } from "./show/trouble";
+import { turnDial } from "./show/turn_dial";
+import { viewBar } from "./show/view_bar";
+import { Figure } from "./stage/figure";
+import { Ground } from "./stage/ground";
+import { Weather } from "./stage/weather";
+import { View } from "./view";
+import "./tree.css";
 
-export function mountTree(root: HTMLElement, store: Store): void {
-  void root;
-  void store;
+export interface TreeViews {
+  screenshot: (wish?: PictureWish) => Promise<Blob>; // PNG
+  turntable: () => Promise<Blob>; // a film, or an archive of pictures
+}
+
+const SEEN_THROUGH = 0.3; // of the leaves, while wood is chosen or its doubt shown
+
+export function mountTree(root: HTMLElement, store: Store): TreeViews {
+  const about = "Tree in 3D. Arrows turn, plus and minus come nearer. Tab walks through the limbs, Enter takes a limb's handle, Escape lets go.";
+  const box = element("div", { class: "tree-view", tabindex: 0, role: "application", "aria-label": about, "data-testid": "tree-view" });
+  root.append(box);
+  try {
+    return fill(new View(box), store);
+  } catch (error) {
+    if (!(error instanceof Error) || !/webgl/i.test(error.message)) throw error;
+    noWebgl(box);
+    const none = (): Promise<Blob> => Promise.reject(new Error("There is no 3D here."));
+    return { screenshot: none, turntable: none };
+  }
+}
+
+function fill(view: View, store: Store): TreeViews {
+  const { stage } = view;
+  const weather = new Weather(stage.scene, stage.pace.software);
+  const ground = new Ground(stage.scene);
+  const figure = new Figure(stage.scene);
+  const ink = new Ink(stage.scene);
+  const ghosts = new Ghosts(stage.scene);
+  const lighting: Lighting = { sky: new Sky(), marks: new Marks(), doubt: { value: 0 }, leafShare: { value: 1 } };
+  const textures = new Textures((key, kind) => store.address(`./texture/${key}/${kind}.png`), Math.min(8, stage.renderer.capabilities.getMaxAnisotropy()));
+  const scenery = new Scenery(lighting, textures, () => stage.shadows());
+  stage.scene.add(scenery.group);
+  const chosen = new Chosen(view, scenery, lighting.marks, store);
+  const handles = new Handles(view, chosen, store, new Guide(view, stage.scene));
+  const toolbar = new Toolbar(view, chosen, store);
+  const labels = new Labels(view, figure, store);
+  const shown = { ink: true, grid: false };
+  viewBar(view, store, shown, () => { ink.visible = shown.ink; ground.grid(shown.grid); stage.draw(); });
+  turnDial(view, store);
+  legend(view.root, store);
+  listenKeys(view, store, toolbar, handles);
+  followHand(view, store, chosen);
+  sayChosen(view, store, chosen);
+
+  followFrames(view, store, { scenery, chosen, weather, ground, figure, ghosts });
+  followLooks(view, store, { weather, ground, figure, ink, ghosts, lighting, scenery });
+  followPage(view, store, ink);
+  labels.renew();
+  watchContext(view.root, stage.canvas, () => stage.shadows());
+  mountBench(view, () => ({ wood: scenery.meshes.filter((mesh) => mesh.userData.wood), leaves: scenery.meshes.filter((mesh) => !mesh.userData.wood) }));
+  const tidy: Tidy = (transparent) => {
+    if (transparent) weather.visible = ground.visible = ink.visible = figure.group.visible = false;
+    return () => {
+      weather.visible = ground.visible = true;
+      ink.visible = shown.ink;
+      figure.group.visible = store.ui.figure;
+    };
+  };
+  return { screenshot: (wish) => pictureOf(view, tidy, wish), turntable: () => filmOf(view, tidy) };
+}
+
+interface Standing {
+  scenery: Scenery;
+  chosen: Chosen;
+  weather: Weather;
+  ground: Ground;
+  figure: Figure;
+  ghosts: Ghosts;
+}
+
+/** What the program sends is shown. */
+function followFrames(view: View, store: Store, { scenery, chosen, weather, ground, figure, ghosts }: Standing): void {
+  const plants = new Plants();
+  store.on("frame", () => {
+    if (!store.frame) return;
+    scenery.show(plants.take(store.frame.head, store.frame.arrays));
+    const first = view.box === null;
+    view.box = scenery.box;
+    if (!scenery.box.isEmpty()) {
+      weather.light(scenery.box);
+      ground.under(scenery.box, trunkOf(store));
+      figure.beside(scenery.box);
+      if (first) view.look(view.whole());
+    }
+    if (store.ui.uncertainty) scenery.doubt(doubtColours(scenery.now, store.known.limbs));
+    chosen.renew();
+    view.stage.shadows();
+  });
+  store.on("ghost", () => {
+    if (!store.ghost) return;
+    const { head, arrays } = store.ghost;
+    const paths = head.arrays.map(({ name }, k) => ({ points: arrays.get(name) as Float32Array, radius: head.radius[k] ?? 0 }));
+    ghosts.show(paths, 0.0022 * view.reach);
+    view.stage.draw(true);
+  });
+}
+
+/** A guess at the trunk's radius: it decides how wide the ground darkens at its foot. */
+function trunkOf(store: Store): number {
+  return 0.02 * (store.known.tree?.height ?? 5);
+}
+
+interface Looks extends Omit<Standing, "chosen"> {
+  ink: Ink;
+  lighting: Lighting;
+}
+
+/** Day and night, the person, doubt, and leaves that let one see the wood. */
+function followLooks(view: View, store: Store, { weather, ground, figure, ink, ghosts, lighting, scenery }: Looks): void {
+  const theme = (): void => {
+    [weather, ground, figure, ink, ghosts].forEach((part) => part.wear(store.ui.theme));
+    view.stage.draw();
+  };
+  const doubt = (): void => scenery.doubt(store.ui.uncertainty ? doubtColours(scenery.now, store.known.limbs) : null);
+  const through = (): void => {
+    lighting.leafShare.value = store.ui.uncertainty ? 0 : store.ui.selected !== null || store.ui.tool === "select" ? SEEN_THROUGH : 1;
+    view.stage.draw();
+  };
+  store.on("theme", theme);
+  store.on("uncertainty", doubt);
+  store.on(["uncertainty", "selected", "tool"], through);
+  store.on("figure", () => { figure.group.visible = store.ui.figure; view.stage.draw(); });
+  view.stage.beforeDraw.push(() => { figure.face(view.stage.camera(view.stage.wide, view.stage.high)); return false; });
+  figure.group.visible = store.ui.figure;
+  theme();
+}
+
+/** The drawing on its pages; the view turns with the page, and lies exactly under it where the page is over the tree. */
+function followPage(view: View, store: Store, ink: Ink): void {
+  const plane = () => ({ scale: store.known.tree?.scale ?? 1, root: store.known.tree?.root ?? [0, 0] });
+  let drawnAt = "";
+  const strokes = (): void => {
+    const { scale, root } = plane();
+    drawnAt = `${scale} ${root.join(" ")}`;
+    if (store.known.tree) ink.show(store.known.strokes.values(), { scale, root });
+    view.stage.draw();
+  };
+  store.on("strokes", strokes);
+  store.on("tree", () => { if (drawnAt !== `${plane().scale} ${plane().root.join(" ")}`) strokes(); });
+  view.overPage = () => (store.ui.layout === "over" && store.known.tree ? { page: pageCamera, plane: plane(), azimuth: view.eye.azimuth } : null);
+  view.stage.beforeDraw.push(() => { ink.seen(view.eye.azimuth); return false; });
+  pageCamera.on(() => { if (store.ui.layout === "over") view.stage.draw(true); });
+  store.on(["turn", "layout"], () => {
+    const turned = { ...view.eye, azimuth: store.ui.turn, elevation: Math.min(view.eye.elevation, 12) };
+    if (store.ui.layout === "over" || Math.abs(shortest(view.eye.azimuth - store.ui.turn)) > 0.5) view.fly(turned);
+  });
+}
+
+/** Pointer and fingers on the view. */
+function followHand(view: View, store: Store, chosen: Chosen): void {
+  const within = (event: PointerEvent): [number, number] => {
+    const box = view.root.getBoundingClientRect();
+    return [event.clientX - box.left, event.clientY - box.top];
+  };
+  listen(view.root, {
+    turn: (right, down) => view.look(byHand(view.eye, right, down)),
+    move: (right, down) => view.look(panned(view.eye, right, down, view.stage.high)),
+    near: (factor, x, y) => view.look(zoomed(view.eye, factor, x, y, view.stage.high)),
+    flung: (right, down) => { view.flight.fling(view.eye, right, down, performance.now()); view.stage.draw(true); },
+    taken: () => { view.flight.stop(); view.root.focus({ preventScroll: true }); },
+    clicked: (event) => store.set("selected", chosen.at(...within(event))),
+    hovered: (event) => {
+      const looking = event.pointerType !== "touch" && (store.ui.tool === "select" || event.altKey || store.ui.uncertainty);
+      const id = looking ? chosen.at(...within(event)) : null;
+      chosen.point(id);
+      view.root.toggleAttribute("data-pointing", id !== null);
+    },
+  });
+  view.root.addEventListener("pointerleave", () => chosen.point(null));
+}
+
+/** What is chosen is said aloud. */
+function sayChosen(view: View, store: Store, chosen: Chosen): void {
+  const said = element("p", { class: "tick", "aria-live": "polite", "data-testid": "chosen-limb" });
+  view.root.append(said);
+  store.on(["selected", "limbs"], () => {
+    const one = chosen.now;
+    said.textContent = one ? described(one, store.known.limbs) : "";
+  });
 }

@@ -1,0 +1,66 @@
+// Which limb is pointed at, which is chosen, and how are they seen? A colour over their wood, and over the chosen one a line that shines through the leaves.
+
+import type { Store } from "../../store";
+import { Ghosts } from "../page/ghosts";
+import type { Mark } from "../plant/marks";
+import type { Scenery } from "../plant/scenery";
+import type { View } from "../view";
+import { pick, runsOf, type Run } from "./pick";
+import { reached, type Reached } from "./wood_of";
+
+const CHOSEN: Mark = [255, 150, 10, 200];
+const BORNE: Mark = [255, 170, 60, 90]; // what the chosen one bears
+const POINTED: Mark = [255, 226, 150, 120];
+
+export class Chosen {
+  runs: Run[] = [];
+  private pointed: string | null = null;
+  private readonly line: Ghosts;
+
+  constructor(private readonly view: View, private readonly scenery: Scenery, private readonly marks: { clear: () => void; set: (id: string, mark: Mark) => void }, private readonly store: Store) {
+    this.line = new Ghosts(view.stage.scene, { light: ["#e07b00", "#ffb347"], dark: ["#ffc46b", "#ffab3d"] });
+    store.on(["selected", "limbs"], () => this.show());
+    store.on("theme", () => this.line.wear(store.ui.theme));
+  }
+
+  /** Other wood is there. */
+  renew(): void {
+    this.runs = runsOf(this.scenery.now.wood);
+    this.show();
+  }
+
+  get now(): Reached | null {
+    return reached(this.store.ui.selected, this.store, this.scenery.now, this.runs);
+  }
+
+  /** The id of the limb under a pixel of the view. */
+  at(x: number, y: number): string | null {
+    const hit = pick(this.scenery.now.wood, this.runs, this.view.ray(x, y));
+    return hit ? (this.scenery.now.limbs[hit.limb] ?? null) : null;
+  }
+
+  point(id: string | null): void {
+    if (id === this.pointed) return;
+    this.pointed = id;
+    this.show();
+  }
+
+  private show(): void {
+    const { selected } = this.store.ui;
+    this.marks.clear();
+    if (this.pointed) this.marks.set(this.pointed, POINTED);
+    if (selected) for (const id of borne(selected, this.store)) this.marks.set(id, BORNE);
+    if (selected) this.marks.set(selected, CHOSEN);
+    const one = this.now;
+    this.line.show(one ? [{ points: Float32Array.from(one.path), radius: 0 }] : [], 0.0028 * this.view.reach * 0.6);
+    this.view.stage.draw();
+  }
+}
+
+/** The drawn limbs that grow on this one, and on those. */
+function borne(id: string, store: Store): string[] {
+  const found = new Set([id]);
+  for (const limb of store.known.limbs) if (limb.parent !== null && found.has(limb.parent)) found.add(limb.id); // parents come first
+  found.delete(id);
+  return [...found];
+}

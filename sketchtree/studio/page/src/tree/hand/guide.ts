@@ -1,0 +1,31 @@
+// Along which line does a handle slide? A thin line through it, out of the page that the limb was drawn on.
+
+import { BufferGeometry, Line, LineDashedMaterial, Vector3, type Scene } from "three";
+import { along, type Point } from "../eye/eye";
+import type { View } from "../view";
+
+export class Guide {
+  private readonly line: Line<BufferGeometry, LineDashedMaterial>;
+
+  constructor(private readonly view: View, scene: Scene) {
+    this.line = new Line(new BufferGeometry(), new LineDashedMaterial({ color: "#e07b00", dashSize: 0.1, gapSize: 0.07, depthTest: false, transparent: true, toneMapped: false }));
+    this.line.visible = false;
+    this.line.renderOrder = 8;
+    this.line.frustumCulled = false;
+    scene.add(this.line);
+  }
+
+  show(at: Point, out: Point): void {
+    const long = 0.6 * this.view.reach;
+    this.line.geometry.setFromPoints([new Vector3(...along(at, out, -long)), new Vector3(...along(at, out, long))]);
+    this.line.computeLineDistances();
+    this.line.material.dashSize = 0.02 * long;
+    this.line.material.gapSize = 0.014 * long;
+    this.line.visible = true;
+  }
+
+  hide(): void {
+    this.line.visible = false;
+    this.view.stage.draw();
+  }
+}

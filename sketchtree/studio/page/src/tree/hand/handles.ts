@@ -1,0 +1,124 @@
+// How is a limb's depth taken in hand? Round grips along the chosen limb; each slides along the way out of its page only, by pointer or by arrow keys. While it
+// slides the limb bends here at once, and the program says how all that hangs on it would go (`Ghost`).
+
+import { element } from "../../parts/element";
+import type { Store } from "../../store";
+import { along, type Point } from "../eye/eye";
+import { depthOf } from "../page/plane";
+import { Ghosts } from "../page/ghosts";
+import type { View } from "../view";
+import type { Chosen } from "./chosen";
+import { bent, grips, placeAt, pulled } from "./drag";
+import type { Guide } from "./guide";
+import type { Reached } from "./wood_of";
+
+const LIVE = 1000 / 15; // milliseconds between previews
+const STEP = 0.02; // of the tree's height, an arrow key
+
+export class Handles {
+  private readonly layer = element("div", { class: "tree-handles" });
+  private shown: { share: number; handle: HTMLButtonElement }[] = [];
+  private one: Reached | null = null;
+  private dragging = false;
+  private told = 0;
+  private readonly preview: Ghosts;
+
+  constructor(private readonly view: View, private readonly chosen: Chosen, private readonly store: Store, private readonly guide: Guide) {
+    this.preview = new Ghosts(view.stage.scene, { light: ["#e07b00", "#ffd08a"], dark: ["#ffd08a", "#ffab3d"] });
+    view.root.append(this.layer);
+    view.stage.afterDraw.push(() => this.follow());
+    store.on(["selected", "limbs"], () => this.renew());
+    store.on("frame", () => this.renew());
+    store.on("theme", () => this.preview.wear(store.ui.theme));
+  }
+
+  /** The grips of the limb that is chosen now. */
+  renew(): void {
+    if (this.dragging) return;
+    this.preview.show([], 0);
+    const focused = this.shown.findIndex(({ handle }) => handle === document.activeElement);
+    this.one = this.chosen.now;
+    const shares = !this.one ? [] : this.one.limb ? grips(this.one.limb.held) : [1];
+    this.layer.replaceChildren();
+    this.shown = shares.map((share, k) => ({ share, handle: this.handle(share, k) }));
+    this.shown[focused]?.handle.focus();
+    this.view.stage.draw();
+  }
+
+  focus(): void {
+    this.shown.at(-1)?.handle.focus();
+  }
+
+  private handle(share: number, k: number): HTMLButtonElement {
+    const held = this.one!.limb?.held.some((at) => Math.abs(at - share) < 0.01) ?? false;
+    const name = `Depth at ${Math.round(100 * share)} % of the limb${held ? ", held" : ""}. Drag, or arrow up and down`;
+    const made = element("button", { class: `tree-handle${held ? " held" : ""}`, type: "button", "aria-label": name, title: "Drag nearer or farther. What was drawn stays as it was drawn.", "data-testid": `handle-${k}` });
+    made.addEventListener("pointerdown", (event) => this.take(event, made, share));
+    made.addEventListener("keydown", (event) => this.key(event, share));
+    this.layer.append(made);
+    return made;
+  }
+
+  private take(down: PointerEvent, handle: HTMLButtonElement, share: number): void {
+    if (down.button !== 0 || !this.one) return;
+    down.stopPropagation();
+    down.preventDefault();
+    handle.focus();
+    handle.setPointerCapture(down.pointerId);
+    const one = this.one;
+    const at = placeAt(one.path, one.share, share);
+    this.dragging = true;
+    this.guide.show(at, one.out);
+    let metres = 0;
+    const moved = (event: PointerEvent): void => {
+      metres = pulled(at, one.out, event.clientX - down.clientX, event.clientY - down.clientY, this.view.project, this.view.metre(at));
+      this.pull(one, share, metres, true);
+    };
+    const done = (event: PointerEvent): void => {
+      handle.removeEventListener("pointermove", moved);
+      handle.removeEventListener("pointerup", done);
+      handle.removeEventListener("pointercancel", done);
+      this.dragging = false;
+      this.guide.hide();
+      if (event.type === "pointerup" && metres !== 0) this.pull(one, share, metres, false);
+      else this.renew();
+    };
+    handle.addEventListener("pointermove", moved);
+    handle.addEventListener("pointerup", done);
+    handle.addEventListener("pointercancel", done);
+  }
+
+  private key(event: KeyboardEvent, share: number): void {
+    const way = { ArrowUp: -1, ArrowDown: 1, ArrowLeft: -1, ArrowRight: 1 }[event.key];
+    if (!way || !this.one) return;
+    event.preventDefault();
+    event.stopPropagation();
+    this.pull(this.one, share, way * STEP * this.view.reach * (event.shiftKey ? 4 : 1), false);
+  }
+
+  private pull(one: Reached, share: number, metres: number, live: boolean): void {
+    const scale = this.store.known.tree?.scale ?? 1;
+    const depth = (depthOf(one.view, placeAt(one.path, one.share, share)) + metres) / scale;
+    const bend = bent(one.path, one.share, share, one.out, metres);
+    this.preview.show([{ points: bend, radius: 0 }], 0.002 * this.view.reach);
+    this.moving = { share, by: along([0, 0, 0], one.out, metres) };
+    const now = performance.now();
+    if (!live || now - this.told > LIVE) {
+      this.told = now;
+      this.store.send({ type: "hold", limb: one.id, share, depth, live });
+    }
+    if (!live) this.moving = null;
+    this.view.stage.draw(live);
+  }
+
+  private moving: { share: number; by: Point } | null = null;
+
+  private follow(): void {
+    if (!this.one) return;
+    for (const { share, handle } of this.shown) {
+      const at = placeAt(this.one.path, this.one.share, share);
+      const [x, y] = this.view.project(this.moving?.share === share ? along(at, this.moving.by, 1) : at);
+      handle.style.transform = `translate(${x.toFixed(1)}px, ${y.toFixed(1)}px) translate(-50%, -50%)`;
+    }
+  }
+}

@@ -1,0 +1,81 @@
+// What can be done to the chosen limb? A few buttons beside it.
+
+import { block, button, swapIcon } from "../../parts/button";
+import { element } from "../../parts/element";
+import type { Store } from "../../store";
+import { shortest, snapped } from "../eye/eye";
+import { placeAt } from "./drag";
+import type { Chosen } from "./chosen";
+import type { View } from "../view";
+
+export class Toolbar {
+  private readonly bar: HTMLElement;
+  private readonly lock: HTMLButtonElement;
+  private readonly flipButton: HTMLButtonElement;
+
+  constructor(private readonly view: View, private readonly chosen: Chosen, private readonly store: Store) {
+    this.flipButton = button({ label: "Flip to the other side", icon: "flip", iconOnly: true, look: "quiet", key: "F", testId: "limb-flip", onPress: () => this.flip() });
+    this.lock = button({ label: "Lock", icon: "lock", iconOnly: true, look: "quiet", key: "L", testId: "limb-lock", onPress: () => this.toggleLock() });
+    const side = button({ label: "Draw on this side", icon: "turn", iconOnly: true, look: "quiet", testId: "limb-side", hint: "Turn the page to see this limb from its side, and draw there", onPress: () => this.turnToSide() });
+    const gone = button({ label: "Delete", icon: "trash", iconOnly: true, look: "quiet", key: "Del", testId: "limb-delete", hint: "Delete, with all that grows on it", onPress: () => this.remove() });
+    this.bar = element("div", { class: "tree-toolbar", role: "toolbar", "aria-label": "Chosen limb", "data-testid": "limb-toolbar", hidden: true }, this.flipButton, this.lock, side, gone);
+    view.root.append(this.bar);
+    view.stage.afterDraw.push(() => this.follow());
+    store.on(["selected", "limbs", "frame"], () => this.renew());
+  }
+
+  flip(): void {
+    const one = this.chosen.now;
+    if (one?.limb) this.store.send({ type: "flip", limb: one.id });
+  }
+
+  toggleLock(): void {
+    const one = this.chosen.now;
+    if (one) this.store.send({ type: "lock", limb: one.id, on: !isKept(one.limb) });
+  }
+
+  remove(): void {
+    const one = this.chosen.now;
+    if (!one) return;
+    this.store.send({ type: "delete", limb: one.id });
+    this.store.set("selected", null);
+  }
+
+  /** The page from which the limb is seen at right angles, to the nearest 15°. */
+  turnToSide(): void {
+    const one = this.chosen.now;
+    if (!one) return;
+    const [x, z] = [one.path.at(-3)! - one.path[0]!, one.path.at(-1)! - one.path[2]!];
+    const azimuth = (Math.atan2(-z, x) * 180) / Math.PI; // the page whose way to the right is the limb's
+    const there = [azimuth, azimuth + 180].sort((a, b) => Math.abs(shortest(a - this.view.eye.azimuth)) - Math.abs(shortest(b - this.view.eye.azimuth)))[0]!;
+    this.store.set("turn", shortest(snapped(there, 15)));
+  }
+
+  private renew(): void {
+    const one = this.chosen.now;
+    this.bar.hidden = one === null;
+    if (!one) return;
+    const kept = isKept(one.limb);
+    swapIcon(this.lock, kept ? "unlock" : "lock");
+    const words = kept ? "Unlock: let it move again" : one.limb ? "Lock: keep it as it is" : "Keep: it stays, whatever else changes";
+    this.lock.setAttribute("aria-label", words);
+    this.lock.title = this.lock.dataset.hint = `${words} (L)`;
+    block(this.flipButton, one.limb ? null : "Only limbs that were drawn or kept can be flipped");
+    this.view.stage.draw();
+  }
+
+  private follow(): void {
+    const one = this.bar.hidden ? null : this.chosen.now;
+    if (!one) return;
+    const [x, y] = this.view.project(placeAt(one.path, one.share, 0.75));
+    const [wide, high] = [this.bar.offsetWidth, this.bar.offsetHeight];
+    const left = Math.min(Math.max(8, x - wide / 2), this.view.stage.wide - wide - 8);
+    const above = y - high - 34;
+    const top = Math.min(Math.max(8, above < 8 ? y + 34 : above), this.view.stage.high - high - 56);
+    this.bar.style.transform = `translate(${left.toFixed(0)}px, ${top.toFixed(0)}px)`;
+  }
+}
+
+function isKept(limb: { locked: boolean; held: number[]; strokes: string[] } | null): boolean {
+  return limb !== null && (limb.locked || limb.held.length > 0 || limb.strokes.length === 0);
+}

@@ -1,0 +1,74 @@
+// How does the drawing lie on the tree? Its strokes as thin lines on the plane of the page each was drawn on, fading as that page is seen from its edge.
+
+import { Group, type Scene } from "three";
+import { LineMaterial } from "three/addons/lines/LineMaterial.js";
+import { LineSegments2 } from "three/addons/lines/LineSegments2.js";
+import { LineSegmentsGeometry } from "three/addons/lines/LineSegmentsGeometry.js";
+import type { Stroke } from "../../messages";
+import { onPage, type PagePlane } from "./plane";
+
+const COLOURS: Record<"light" | "dark", Record<Stroke["kind"], string>> = {
+  light: { branch: "#23251f", crown: "#3f7d55", obstacle: "#6d6a86" },
+  dark: { branch: "#f2f0ea", crown: "#8fce9f", obstacle: "#b1add0" },
+};
+const STRENGTH = 0.75;
+
+interface Sheet {
+  view: number; // degrees
+  kind: Stroke["kind"];
+  lines: LineSegments2;
+}
+
+export class Ink {
+  private readonly group = new Group();
+  private sheets: Sheet[] = [];
+  private theme: "light" | "dark" = "light";
+
+  constructor(scene: Scene) {
+    scene.add(this.group);
+  }
+
+  show(strokes: Iterable<Stroke>, plane: PagePlane): void {
+    for (const { lines } of this.sheets) [lines.geometry, lines.material].forEach((part) => part.dispose());
+    this.group.clear();
+    const sheets = new Map<string, { view: number; kind: Stroke["kind"]; points: number[] }>();
+    for (const stroke of strokes) {
+      const name = `${stroke.kind} ${stroke.view_deg}`;
+      if (!sheets.has(name)) sheets.set(name, { view: stroke.view_deg, kind: stroke.kind, points: [] });
+      segments(stroke, plane, sheets.get(name)!.points);
+    }
+    this.sheets = [...sheets.values()].filter((sheet) => sheet.points.length).map(({ view, kind, points }) => {
+      const material = new LineMaterial({ linewidth: kind === "branch" ? 1.6 : 1.3, transparent: true, depthWrite: false, depthTest: false, toneMapped: false });
+      const lines = new LineSegments2(new LineSegmentsGeometry().setPositions(points), material);
+      lines.renderOrder = 5;
+      this.group.add(lines);
+      return { view, kind, lines };
+    });
+    this.wear(this.theme);
+  }
+
+  wear(theme: "light" | "dark"): void {
+    this.theme = theme;
+    for (const { kind, lines } of this.sheets) lines.material.color.set(COLOURS[theme][kind]);
+  }
+
+  /** Seen from this azimuth (degrees): a page from its edge is all but gone. */
+  seen(azimuth: number): void {
+    for (const { view, lines } of this.sheets) {
+      const facing = Math.abs(Math.cos(((azimuth - view) * Math.PI) / 180));
+      lines.material.opacity = STRENGTH * (0.12 + 0.88 * facing * facing);
+    }
+  }
+
+  set visible(is: boolean) {
+    this.group.visible = is;
+  }
+}
+
+function segments({ xy, closed, view_deg }: Stroke, plane: PagePlane, into: number[]): void {
+  const count = xy.length / 2;
+  for (let k = 0; k + 1 < count + (closed ? 1 : 0); k++) {
+    const next = (k + 1) % count;
+    into.push(...onPage(plane, view_deg, xy[2 * k]!, xy[2 * k + 1]!, 0), ...onPage(plane, view_deg, xy[2 * next]!, xy[2 * next + 1]!, 0));
+  }
+}

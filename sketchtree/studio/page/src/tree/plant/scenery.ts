@@ -1,0 +1,128 @@
+// What of the plant stands in the scene? A mesh a material of wood, a mesh a card of leaves; made anew from what frames brought.
+
+import { BufferAttribute, BufferGeometry, Box3, Group, InstancedBufferAttribute, InstancedBufferGeometry, Mesh, MeshStandardMaterial, Sphere, Vector3, type Texture } from "three";
+import type { Material } from "../../messages";
+import { merged, type Merged, type MergedLeaves, type MergedWood } from "./merge";
+import type { Plant } from "./plant";
+import { shadeOf } from "./shade";
+import { leafMaterial, leafShadow, woodMaterial, type Lighting } from "./surface";
+import type { MapKind, Textures } from "./textures";
+
+interface Worn {
+  of: string; // the material as the frame said it, to see whether it is another now
+  surface: MeshStandardMaterial;
+  shadow: ReturnType<typeof leafShadow> | null;
+}
+
+export class Scenery {
+  readonly group = new Group();
+  readonly box = new Box3();
+  now: Merged = { wood: [], leaves: [], limbs: [], number: new Map() };
+  private readonly worn = new Map<string, Worn>();
+
+  constructor(private readonly lighting: Lighting, private readonly textures: Textures, private readonly changed: () => void) {}
+
+  /** Show this plant, where it was another. */
+  show(plant: Plant): void {
+    this.now = merged(plant);
+    this.lighting.marks.renumber(this.now.limbs, this.now.number);
+    this.lighting.sky.take(shadeOf(this.now.leaves));
+    for (const mesh of this.meshes) mesh.geometry.dispose();
+    this.group.clear();
+    this.box.makeEmpty();
+    for (const wood of this.now.wood) this.add(this.woodMesh(wood, plant));
+    for (const leaves of this.now.leaves) if (leaves.count) this.add(this.leafMesh(leaves, plant));
+    this.changed();
+  }
+
+  /** The colour of every vertex of the wood where doubt is shown: 3 a vertex, of 255, one array a mesh of `now.wood`. */
+  doubt(colours: Uint8Array[] | null): void {
+    this.lighting.doubt.value = colours ? 1 : 0;
+    this.woodMeshes.forEach((mesh, k) => { if (colours) mesh.geometry.setAttribute("doubt", new BufferAttribute(colours[k]!, 3, true)); });
+    this.changed();
+  }
+
+  get meshes(): Mesh<BufferGeometry, MeshStandardMaterial>[] {
+    return this.group.children as Mesh<BufferGeometry, MeshStandardMaterial>[];
+  }
+
+  private get woodMeshes(): Mesh<BufferGeometry, MeshStandardMaterial>[] {
+    return this.meshes.filter((mesh) => mesh.userData.wood);
+  }
+
+  private add(mesh: Mesh): void {
+    mesh.castShadow = mesh.receiveShadow = true;
+    mesh.matrixAutoUpdate = false;
+    mesh.geometry.boundingBox ??= new Box3();
+    this.box.union(mesh.geometry.boundingBox);
+    mesh.geometry.boundingSphere = mesh.geometry.boundingBox.getBoundingSphere(new Sphere());
+    this.group.add(mesh);
+  }
+
+  private woodMesh(wood: MergedWood, plant: Plant): Mesh {
+    const geometry = new BufferGeometry();
+    geometry.setAttribute("position", new BufferAttribute(wood.position, 3));
+    geometry.setAttribute("normal", new BufferAttribute(wood.normal, 4, true));
+    geometry.setAttribute("uv", new BufferAttribute(wood.uv, 2));
+    geometry.setAttribute("limb", new BufferAttribute(wood.limb, 1));
+    geometry.setIndex(new BufferAttribute(wood.index, 1));
+    geometry.computeBoundingBox();
+    const mesh = new Mesh(geometry, this.surface(plant.materials.get(wood.material)!, "wood").surface);
+    mesh.userData.wood = true;
+    return mesh;
+  }
+
+  private leafMesh(leaves: MergedLeaves, plant: Plant): Mesh {
+    const card = plant.cards.get(leaves.card)!;
+    const geometry = new InstancedBufferGeometry();
+    geometry.setAttribute("position", new BufferAttribute(card.position, 3));
+    geometry.setAttribute("normal", new BufferAttribute(card.normal, 3));
+    geometry.setAttribute("uv", new BufferAttribute(card.uv, 2));
+    geometry.setIndex(new BufferAttribute(card.index, 1));
+    geometry.setAttribute("aPlace", new InstancedBufferAttribute(leaves.place, 3));
+    geometry.setAttribute("aTurn", new InstancedBufferAttribute(leaves.turn, 4, true));
+    geometry.setAttribute("aScale", new InstancedBufferAttribute(leaves.scale, 3));
+    geometry.setAttribute("aTint", new InstancedBufferAttribute(leaves.tint, 3, true));
+    geometry.instanceCount = leaves.count;
+    geometry.boundingBox = new Box3().setFromArray(leaves.place).expandByScalar(Math.max(...leaves.scale.subarray(0, 3)));
+    const worn = this.surface(plant.materials.get(card.material)!, "leaf");
+    const mesh = new Mesh(geometry, worn.surface);
+    mesh.customDepthMaterial = worn.shadow ?? undefined;
+    return mesh;
+  }
+
+  private surface(of: Material, what: "wood" | "leaf"): Worn {
+    const name = `${what} ${of.key}`;
+    const said = JSON.stringify(of);
+    const had = this.worn.get(name);
+    if (had?.of === said) return had;
+    const passing: { value: Texture | null } = { value: null };
+    const surface = what === "wood" ? woodMaterial(of, this.lighting) : leafMaterial(of, this.lighting, passing);
+    const shadow = what === "leaf" ? leafShadow(of) : null;
+    surface.customProgramCacheKey = () => what;
+    shadow && (shadow.customProgramCacheKey = () => "leaf shadow");
+    const worn = { of: said, surface, shadow };
+    this.worn.set(name, worn);
+    this.dress(of, worn, passing);
+    return worn;
+  }
+
+  private dress(of: Material, { surface, shadow }: Worn, passing: { value: Texture | null }): void {
+    const put: Record<MapKind, (map: Texture) => void> = {
+      color: (map) => { surface.map = map; if (shadow) { shadow.map = map; shadow.needsUpdate = true; } },
+      normal: (map) => { surface.normalMap = map; },
+      roughness: (map) => { surface.roughnessMap = map; surface.roughness = 1; },
+      translucency: (map) => { passing.value = map; },
+    };
+    for (const kind of of.maps as MapKind[])
+      this.textures.get(of.key, kind, of.cutoff).then(
+        (map) => { put[kind]?.(map); surface.needsUpdate = true; this.changed(); },
+        () => {}, // the plain colour stays
+      );
+  }
+}
+
+/** The middle of a box. */
+export function middle(box: Box3): Vector3 {
+  return box.getCenter(new Vector3());
+}

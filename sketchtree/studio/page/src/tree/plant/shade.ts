@@ -1,0 +1,78 @@
+// How much of the sky does a place in the crown see? A coarse grid over the tree, of how much leaf is in each cell and how much light is left there.
+//
+//     light left = mean over directions of exp(−k Σ leaf area per area along the way)        k: `SPREAD`, leaves hang at all angles
+//
+// The grid becomes a small 3D texture; leaves and wood ask it where they are. No vertex needs a column of its own for it.
+
+import type { MergedLeaves } from "./merge";
+
+export interface Shade {
+  low: [number, number, number]; // corner of the grid, metres
+  size: [number, number, number]; // metres
+  cells: [number, number, number];
+  light: Uint8Array<ArrayBuffer>; // of 255, x fastest
+}
+
+const SIDE = 28; // cells along the longest side
+const SPREAD = 0.5;
+const FILLED = 0.45; // share of a card's square that is leaf
+const WAYS: [number, number, number][] = [[0, 1, 0], [1, 1, 0], [-1, 1, 0], [0, 1, 1], [0, 1, -1], [1, 0, 0], [-1, 0, 0], [0, 0, 1], [0, 0, -1], [0, -1, 0]];
+const WEIGHTS = [3, 2, 2, 2, 2, 1, 1, 1, 1, 0.6]; // the sky is brightest overhead, the ground gives a little back
+
+/** Null without leaves: nothing shades. */
+export function shadeOf(leaves: MergedLeaves[]): Shade | null {
+  const box = boxOf(leaves);
+  if (!box) return null;
+  const [low, high] = box;
+  const cell = Math.max(high[0] - low[0], high[1] - low[1], high[2] - low[2], 0.1) / (SIDE - 2);
+  const cells = [0, 1, 2].map((k) => Math.ceil((high[k]! - low[k]!) / cell) + 2) as [number, number, number];
+  const corner = low.map((v) => v - cell) as [number, number, number];
+  const density = filled(leaves, corner, cell, cells);
+  const sum = new Float32Array(density.length);
+  const whole = WEIGHTS.reduce((a, b) => a + b);
+  WAYS.forEach((way, k) => sweep(density, cells, way, WEIGHTS[k]! / whole, sum));
+  return { low: corner, size: cells.map((count) => count * cell) as [number, number, number], cells, light: Uint8Array.from(sum, (v) => Math.round(255 * Math.min(1, v))) };
+}
+
+function boxOf(leaves: MergedLeaves[]): [[number, number, number], [number, number, number]] | null {
+  const [low, high] = [[Infinity, Infinity, Infinity] as [number, number, number], [-Infinity, -Infinity, -Infinity] as [number, number, number]];
+  for (const { place } of leaves)
+    for (let k = 0; k < place.length; k++) {
+      const axis = k % 3;
+      if (place[k]! < low[axis]!) low[axis] = place[k]!;
+      if (place[k]! > high[axis]!) high[axis] = place[k]!;
+    }
+  return low[0] < Infinity ? [low, high] : null;
+}
+
+/** Leaf area per area of a cell's side, times k. */
+function filled(leaves: MergedLeaves[], low: [number, number, number], cell: number, [nx, ny, nz]: [number, number, number]): Float32Array {
+  const density = new Float32Array(nx * ny * nz);
+  for (const { place, scale, count } of leaves)
+    for (let leaf = 0; leaf < count; leaf++) {
+      const k = 3 * leaf;
+      const x = Math.floor((place[k]! - low[0]) / cell);
+      const y = Math.floor((place[k + 1]! - low[1]) / cell);
+      const z = Math.floor((place[k + 2]! - low[2]) / cell);
+      density[x + nx * (y + ny * z)]! += (SPREAD * FILLED * scale[k]! * scale[k + 1]!) / (cell * cell);
+    }
+  return density;
+}
+
+/** Adds, for each cell, what is left of the light that comes from direction `way`: cell after cell, starting where the light enters. */
+function sweep(density: Float32Array, [nx, ny, nz]: [number, number, number], [dx, dy, dz]: [number, number, number], weight: number, sum: Float32Array): void {
+  const long = Math.hypot(dx, dy, dz);
+  const depth = new Float32Array(density.length);
+  const order = (count: number, step: number) => Array.from({ length: count }, (_, k) => (step > 0 ? count - 1 - k : k));
+  const [xs, ys, zs] = [order(nx, dx), order(ny, dy), order(nz, dz)];
+  for (const z of zs)
+    for (const y of ys)
+      for (const x of xs) {
+        const at = x + nx * (y + ny * z);
+        const [fx, fy, fz] = [x + dx, y + dy, z + dz];
+        const outside = fx < 0 || fy < 0 || fz < 0 || fx >= nx || fy >= ny || fz >= nz;
+        const before = outside ? 0 : fx + nx * (fy + ny * fz);
+        depth[at] = outside ? 0 : depth[before]! + density[before]! * long;
+        sum[at]! += weight * Math.exp(-depth[at]! - 0.5 * density[at]! * long);
+      }
+}

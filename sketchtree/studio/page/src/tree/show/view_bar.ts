@@ -1,0 +1,33 @@
+// From which side, and what is shown beside the tree? A row of buttons at the foot of the view.
+
+import { button, press } from "../../parts/button";
+import { element } from "../../parts/element";
+import type { Store } from "../../store";
+import type { View } from "../view";
+
+export interface Shown {
+  ink: boolean; // the drawing on its pages
+  grid: boolean; // lines a metre apart
+}
+
+export function viewBar(view: View, store: Store, shown: Shown, changed: () => void): HTMLElement {
+  const fly = (azimuth: number, elevation: number) => () => view.fly(view.whole(azimuth, elevation));
+  const side = (label: string, key: string, azimuth: number, elevation: number): HTMLElement =>
+    button({ label, key, look: "quiet", testId: `view-${label.toLowerCase()}`, hint: `See the tree from ${label === "Top" ? "above" : `its ${label.toLowerCase()}`}`, onPress: fly(azimuth, elevation) });
+  const figure = button({ label: "Person", icon: "person", iconOnly: true, look: "quiet", testId: "figure", hint: "A person of 1.8 m beside the tree", onPress: () => store.set("figure", !store.ui.figure) });
+  const toggle = (what: keyof Shown, label: string, name: "branch" | "gallery", hint: string): HTMLButtonElement => {
+    const made = button({ label, icon: name, iconOnly: true, look: "quiet", testId: `show-${what}`, hint, onPress: () => { shown[what] = !shown[what]; press(made, shown[what]); changed(); } });
+    press(made, shown[what]);
+    return made;
+  };
+  const follow = (): void => press(figure, store.ui.figure);
+  store.on("figure", follow);
+  follow();
+  const bar = element("div", { class: "tree-bar", role: "toolbar", "aria-label": "View" },
+    side("Front", "1", 0, 4), side("Side", "2", 90, 4), side("Top", "3", 0, 89.5),
+    button({ label: "Whole tree", icon: "fit", iconOnly: true, look: "quiet", key: "Home", testId: "view-whole", onPress: () => view.fly(view.whole()) }),
+    element("span", { class: "tree-bar-gap" }),
+    toggle("ink", "Drawing", "branch", "The drawing, as it lies on the tree"), toggle("grid", "Metres", "gallery", "Lines a metre apart on the ground"), figure);
+  view.root.append(bar);
+  return bar;
+}

@@ -1,0 +1,68 @@
+// How tall is it? A person of 1.8 m stands beside the tree: a flat shape that turns to whoever looks.
+
+import { DoubleSide, Group, Mesh, MeshBasicMaterial, Shape, ShapeGeometry, type Box3, type Camera, type Scene } from "three";
+
+export const TALL = 1.8; // metres
+
+export class Figure {
+  readonly group = new Group();
+  private readonly material = new MeshBasicMaterial({ side: DoubleSide, toneMapped: false });
+
+  constructor(scene: Scene) {
+    const body = new Mesh(new ShapeGeometry([head(), ...clothed()], 24), this.material);
+    body.castShadow = false;
+    this.group.add(body);
+    scene.add(this.group);
+    this.wear("light");
+  }
+
+  wear(theme: "light" | "dark"): void {
+    this.material.color.set(theme === "light" ? "#5c6663" : "#aab4b2");
+  }
+
+  /** Beside this tree: to its left and a little in front, clear of the trunk. */
+  beside(box: Box3): void {
+    this.group.position.set(Math.max(box.min.x * 0.62, box.min.x + 0.3) - 0.4, 0, Math.min(0.35 * box.max.z, 2));
+  }
+
+  face(camera: Camera): void {
+    this.group.rotation.y = Math.atan2(camera.matrixWorld.elements[8]!, camera.matrixWorld.elements[10]!);
+    this.group.updateMatrixWorld();
+  }
+}
+
+function head(): Shape {
+  const shape = new Shape();
+  shape.absellipse(0, 1.675, 0.092, 0.125, 0, 2 * Math.PI, false, 0);
+  return shape;
+}
+
+/** Someone at ease, in a coat: torso with arms, two legs. */
+function clothed(): Shape[] {
+  const torso = new Shape();
+  torso.moveTo(-0.045, 1.56);
+  torso.bezierCurveTo(-0.06, 1.5, -0.19, 1.5, -0.215, 1.42);
+  torso.bezierCurveTo(-0.255, 1.28, -0.275, 1.05, -0.262, 0.84);
+  torso.bezierCurveTo(-0.258, 0.79, -0.205, 0.79, -0.2, 0.84);
+  torso.bezierCurveTo(-0.195, 1.0, -0.18, 1.12, -0.165, 1.2);
+  torso.bezierCurveTo(-0.165, 1.05, -0.195, 0.92, -0.19, 0.74);
+  torso.lineTo(0.19, 0.74);
+  torso.bezierCurveTo(0.195, 0.92, 0.165, 1.05, 0.165, 1.2);
+  torso.bezierCurveTo(0.18, 1.12, 0.195, 1.0, 0.2, 0.84);
+  torso.bezierCurveTo(0.205, 0.79, 0.258, 0.79, 0.262, 0.84);
+  torso.bezierCurveTo(0.275, 1.05, 0.255, 1.28, 0.215, 1.42);
+  torso.bezierCurveTo(0.19, 1.5, 0.06, 1.5, 0.045, 1.56);
+  torso.closePath();
+  return [torso, leg(-1), leg(1)];
+}
+
+function leg(side: number): Shape {
+  const shape = new Shape();
+  shape.moveTo(side * 0.188, 0.76);
+  shape.bezierCurveTo(side * 0.19, 0.5, side * 0.165, 0.25, side * 0.15, 0.06);
+  shape.bezierCurveTo(side * 0.2, 0.04, side * 0.215, 0.0, side * 0.21, 0.0);
+  shape.lineTo(side * 0.07, 0.0);
+  shape.bezierCurveTo(side * 0.075, 0.2, side * 0.05, 0.5, side * 0.008, 0.76);
+  shape.closePath();
+  return shape;
+}
