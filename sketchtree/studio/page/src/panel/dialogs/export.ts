@@ -5,6 +5,7 @@ import { dialog } from "../../parts/dialog";
 import { element } from "../../parts/element";
 import { toast } from "../../parts/toast";
 import type { Store } from "../../store";
+import { onList } from "../catalogue";
 import { ask, Refused } from "../ask";
 import { download, nameOf } from "../download";
 import { commandLine } from "./command_line";
@@ -20,16 +21,16 @@ export function exportTree(store: Store, views: Views): () => void {
   const formats = element("div", { class: "formats" });
   const controls = exportControls();
   const trouble = element("p", { class: "export-trouble", role: "alert", testId: "export-trouble" });
-  const command = commandLine();
+  const command = commandLine(() => fitting(controls.options(), ".glb"));
   const tell = (error: Refused | null): void => {
     trouble.hidden = error === null;
     trouble.replaceChildren(element("strong", {}, error?.message ?? ""), ` ${error?.remedy ?? ""}`);
   };
-  store.on("welcome", () => formats.replaceChildren(...groups(store.known.welcome?.formats ?? []).map((group) => element("section", {},
+  onList(store, (welcome) => welcome.formats, (all) => formats.replaceChildren(...groups(all).map((group) => element("section", {},
     element("h3", {}, group.title),
     element("div", { class: "format-grid" }, ...group.formats.map(({ format, hint }) => formatButton({
       format, hint, started: () => tell(null), refused: tell,
-      request: () => ({ options: fitting(controls.options(), format.name), revision: store.known.revision }),
+      request: () => ({ ...fitting(controls.options(), format.name), revision: store.known.revision }),
     })))))));
   const empty = element("p", { class: "hint" }, "There is no tree yet: draw a trunk and a few branches first.");
   box.body.append(empty, trouble, element("div", { class: "export-halves" }, formats, element("section", { class: "export-side" }, element("h3", {}, "Options"), controls.root, element("p", { class: "hint how" }, "Press a format on the left: the file is made with these options, and saved."))));

@@ -12,7 +12,7 @@ const TICK = 200; // milliseconds between two figures of the clock
 export interface FormatLook {
   format: Choice;
   hint: string;
-  request: () => { options: ExportOptions; revision: number };
+  request: () => ExportOptions & { revision: number };
   refused: (error: Refused) => void; // what went wrong, for the dialog to tell
   started: () => void;
 }

@@ -4,6 +4,7 @@ import { dialog } from "../../parts/dialog";
 import { element } from "../../parts/element";
 import type { Choice } from "../../messages";
 import type { Store } from "../../store";
+import { onList } from "../catalogue";
 import { roving } from "../roving";
 
 export function gallery(store: Store): () => void {
@@ -11,8 +12,8 @@ export function gallery(store: Store): () => void {
   const grid = element("div", { class: "gallery", role: "group", aria: { label: "Examples" } });
   const walk = roving(grid, () => [...grid.querySelectorAll<HTMLElement>("button")]);
   box.body.append(element("p", { class: "hint" }, "Open one, draw a branch more, take one away. Undo brings back what is on the page now."), grid);
-  store.on("welcome", () => {
-    grid.replaceChildren(...(store.known.welcome?.examples ?? []).map((one) => example({ ...one, picture: one.picture && store.address(one.picture) }, () => {
+  onList(store, (welcome) => welcome.examples, (examples) => {
+    grid.replaceChildren(...examples.map((one) => example({ ...one, picture: one.picture && store.address(one.picture) }, () => {
       box.close();
       store.send({ type: "open", name: one.name, example: true });
     })));

@@ -6,6 +6,7 @@ import { element } from "../../parts/element";
 import { icon } from "../../style/icons";
 import type { Store } from "../../store";
 import { roving } from "../roving";
+import { EXTENSION } from "./project_name";
 import { take } from "./take";
 import { isPicture, READABLE } from "./upload";
 
@@ -31,7 +32,7 @@ export function openFile(store: Store): () => void {
     const welcome = store.known.welcome;
     const files = welcome?.files ?? [];
     where.textContent = files.length > 0 ? `In the folder “${welcome?.folder ?? ""}”, where the studio was started:` : `The folder “${welcome?.folder ?? ""}” has no drawings yet. Choose a file, or drop one anywhere on the page.`;
-    list.replaceChildren(...files.map((name) => file(name, name === store.known.name, () => {
+    list.replaceChildren(...files.map((name) => file(name, name === `${store.known.name ?? ""}${EXTENSION}`, () => {
       box.close();
       store.send({ type: "open", name });
     })));
@@ -52,7 +53,7 @@ export function openFile(store: Store): () => void {
 }
 
 function file(name: string, current: boolean, onPress: () => void): HTMLElement {
-  const made = element("button", { class: "file", title: `Open ${name}`, data: { name } }, icon(name.endsWith(".sketchtree") ? "leaf" : isPicture(name) ? "picture" : "branch"), element("span", {}, name), current ? element("span", { class: "file-note" }, "open now") : null);
+  const made = element("button", { class: "file", title: `Open ${name}`, data: { name } }, icon(name.endsWith(EXTENSION) ? "leaf" : isPicture(name) ? "picture" : "branch"), element("span", {}, name), current ? element("span", { class: "file-note" }, "open now") : null);
   made.type = "button";
   made.addEventListener("click", onPress);
   return made;

@@ -1,72 +1,97 @@
-// Under which name is the project kept? One that is there already is asked about, and never overwritten unasked.
+// The project is kept: at once under the name it has, else under one that is asked for. A file that is there already is never overwritten unasked.
 
 import { button } from "../../parts/button";
-import { dialog } from "../../parts/dialog";
+import { dialog, type Dialog } from "../../parts/dialog";
 import { element, freshId } from "../../parts/element";
 import { toast } from "../../parts/toast";
 import type { Store } from "../../store";
 import { EXTENSION, projectName } from "./project_name";
 
 export function saveProject(store: Store): () => void {
-  const id = freshId("name");
-  const field = element("input", { class: "field", id, testId: "save-name" });
-  field.autocomplete = "off";
-  field.spellcheck = false;
-  field.maxLength = 120;
-  const label = element("label", {}, "Name");
-  label.htmlFor = id;
-  const words = element("p", { class: "hint", role: "status" });
-  let over = ""; // the name about which was asked
-  let saving = false;
-  const box = dialog({ title: "Save the project", testId: "save-dialog" });
-  const go = button({ label: "Save", icon: "save", look: "primary", testId: "save-go", onPress: () => save() });
-  const show = (text: string, wrong = false): void => {
-    words.textContent = text;
-    words.classList.toggle("wrong", wrong);
-  };
-  const usual = (): void => {
-    over = "";
-    go.querySelector("span")!.textContent = "Save";
-    show(`In the folder “${store.known.welcome?.folder ?? ""}”. Drawing, edits and settings are in this one file.`);
-  };
-  const save = (): void => {
-    const read = projectName(field.value);
-    if ("wrong" in read) return show(read.wrong, true);
-    const there = store.known.welcome?.files.includes(read.name) ?? false;
-    if (there && over !== read.name && !isOwn(store, read.name)) {
-      over = read.name;
-      go.querySelector("span")!.textContent = "Replace";
-      return show(`${read.name} is there already. Replace it?`, true);
-    }
-    saving = true;
-    store.send({ type: "save", name: read.name, over: there });
-  };
-  field.addEventListener("input", usual);
-  field.addEventListener("keydown", (event) => { if (event.key === "Enter") save(); });
-  store.on("trouble", () => {
-    const trouble = store.known.trouble;
-    if (!saving || trouble?.about !== "file") return;
-    saving = false;
-    show(`${trouble.message} ${trouble.remedy}`, true);
-  });
-  store.on("saved", () => {
-    if (!saving || !store.known.saved) return;
-    saving = false;
-    box.close();
-    toast(`Saved as ${store.known.name ?? ""}.`);
-  });
-  box.body.append(element("div", { class: "name-row" }, label, element("span", { class: "with-unit" }, field, EXTENSION)), words);
-  box.foot.append(button({ label: "Cancel", look: "quiet", onPress: box.close }), go);
+  const saving = new Saving(store);
   return () => {
-    saving = false;
-    field.value = (store.known.name ?? "my tree").replace(/\.[a-z]+$/i, "");
-    usual();
-    box.open();
-    field.select();
+    const { name, welcome } = store.known;
+    if (name !== null && welcome?.files.includes(name + EXTENSION)) saving.send(name + EXTENSION, false);
+    else saving.open();
   };
 }
 
-/** The file that this drawing was saved as before. */
-function isOwn(store: Store, name: string): boolean {
-  return store.known.name === name;
+class Saving {
+  private readonly box: Dialog = dialog({ title: "Save the project", testId: "save-dialog" });
+  private readonly field = element("input", { class: "field", id: freshId("name"), testId: "save-name" });
+  private readonly words = element("p", { class: "hint", role: "status" });
+  private readonly go = button({ label: "Save", icon: "save", look: "primary", testId: "save-go", onPress: () => this.save() });
+  private over = ""; // the name that may be written over
+  private sent = ""; // the name that is being saved
+
+  constructor(private readonly store: Store) {
+    this.field.autocomplete = "off";
+    this.field.spellcheck = false;
+    this.field.maxLength = 120;
+    this.field.addEventListener("input", () => this.usual());
+    this.field.addEventListener("keydown", (event) => { if (event.key === "Enter") this.save(); });
+    const label = element("label", {}, "Name");
+    label.htmlFor = this.field.id;
+    this.box.body.append(element("div", { class: "name-row" }, label, element("span", { class: "with-unit" }, this.field, EXTENSION)), this.words);
+    this.box.foot.append(button({ label: "Cancel", look: "quiet", onPress: this.box.close }), this.go);
+    store.on("trouble", () => this.refused());
+    store.on("saved", () => this.saved());
+  }
+
+  open(): void {
+    this.field.value = this.store.known.name ?? "my tree";
+    this.usual();
+    this.box.open();
+    this.field.select();
+  }
+
+  send(name: string, over: boolean): void {
+    this.sent = name;
+    this.store.send({ type: "save", name, over });
+  }
+
+  private save(): void {
+    const read = projectName(this.field.value);
+    if ("wrong" in read) return this.show(read.wrong, true);
+    const other = read.name !== `${this.store.known.name ?? ""}${EXTENSION}`;
+    if (other && this.over !== read.name && this.store.known.welcome?.files.includes(read.name)) return this.ask(read.name, `${read.name} is there already. Replace it?`);
+    this.send(read.name, this.over === read.name);
+  }
+
+  /** The next press writes over that file. */
+  private ask(name: string, question: string): void {
+    this.over = name;
+    this.go.querySelector("span")!.textContent = "Replace";
+    this.show(question, true);
+  }
+
+  private usual(): void {
+    this.over = "";
+    this.go.querySelector("span")!.textContent = "Save";
+    this.show(`In the folder “${this.store.known.welcome?.folder ?? ""}”. Drawing, edits and settings are in this one file.`);
+  }
+
+  private show(text: string, wrong = false): void {
+    this.words.textContent = text;
+    this.words.classList.toggle("wrong", wrong);
+  }
+
+  private refused(): void {
+    const { trouble } = this.store.known;
+    const name = this.sent;
+    if (name === "" || trouble?.about !== "file") return;
+    this.sent = "";
+    this.store.known.trouble = null; // it is told here
+    this.store.tell("trouble");
+    if (!this.box.root.open) this.open();
+    if (this.store.known.welcome?.files.includes(name)) this.ask(name, `${trouble.message} ${trouble.remedy}`);
+    else this.show(`${trouble.message} ${trouble.remedy}`, true);
+  }
+
+  private saved(): void {
+    if (this.sent === "" || this.sent !== `${this.store.known.name ?? ""}${EXTENSION}` || !this.store.known.saved) return;
+    this.sent = "";
+    this.box.close();
+    toast(`Saved as ${this.store.known.name ?? ""}${EXTENSION}.`, { action: { label: "Save under another name", onPress: () => this.open() } });
+  }
 }

@@ -1,6 +1,7 @@
 // Which bark does the wood wear? The template's own, or any other.
 
 import type { Store } from "../../store";
+import { onList } from "../catalogue";
 import { picturePicker } from "./picture_picker";
 
 const OWN = "auto"; // on the wire: null
@@ -10,9 +11,9 @@ export function barkPicker(store: Store): HTMLElement {
     label: "Bark", testId: "bark-picker", child: "bark",
     onPick: (value) => store.send({ type: "choose", options: { bark: value === OWN ? null : value } }),
   });
-  store.on("welcome", () => made.fill([
+  onList(store, (welcome) => welcome.barks, (barks) => made.fill([
     { value: OWN, title: "Auto", picture: null },
-    ...(store.known.welcome?.barks ?? []).map((one) => ({ value: one.name, title: one.title, picture: one.picture && store.address(one.picture) })),
+    ...barks.map((one) => ({ value: one.name, title: one.title, picture: one.picture && store.address(one.picture) })),
   ]));
   store.on(["options", "tree", "welcome"], () => {
     const { options, tree, welcome } = store.known;

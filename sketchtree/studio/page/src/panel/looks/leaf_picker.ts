@@ -1,6 +1,7 @@
 // Which leaves does the tree wear? The template's own, any other, or none.
 
 import type { Store } from "../../store";
+import { onList } from "../catalogue";
 import { picturePicker } from "./picture_picker";
 
 const OWN = "auto"; // on the wire: null
@@ -10,10 +11,10 @@ export function leafPicker(store: Store): HTMLElement {
     label: "Leaves", testId: "leaf-picker", child: "leaf",
     onPick: (value) => store.send({ type: "choose", options: { leaf: value === OWN ? null : value } }),
   });
-  store.on("welcome", () => made.fill([
+  onList(store, (welcome) => welcome.leaves, (leaves) => made.fill([
     { value: OWN, title: "Auto", picture: null },
     { value: "none", title: "None", picture: null },
-    ...(store.known.welcome?.leaves ?? []).filter((one) => one.name !== "none").map((one) => ({ value: one.name, title: one.title, picture: one.picture && store.address(one.picture) })),
+    ...leaves.filter((one) => one.name !== "none").map((one) => ({ value: one.name, title: one.title, picture: one.picture && store.address(one.picture) })),
   ]));
   store.on(["options", "tree", "welcome"], () => {
     const { options, tree, welcome } = store.known;

@@ -2,6 +2,7 @@
 
 import { element } from "../../parts/element";
 import type { Store } from "../../store";
+import { onList } from "../catalogue";
 import { linger } from "../linger";
 import { roving, type Roving } from "../roving";
 import { card, type TemplateCard } from "./card";
@@ -14,7 +15,7 @@ export function mountStrip(root: HTMLElement, store: Store): void {
   const strip = new Strip(store);
   const find = search("Find a template", (typed) => strip.find(typed));
   root.append(element("div", { class: "strip-head" }, element("h2", {}, "Template"), strip.words, find), strip.list);
-  store.on("welcome", () => strip.fill());
+  onList(store, (welcome) => welcome.templates, () => strip.fill());
   store.on(["matches", "options", "tree"], () => strip.show());
 }
 
