@@ -20,7 +20,6 @@ mountTheme(store);
 mountBar(region("bar"), store);
 mountTools(region("tools"), store);
 mountDraw(region("page"), store);
-mountTree(region("tree"), store);
+const views = mountTree(region("tree"), store);
 mountLink(store);
-const views = { screenshot: () => Promise.reject(new Error("no view yet")), turntable: () => Promise.reject(new Error("no view yet")) };
 mountPanels({ side: region("side"), strip: region("strip"), status: region("status"), page: region("page") }, store, views); // after the link: it times what is sent
