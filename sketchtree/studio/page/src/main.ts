@@ -20,6 +20,6 @@ mountTheme(store);
 mountBar(region("bar"), store);
 mountTools(region("tools"), store);
 mountDraw(region("page"), store);
-const views = const views = mountTree(region("tree"), store);
+const views = mountTree(region("tree"), store);
 mountLink(store);
 mountPanels({ side: region("side"), strip: region("strip"), status: region("status"), page: region("page") }, store, views); // after the link: it times what is sent
