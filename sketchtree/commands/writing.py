@@ -6,7 +6,7 @@ import time
 from dataclasses import dataclass
 from pathlib import Path
 
-from sketchtree.errors import ExportError, OptionError
+from sketchtree.errors import ExportError
 from sketchtree.export.files import MESHES, PROJECTS, SKELETONS, check_extension, check_program, check_writable, write_whole
 
 PICTURES = (".png",)
@@ -24,6 +24,13 @@ class Run:
     began: float  # time.perf_counter() at its start
     watch: object  # pipeline.Watch
     options: dict
+
+    @property
+    def made(self):
+        """The same as the tree's file tells it."""
+        from sketchtree.tree_output import Made
+
+        return Made(self.seed, self.options)
 
 
 def check_outputs(
@@ -62,17 +69,10 @@ def split_options(wanted: dict, *records: type) -> list:
 
 
 def check_files(output: Path, files, instead: str = "") -> None:
-    """Refuse, before any work, what the file can't hold; `instead` says how to ask for a GLB. `files` is a `FileOptions`. Raises OptionError."""
-    kind = output.suffix.lower()
-    scene = kind in (".glb", ".gltf") or kind.startswith(".usd")
-    if files.pack and kind != ".glb":
-        raise OptionError(f"`--pack {files.pack}` writes GLB files, not `{kind}`.", remedy=instead or f"Name the output {output.stem}.glb.")
-    if files.levels == "together" and not scene:
-        raise OptionError(f"`{kind}` files hold one level of detail.", remedy="Write .glb, .gltf or .usd, or ask for `--levels apart`.")
-    if files.leaves == "instanced" and not scene:
-        raise OptionError(f"`{kind}` files can't hold instanced leaves.", remedy="Write .glb, .gltf or .usd, or leave `--leaves instanced` out.")
-    if (files.lod or files.levels != "one") and kind not in MESHES:
-        raise OptionError(f"`{kind}` files hold no mesh, and so no level of detail.", remedy="Leave `--lod` and `--levels` out, or write a mesh.")
+    """Refuse, before any work, what the file can't hold. `files` is a `FileOptions`. Raises OptionError."""
+    from sketchtree.tree_output import check_files
+
+    check_files(output, files, instead)
 
 
 def write_tree(
@@ -81,55 +81,13 @@ def write_tree(
     """Write the tree and what else was asked for; returns warnings (a picture that could not be made). `files` is a `FileOptions`.
 
     None of the `sketches` it was made of is overwritten."""
-    kind = output.suffix.lower()
-    warnings: tuple[str, ...] = ()
-    shown = model.meshes
-    if files is not None and files.pack:
-        _write_pack(model, output, run, files)
-    elif kind in MESHES:
-        from sketchtree.export.write import write_asset
+    from sketchtree.tree_output import write_output, write_skeleton_of
 
-        asset = asset_of(model, run, files)
-        warnings += write_asset(output, asset, separate=files is not None and files.levels == "apart", kept=sketches)
-        shown = [part.merged() for part in asset.parts] if files is not None and files.lod else shown
-    elif kind in SKELETONS:
-        _write_skeleton(output, model.skeleton, run)
-    elif kind in PROJECTS:
-        from sketchtree.export.skeletons.hdf5 import write_project
-
-        write_project(output, model, seed=run.seed, options=run.options)
+    shown, warnings = write_output(model, output, run.made, files, kept=sketches)
     if skeleton is not None:
-        _write_skeleton(skeleton, model.skeleton, run)
-    pictures = [path for path in (output if kind in PICTURES else None, preview) if path is not None]
+        write_skeleton_of(skeleton, model.skeleton, run.made)
+    pictures = [path for path in (output if output.suffix.lower() in PICTURES else None, preview) if path is not None]
     return warnings + tuple(warning for path in pictures for warning in _picture(shown, path))
-
-
-def asset_of(model, run: Run, files=None):
-    """What a mesh file holds of the tree (or of a forest): its levels, the skeleton, and what it was made with."""
-    from sketchtree.asset import Asset
-
-    if files is None:
-        return Asset.of(model.meshes, skeleton=model.skeleton, about=_about(model, run))
-    from sketchtree.tree_asset import forest_asset, tree_asset
-
-    return (tree_asset if hasattr(model, "drawn") else forest_asset)(model, files, about=_about(model, run))
-
-
-def _about(model, run: Run) -> dict:
-    from sketchtree.version import __version__
-
-    drawn = getattr(model, "drawn", None)
-    template = {} if drawn is None else {"template": drawn.exemplar.name if drawn.exemplar else None}
-    return {"program": "SketchTree", "version": __version__, "seed": run.seed, "units": "metres", "up": "y"} | template
-
-
-def _write_pack(model, output: Path, run: Run, files) -> None:
-    from sketchtree.levels.make import make_levels
-    from sketchtree.rig.pack import game_pack, write_pack
-
-    levels = make_levels(model, pixel_error=files.pixel_error)
-    far = levels[-1].parts[0] if levels[-1].parts and levels[-1].parts[0].name == "impostor" else None
-    write_pack(output.parent, game_pack(model, levels if far is None else levels[:-1], far, name=output.stem, about=_about(model, run)))
 
 
 def _picture(meshes, path: Path) -> tuple[str, ...]:
@@ -143,8 +101,10 @@ def write_drawn(drawn, output: Path, run: Run, *, frame: str, others: tuple[Path
     """The drawn branches as a skeleton file, in metres or in the sketch's own units (INTERFACES §2); other readings
     than the answer into `others`, as far as there are any."""
     told = [(output, drawn.fit.depth), *zip(others, [reading.depth for reading in drawn.fit.alternatives[1:]])]
+    from sketchtree.tree_output import write_skeleton_of
+
     for path, depth in told:
-        _write_skeleton(path, _framed(drawn, depth, frame), run, **({} if frame == "world" else {"units": "sketch units", "frame": "sketch"}))
+        write_skeleton_of(path, _framed(drawn, depth, frame), run.made, **({} if frame == "world" else {"units": "sketch units", "frame": "sketch"}))
 
 
 def _framed(drawn, depth, frame: str):
@@ -180,13 +140,6 @@ def write_posterior(path: Path | None, drawn, *, frame: str) -> None:
 def other_readings(output: Path, count: int) -> tuple[Path, ...]:
     """DRAWN.2.swc, DRAWN.3.swc, … beside DRAWN.swc."""
     return tuple(output.with_suffix(f".{k}{output.suffix}") for k in range(2, count + 1))
-
-
-def _write_skeleton(path: Path, tree, run: Run, *, units: str = "metres", frame: str = "world") -> None:
-    from sketchtree.export.write import write_skeleton
-    from sketchtree.version import __version__
-
-    write_skeleton(path, tree, header={"units": units, "frame": frame, "version": __version__, "seed": run.seed})
 
 
 def record(run: Run, drawn, model=None, *, extra_warnings: tuple[str, ...] = ()) -> dict:

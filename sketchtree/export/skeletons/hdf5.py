@@ -4,7 +4,9 @@ A project (`.sketchtree`) is all that a tree was made of, so that it can be made
 
     format, schema, version, seed, template     attributes of the root
     sketch                            the drawing, as sketch JSON: no stroke, width or pressure is lost
-    edits                             JSON: operations by limb id, in order; none yet
+    edits                             JSON: what was done by hand, operations by limb id (`editing.kept`)
+    settled                           JSON: what the depths of drawn limbs have come to, likewise
+    underlay                          a picture that was traced over, as it came; attributes x, y, width, height, opacity (sketch units, y up)
     options                           JSON: as used
     skeleton/                         every column of the complete tree
     posterior/                        what is known of the drawn segments' depths: depth and depth_sd (sketch units), log_posterior,
@@ -18,6 +20,7 @@ from collections.abc import Mapping
 
 import numpy as np
 
+from sketchtree.editing import kept
 from sketchtree.errors import SkeletonError
 from sketchtree.export.files import check_extension, write_whole
 from sketchtree.skeleton import TreeSkeleton
@@ -37,8 +40,8 @@ def write_hdf5(path: str | os.PathLike, tree: TreeSkeleton, *, header: Mapping[s
     write_whole(path, whole.getvalue())
 
 
-def write_project(path: str | os.PathLike, model, *, seed: int, options: dict) -> None:
-    """Write a `TreeModel` with the drawing it was made of as `.sketchtree`, all or nothing. `options` are JSON.
+def write_project(path: str | os.PathLike, model, *, seed: int, options: dict, underlay=None) -> None:
+    """Write a `TreeModel` with the drawing it was made of as `.sketchtree`, all or nothing. `options` are JSON, `underlay` an `editing.document.Underlay`.
 
     Raises `SketchError` for a drawing that a file could not give back, `ExportError` where it can't be written."""
     import h5py
@@ -51,7 +54,12 @@ def write_project(path: str | os.PathLike, model, *, seed: int, options: dict) -
         file.attrs["template"] = model.drawn.exemplar.name if model.drawn.exemplar else ""
         _put_text(file, "sketch", sketch_json(model.drawn.sketch))
         file["sketch"].attrs["name"] = model.drawn.sketch.name
-        _put_text(file, "edits", "[]")
+        _put_text(file, "edits", json.dumps(kept.edits_as_json(model.drawn.edits)))
+        _put_text(file, "settled", json.dumps(kept.settled_as_json(model.drawn.settled)))
+        if underlay is not None:
+            put(file, "underlay", np.frombuffer(underlay.picture, np.uint8), "byte")
+            for name in ("x", "y", "width", "height", "opacity"):
+                file["underlay"].attrs[name] = float(getattr(underlay, name))
         _put_text(file, "options", json.dumps(options, sort_keys=True))
         put_columns(file.create_group("skeleton"), model.skeleton)
         _put_posterior(file.create_group("posterior"), model.drawn.fit)

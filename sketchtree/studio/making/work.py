@@ -1,0 +1,183 @@
+"""One job: a document becomes a tree. In full, as its files will have it; in a hurry, only what was touched; or for a glance.
+
+What was worked out for the last document is used again as far as it still holds: other leaves leave the wood alone, another season all but the colours.
+"""
+
+import dataclasses
+import hashlib
+import pickle
+from collections.abc import Callable
+from dataclasses import dataclass
+
+import numpy as np
+
+from sketchtree.choose import bark_model, leaf_model
+from sketchtree.drawn_tree import DrawnTree, draw_out
+from sketchtree.dressing import Dress
+from sketchtree.editing.document import Document
+from sketchtree.geometry.radii import PipeRadii
+from sketchtree.keys import root_key
+from sketchtree.pipeline import LeafyTree, foliage, grow, weathered
+from sketchtree.propagate.after.cutting import bears
+from sketchtree.similarity import Similarity
+from sketchtree.studio import messages
+from sketchtree.studio.making.chunks import Chunks, chunks_of, owners
+from sketchtree.studio.making.frames import Arrays
+from sketchtree.studio.making.limb_table import limb_table
+from sketchtree.templates.store.database import Database
+from sketchtree.watch import Watch
+
+_GROWING = ("generations", "fill", "max_segments", "density", "light", "obstacle")
+
+
+class Stopped(Exception):
+    """A newer document came."""
+
+
+@dataclass(frozen=True)
+class Basis:
+    """What the pages have of the tree, for a hurried answer to fit in with."""
+
+    scale: float
+    translate: tuple[float, float, float]
+    owners: tuple[str, ...]
+    segments: int
+    leaves: int
+    triangles: tuple[int, int]
+
+
+@dataclass(eq=False)
+class Bench:
+    """What lies on the bench from the last job."""
+
+    templates: Database
+    drawn: tuple[str, DrawnTree] | None = None
+    grown: tuple[str, object] | None = None
+    standing: tuple[str, object] | None = None
+    leafy: tuple[str, LeafyTree] | None = None
+
+
+def signature(*parts: object) -> str:
+    """The same for equal parts."""
+    return hashlib.blake2b(pickle.dumps(parts), digest_size=16).hexdigest()
+
+
+def drawn_tree(bench: Bench, document: Document, watch: Watch) -> DrawnTree:
+    """The drawn limbs in space."""
+    at = signature(tuple(document.strokes.values()), document.edits, document.settled, document.reading, document.seed)
+    if bench.drawn is None or bench.drawn[0] != at:
+        drawn = draw_out(
+            document.sketch, bench.templates, key=root_key(document.seed), options=document.reading, edits=document.edits, settled=document.settled, watch=watch
+        )
+        bench.drawn = at, drawn
+    return bench.drawn[1]
+
+
+def leafy_tree(bench: Bench, document: Document, drawn: DrawnTree, watch: Watch) -> LeafyTree:
+    """The whole tree, without its meshes."""
+    key, options, at = root_key(document.seed), document.tree, bench.drawn[0]
+    at_grown = signature(at, [getattr(options, name) for name in _GROWING])
+    if bench.grown is None or bench.grown[0] != at_grown:
+        with watch("propagate"):
+            bench.grown = at_grown, grow(drawn, options, key=key)
+    watch.on_part(0.4)
+    at_standing = signature(at_grown, options.sag, options.shed, options.shed_twigs, options.untangle, options.prune)
+    if bench.standing is None or bench.standing[0] != at_standing:
+        with watch("propagate"):
+            bench.standing = at_standing, weathered(drawn, bench.grown[1], options)
+    watch.on_part(1.0)
+    at_leafy = signature(at_standing, options.leaf, options.bark, options.season)
+    if bench.leafy is None or bench.leafy[0] != at_leafy:
+        dress = Dress(bark_model(options.bark, drawn.habit), leaf_model(options.leaf, drawn.habit, bench.templates), options.season, drawn.habit)
+        skeleton, warnings = bench.standing[1]
+        with watch("foliage"):
+            leaves, flowers = foliage(skeleton, dress, key=key)
+        bench.leafy = at_leafy, LeafyTree(skeleton, leaves, flowers, dress, warnings)
+    return bench.leafy[1]
+
+
+def tree_frame(
+    revision: int, phase: str, document: Document, drawn: DrawnTree, tree: LeafyTree, chunks: Chunks, known: dict[str, str], basis: Basis | None = None
+) -> tuple[bytes, dict[str, str]]:
+    """(the frame, digest of every chunk there is now). Chunks whose digest is `known` are left out; after a hurried job those of `basis` stay."""
+    arrays, sent, digests = Arrays(), [], {}
+    for chunk in chunks.chunks:
+        digests[str(chunk.owner)] = digest = chunk.digest()
+        if known.get(str(chunk.owner)) != digest:
+            sent.append(chunk.put(arrays, digest))
+    cards = []
+    for k, (name, card) in enumerate(zip(chunks.card_names, chunks.cards, strict=True)):
+        for column, (kind, values) in card.arrays.items():
+            arrays.put(f"card{k}/{column}", kind, values)
+        cards.append(messages.Card(name=name, array=f"card{k}/", material=card.wears))
+    skeleton, similarity = tree.skeleton, drawn.similarity
+    present = list(digests) if basis is None else [name for name in dict.fromkeys((*basis.owners, *digests)) if int(name) in drawn.settled.limbs]
+    root = np.asarray(similarity.translate) / -similarity.scale
+    points = skeleton.tip
+    head = messages.Tree(
+        revision=revision, phase=phase, scale=similarity.scale, root=[float(root[0]), float(-root[1])], owners=present, chunks=sent, cards=cards,
+        materials=[_material(key, one) for key, one in chunks.materials.items()], limbs=limb_table(drawn),
+        segments=skeleton.segment_count if basis is None else basis.segments,
+        drawn=drawn.skeleton.segment_count,
+        leaves=len(tree.leaves) if basis is None else basis.leaves,
+        triangles=list(chunks.triangles if basis is None else basis.triangles),
+        height=skeleton.height, low=points.min(axis=0).tolist(), high=points.max(axis=0).tolist(),
+        template=drawn.exemplar.name if drawn.exemplar else None, leaf=tree.dress.leaf, bark=tree.dress.bark, warnings=list(drawn.warnings + tree.warnings), arrays=[],
+    )  # fmt: skip
+    return arrays.frame(head), digests
+
+
+def _material(key: str, one) -> messages.Material:
+    maps = {"color": one.base_color_texture, "normal": one.normal_texture, "roughness": one.roughness_texture, "translucency": one.translucency_texture}
+    return messages.Material(
+        key=key, maps=[name for name, texture in maps.items() if texture is not None], color=[float(value) for value in one.base_color],
+        roughness=float(one.roughness), cutoff=one.alpha_cutoff, double_sided=bool(one.double_sided), translucency=float(one.translucency),
+    )  # fmt: skip
+
+
+def hurried(bench: Bench, document: Document, basis: Basis | None, watch: Watch) -> tuple[DrawnTree, LeafyTree, Chunks]:
+    """Only what was touched: solved in the shortest run, grown, with leaves; nothing is weathered. What stays is taken as it is."""
+    key = root_key(document.seed)
+    similarity = None if basis is None else Similarity(basis.scale, basis.translate)
+    drawn = draw_out(
+        document.sketch, bench.templates, key=key, options=document.reading, edits=document.edits, settled=document.settled, similarity=similarity, quick=True, watch=watch
+    )
+    touched = drawn.touched if basis is not None else frozenset(drawn.settled.limbs)
+    with watch("propagate"):
+        grown = grow(drawn, _light(document.tree), key=key)
+        radius = np.full(len(grown.skeleton), np.nan)
+        radius[grown.drawn_row] = drawn.radius
+        whole = PipeRadii(drawn.habit, radius, grown.tip_weight)(grown.skeleton)
+        mine = np.isin(owners(whole), list(touched))
+        part = whole.select(bears(whole.parent, mine) | mine) if touched else whole.select(whole.is_base)
+    options = document.tree
+    dress = Dress(bark_model(options.bark, drawn.habit), leaf_model(options.leaf, drawn.habit, bench.templates), options.season, drawn.habit)
+    with watch("foliage"):
+        leaves, flowers = foliage(part, dress, key=key)
+    tree = LeafyTree(part, leaves, flowers, dress, ())
+    with watch("mesh"):
+        chunks = chunks_of(tree, key=key, only=touched) if touched else Chunks((), (), (), {}, (0, 0))
+    return drawn, tree, chunks
+
+
+def _light(options):
+    """The same options without what takes long."""
+    return dataclasses.replace(options, fill=False, light=0.0)
+
+
+def watching(tell: Callable[[str, float], None], stopped: Callable[[], bool]) -> Watch:
+    """A watch that tells which stage runs, and ends the job when a newer one came."""
+    now = {"stage": ""}
+
+    def stage(name: str) -> None:
+        if stopped():
+            raise Stopped
+        now["stage"] = name
+        tell(name, 0.0)
+
+    def part(done: float) -> None:
+        if stopped():
+            raise Stopped
+        tell(now["stage"], done)
+
+    return Watch(stage, part)
