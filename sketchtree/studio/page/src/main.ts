@@ -22,4 +22,5 @@ mountTools(region("tools"), store);
 mountDraw(region("page"), store);
 const views = mountTree(region("tree"), store);
 mountLink(store);
-mountPanels({ side: region("side"), strip: region("strip"), status: region("status"), page: region("page") }, store, views); // after the link: it times what is sent
+const roots = { side: region("side"), strip: region("strip"), status: region("status"), page: region("page"), tree: region("tree") };
+mountPanels(roots, store, views); // after the link: it times what is sent

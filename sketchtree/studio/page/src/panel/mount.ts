@@ -7,6 +7,7 @@ import { openFile } from "./dialogs/open";
 import { saveProject } from "./dialogs/save";
 import type { Views } from "./dialogs/views";
 import { emptyPage } from "./first/empty";
+import { emptyTree } from "./first/empty_tree";
 import { goneBanner } from "./first/gone";
 import { hintCard } from "./first/hint";
 import { hintButton } from "./first/hint_button";
@@ -25,6 +26,7 @@ export interface PanelRoots {
   strip: HTMLElement;
   status: HTMLElement;
   page: HTMLElement; // what is said about the drawing stands on it
+  tree: HTMLElement;
 }
 
 const dialogs = new Map<Dialog, () => void>();
@@ -42,6 +44,7 @@ export function mountPanels(roots: PanelRoots, store: Store, views: Views): void
   words.className = "page-words";
   words.append(goneBanner(store), troubleCard(store), hint.root);
   roots.page.append(emptyPage(store, { gallery: () => openDialog("gallery"), open: () => openDialog("open") }), words, hintButton(store, hint));
+  roots.tree.append(emptyTree(store));
   welcomeBack(store);
   mountDrop();
 }

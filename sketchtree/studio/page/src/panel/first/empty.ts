@@ -12,13 +12,14 @@ export interface Ways {
 
 export function emptyPage(store: Store, ways: Ways): HTMLElement {
   const steps = element("ol", { class: "steps" },
-    element("li", {}, "Draw a trunk, from the ground up."),
-    element("li", {}, "Add a few branches."),
-    element("li", {}, "If you like, outline the crown (C)."));
+    element("li", {}, "a trunk, from the ground up"),
+    element("li", {}, "a few branches"),
+    element("li", {}, "if you like, the crown’s outline (C)"));
   const buttons = element("div", { class: "buttons" },
     button({ label: "Look at examples", icon: "gallery", testId: "empty-gallery", onPress: ways.gallery }),
     button({ label: "Open a file", icon: "open", testId: "empty-open", onPress: ways.open }));
-  const root = element("div", { class: "empty", testId: "empty" }, ghostDrawing(), element("div", { class: "empty-words" }, element("h2", {}, "Draw a tree"), steps, buttons));
+  const root = element("div", { class: "empty", testId: "empty" }, element("div", { class: "empty-middle" },
+    ghostDrawing(), element("div", { class: "empty-words" }, element("h2", {}, "Draw a tree"), steps, buttons)));
   const show = (): void => {
     const { welcome, strokes, underlay, connected } = store.known;
     root.hidden = !welcome || !connected || strokes.size > 0 || store.ui.turn !== 0;

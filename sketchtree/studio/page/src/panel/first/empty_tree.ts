@@ -1,0 +1,17 @@
+// There is no tree to see yet: will there be one? Said in its place, until the first one stands.
+
+import { element } from "../../parts/element";
+import type { Store } from "../../store";
+
+export function emptyTree(store: Store): HTMLElement {
+  const root = element("p", { class: "empty-tree", testId: "empty-tree" });
+  const show = (): void => {
+    const { welcome, strokes, tree, working } = store.known;
+    const nothing = strokes.size === 0;
+    root.hidden = !welcome || (!nothing && tree !== null && tree.segments > 0);
+    root.textContent = nothing ? "Your tree will stand here." : working?.state === "error" ? "" : "The tree is growing …";
+  };
+  store.on(["welcome", "strokes", "tree", "working"], show);
+  show();
+  return root;
+}
