@@ -9,6 +9,7 @@ export interface Frame {
 
 const LEAST = 0.02;
 const MOST = 40;
+const FOOT = 44; // CSS pixels
 
 export class PageCamera {
   scale = 1; // CSS pixels a page unit
@@ -43,10 +44,12 @@ export class PageCamera {
     this.place(scale, px - (px - this.x) * real, py - (py - this.y) * real);
   }
 
-  /** All of a box of the page, with a margin around it. */
-  fit(box: Frame, margin = 0.1): void {
-    const scale = Math.min(MOST, Math.max(LEAST, (1 - 2 * margin) * Math.min(this.width / Math.max(box.width, 1e-6), this.height / Math.max(box.height, 1e-6))));
-    this.place(scale, this.width / 2 - (box.left + box.width / 2) * scale, this.height / 2 - (box.top + box.height / 2) * scale);
+  /** All of a box of the page, with a margin around it, above the controls at the page's foot. */
+  fit(box: Frame, margin = 0.08, foot = FOOT): void {
+    const height = Math.max(1, this.height - foot);
+    const room = (1 - 2 * margin) * Math.min(this.width / Math.max(box.width, 1e-6), height / Math.max(box.height, 1e-6));
+    const scale = Math.min(MOST, Math.max(LEAST, room));
+    this.place(scale, this.width / 2 - (box.left + box.width / 2) * scale, height / 2 - (box.top + box.height / 2) * scale);
   }
 
   /** The canvas has another size: what was in its middle stays there. */

@@ -22,7 +22,7 @@ export function mountOptions(desk: Desk): HTMLElement {
   const show = (): void => {
     const { tool, selectedStrokes } = store.ui;
     const draws = tool === "branch" || tool === "crown" || tool === "obstacle";
-    hint.textContent = selectedStrokes.length > 1 ? "Drag to move · Delete to erase" : selectedStrokes.length === 1 ? "Drag to reshape · Alt and drag to move" : "Click a line, or drag around several";
+    hint.textContent = selectedStrokes.length > 1 ? "Drag moves them" : selectedStrokes.length === 1 ? "Drag reshapes · Alt moves" : "Click or encircle lines";
     const parts: HTMLElement[] = draws ? [pen] : tool === "erase" ? [eraser.root] : tool === "select" ? [hint] : [];
     if (store.known.underlay && (tool === "select" || draws)) parts.push(underlay);
     root.hidden = parts.length === 0;

@@ -32,7 +32,9 @@ export function mountViewCorner(desk: Desk): HTMLElement {
   store.on("turn", show);
   camera.on(show);
   show();
+  const [farther, nearer] = [small("Farther", "minus", "-", closer(1 / CLOSER)), small("Closer", "plus", "+", closer(CLOSER))];
+  for (const one of [farther, nearer]) one.classList.add("page-step"); // where there is room
   return element("div", { class: "page-corner" },
     element("div", { class: "page-group", role: "group", aria: { label: "Side of the tree that the page faces" } }, small("Turn the page left", "left", "ArrowLeft", turn(-TURN)), front, small("Turn the page right", "right", "ArrowRight", turn(TURN))),
-    element("div", { class: "page-group", role: "group", aria: { label: "Closer or farther" } }, small("Farther", "minus", "-", closer(1 / CLOSER)), size, small("Closer", "plus", "+", closer(CLOSER))));
+    element("div", { class: "page-group", role: "group", aria: { label: "Closer or farther" } }, farther, size, nearer));
 }

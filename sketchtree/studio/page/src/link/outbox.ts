@@ -2,7 +2,7 @@
 // strokes wait until the program's `Changed` has them.
 //
 //     add → (offline: waits) → sent → confirmed, away            line breaks: what was not confirmed is to be sent again
-//     welcome → whole `Changed` → what it has is confirmed; what had been sent and is not in it was refused; the rest is sent
+//     hello → whole `Changed` → what it has is confirmed; what had been sent before and is not in it was refused; the rest is sent
 
 import type { Changed, Request, Stroke, Strokes } from "../messages";
 
@@ -49,6 +49,15 @@ export class Outbox {
     if (this.open) this.flush();
   }
 
+  has(key: number): boolean {
+    return this.waiting.some((one) => one.key === key);
+  }
+
+  /** The oldest that was sent and is not settled. */
+  get oldest(): number | null {
+    return this.waiting.find((one) => one.sent)?.key ?? null;
+  }
+
   /** The line broke. */
   broke(): void {
     this.open = false;
@@ -72,6 +81,7 @@ export class Outbox {
   /** The program works in order: with one that is confirmed all sent before it are settled, done or refused. One `Changed` may be of several. */
   private lastConfirmed(event: Changed, put: Set<string>): number {
     const gone = new Set(event.gone);
+    if (event.since === event.revision && !put.size && !gone.size) return this.waiting.findIndex(({ sent }) => sent); // nothing had to be done
     let last = this.waiting.findIndex(({ request, sent }) => sent && request.type === "strokes"
       && ((request.put ?? []).some((stroke) => put.has(stroke.id)) || (request.gone ?? []).some((id) => gone.has(id))));
     if (last < 0) return last;

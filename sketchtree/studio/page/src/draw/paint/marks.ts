@@ -5,7 +5,7 @@ import type { PageCamera } from "../camera";
 import type { Palette } from "./palette";
 
 const DOT = 2; // CSS pixels
-const RING = 5.5;
+const RING = 4.5;
 
 export function paintMarks(on: CanvasRenderingContext2D, camera: PageCamera, palette: Palette, marks: Mark[]): void {
   for (const mark of marks) {
@@ -16,7 +16,7 @@ export function paintMarks(on: CanvasRenderingContext2D, camera: PageCamera, pal
       on.fillStyle = palette.raised;
       on.fill();
       on.strokeStyle = palette.doubt;
-      on.lineWidth = 2.5;
+      on.lineWidth = 2;
       on.stroke();
     } else {
       on.fillStyle = palette.accent;

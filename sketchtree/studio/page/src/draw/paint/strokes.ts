@@ -75,7 +75,9 @@ function shapeOf(stroke: Stroke, look: Look): Shape {
   return shape;
 }
 
-/** A curve by the middles of a line's spans, bent towards its points. */
+const CORNER = Math.cos((40 * Math.PI) / 180); // a sharper turn is a corner, and stays one
+
+/** A curve by the middles of a line's spans, bent towards its points; through corners it goes straight. */
 export function smooth(xy: readonly number[], closed: boolean): Path2D {
   const path = new Path2D();
   const count = xy.length / 2;
@@ -83,10 +85,20 @@ export function smooth(xy: readonly number[], closed: boolean): Path2D {
   const y = (at: number): number => xy[2 * (at % count) + 1]!;
   if (closed) path.moveTo((x(0) + x(1)) / 2, (y(0) + y(1)) / 2);
   else path.moveTo(x(0), y(0));
-  for (let at = 1; at < (closed ? count + 1 : count - 1); at += 1) path.quadraticCurveTo(x(at), y(at), (x(at) + x(at + 1)) / 2, (y(at) + y(at + 1)) / 2);
+  for (let at = 1; at < (closed ? count + 1 : count - 1); at += 1) {
+    const [middleX, middleY] = [(x(at) + x(at + 1)) / 2, (y(at) + y(at + 1)) / 2];
+    if (isCorner(x(at) - x(at - 1), y(at) - y(at - 1), x(at + 1) - x(at), y(at + 1) - y(at))) {
+      path.lineTo(x(at), y(at));
+      path.lineTo(middleX, middleY);
+    } else path.quadraticCurveTo(x(at), y(at), middleX, middleY);
+  }
   if (closed) path.closePath();
   else path.lineTo(x(count - 1), y(count - 1));
   return path;
+}
+
+function isCorner(ax: number, ay: number, bx: number, by: number): boolean {
+  return ax * bx + ay * by < CORNER * Math.hypot(ax, ay) * Math.hypot(bx, by);
 }
 
 const hatches = new Map<string, CanvasPattern>();
