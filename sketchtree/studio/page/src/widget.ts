@@ -23,10 +23,7 @@ function render({ model, el }: Cell): () => void {
   const inside = room(el, Number(model.get("height")) || 480);
   store.set("theme", isDark() ? "dark" : "light");
   inside.dataset.theme = store.ui.theme;
-  const part = (tag: "nav" | "section" | "footer", id: string, label: string): HTMLElement => {
-    const made = element(tag, { id, "aria-label": label });
-    return made;
-  };
+  const part = (tag: "nav" | "section" | "footer", id: string, label: string): HTMLElement => element(tag, { id, aria: { label } });
   const tools = part("nav", "tools", "Tools");
   const page = part("section", "page", "Drawing");
   const tree = part("section", "tree", "Tree in 3D");
@@ -46,8 +43,10 @@ function render({ model, el }: Cell): () => void {
   return mine;
 }
 
-/** The element that everything is in. Keys pressed in it are not the notebook's. */
+/** The element that everything is in. Keys pressed in it are not the notebook's: JupyterLab leaves alone what is marked so, others hear nothing. */
 function room(el: HTMLElement, height: number): HTMLElement {
+  el.dataset.lmSuppressShortcuts = "true";
+  el.addEventListener("keydown", (event) => event.stopPropagation());
   const shadow = el.shadowRoot ?? el.attachShadow({ mode: "open" });
   const sheet = new CSSStyleSheet();
   sheet.replaceSync(styles.replaceAll(":root", ":host"));

@@ -16,7 +16,7 @@ export function popover(anchor: HTMLElement, content: HTMLElement, testId?: stri
   anchor.setAttribute("aria-haspopup", "dialog");
   root.addEventListener("toggle", (event) => anchor.setAttribute("aria-expanded", String((event as ToggleEvent).newState === "open")));
   const open = (): void => {
-    if (!root.isConnected) document.body.append(root);
+    if (!root.isConnected) (anchor.closest(".cell") ?? document.body).append(root); // in a notebook's cell it stays in there
     root.showPopover();
     place(root, anchor);
     root.querySelector<HTMLElement>("button, input, [tabindex]")?.focus();

@@ -5,7 +5,7 @@ import type { Store } from "../store";
 
 export function mountWords(root: HTMLElement, store: Store): void {
   root.dataset.testid = "status";
-  const words = element("span", { "aria-live": "polite" });
+  const words = element("span", { aria: { live: "polite" } });
   root.append(words);
   const show = (): void => {
     const { working, tree, trouble, connected } = store.known;
