@@ -1,0 +1,256 @@
+"""What is being drawn, who looks at it, and what has been done to it? One document and its history.
+
+Every step gets the next revision, goes into the journal, is told to all pages, and to the engine, which makes the tree.
+
+    step → engine.make → outcomes → pages
+         → journal → `Changed` → pages
+"""
+
+import asyncio
+import time
+from collections.abc import Callable, Hashable
+from dataclasses import dataclass, field
+
+from sketchtree.editing.document import Document
+from sketchtree.editing.settled import Settled
+from sketchtree.errors import SketchTreeError
+from sketchtree.studio import journal_lines, messages, wire
+from sketchtree.studio.change import Change, change
+from sketchtree.studio.engine import Engine, Outcome
+from sketchtree.studio.folder import Folder, Signature
+from sketchtree.studio.history import History
+from sketchtree.studio.ledger import Ledger
+from sketchtree.studio.outbox import Outbox, encode
+from sketchtree.studio.recovery import Journal, Recovered
+from sketchtree.studio.scribe import Scribe
+from sketchtree.studio.settling import sharing
+
+_KEPT = (messages.Working, messages.Matches, messages.Read, messages.Alternatives)  # the newest of each is told to pages that join later
+_NO_TREE = frozenset({"underlay", "name", "units", "page"})  # fields of a document that its tree does not hang on
+
+
+@dataclass(eq=False)
+class Page:
+    """One page that is connected."""
+
+    outbox: Outbox
+    sender: asyncio.Task | None = None
+    greeted: bool = False
+
+
+@dataclass(eq=False)
+class Files:
+    """Where the drawing is kept, and what is known of the file."""
+
+    folder: Folder | None = None
+    signatures: dict[str, Signature | None] = field(default_factory=dict)  # of files as they were read or written here
+    saved: dict[int, str] = field(default_factory=dict)  # state → name of the file that holds it
+
+
+class Desk:
+    """All methods are called on the event loop."""
+
+    def __init__(self, engine: Engine, document: Document, *, folder: Folder | None = None, clock: Callable[[], float] = time.monotonic):
+        self.engine = engine
+        self.history = History(document)
+        self.files = Files(folder)
+        self.revision = 1
+        self.recovered = False
+        self.ready = asyncio.Event()  # the first drawing is there
+        self.turn = asyncio.Lock()  # one request after the other changes the document
+        self.other_readings: tuple[int, Document, list[Settled]] | None = None  # revision, document, settled: what `Pick` picks of
+        self.tasks: set[asyncio.Task] = set()
+        self.notes: list[messages.Trouble] = []  # told to every page that joins
+        self.pictures: dict[str, bytes] = {}  # that were traced over, by digest
+        self._clock = clock
+        self._pages: set[Page] = set()
+        self._kept: dict[type, messages.Event] = {}
+        self._settled_since = 1  # revision at which the settled depths were last set by a step
+        self._came = asyncio.Event()  # an outcome, since `settles` looked last
+        self.scribe, self.ledger = Scribe(None, self._cannot_keep), Ledger(self.history)
+        engine.on_outcome = self.on_outcome
+
+    # Beginning and end
+
+    def begin(self, document: Document | None = None, *, journal: Journal | None = None, recovered: Recovered | None = None, saved_as: str | None = None) -> None:
+        """The first drawing: a recovered one, else `document`; `saved_as` names the file that holds it. Pages that wait are answered from now on."""
+        self.scribe = Scribe(journal, self._cannot_keep)
+        if recovered is not None:
+            self.history, self.recovered = recovered.history, True
+            self.ledger = Ledger(self.history, begun=True)
+            self.pictures.update(recovered.pictures)
+            self.revision += 1
+            if recovered.saved_state is not None and saved_as is not None:
+                self.files.saved[recovered.saved_state] = saved_as
+            if saved_as is not None:
+                self.files.signatures[saved_as] = recovered.signature
+        elif document is not None:
+            self.history = History(document)
+            if saved_as is not None:
+                self.files.saved[0] = saved_as
+        for note in journal.notes if journal is not None else ():
+            self.notes.append(messages.Trouble(message=note, remedy="Nothing of it was deleted.", about="file"))
+        self._remember_picture()
+        self.ready.set()
+        self.engine.make(self.revision, self.document)
+
+    async def end(self) -> None:
+        """All is written; the pages are let go."""
+        for task in (*self.tasks, *(page.sender for page in self._pages if page.sender)):
+            task.cancel()
+        await self.scribe.rest()
+        if self.scribe.journal is not None:
+            self.scribe.journal.close()
+
+    # What there is
+
+    @property
+    def document(self) -> Document:
+        """The drawing now."""
+        return self.history.document
+
+    @property
+    def saved(self) -> bool:
+        """Is it as in its file?"""
+        return self.history.state in self.files.saved
+
+    def whole(self) -> messages.Changed:
+        """Everything, for a page that knows nothing."""
+        return wire.whole(self.document, self.revision, **self._state())
+
+    def state_only(self) -> messages.Changed:
+        """Nothing is different but what undo, redo and the file say."""
+        return messages.Changed(since=self.revision, revision=self.revision, **self._state())
+
+    def _state(self) -> dict:
+        return {"undo": self.history.undo_label, "redo": self.history.redo_label, "saved": self.saved}
+
+    # Pages
+
+    def leave(self, page: Page) -> None:
+        """A page is gone."""
+        self._pages.discard(page)
+        if page.sender is not None:
+            page.sender.cancel()
+
+    def greet(self, page: Page) -> None:
+        """The page gets everything now, and what becomes different from now on."""
+        page.greeted = True
+        self._pages.add(page)
+        page.outbox.everything()
+        for event in (*self._kept.values(), *self.notes):
+            page.outbox.put(event)
+        self.engine.refresh()
+
+    def tell(self, event: messages.Event | bytes) -> None:
+        """All pages get it."""
+        if isinstance(event, _KEPT):
+            self._kept[type(event)] = event
+        if self._pages:
+            said = event if isinstance(event, bytes) else encode(event)
+            for page in self._pages:
+                page.outbox.put_encoded(event, said)
+
+    def trouble(self, page: Page | None, error: SketchTreeError, about: str | None = None) -> None:
+        """One page, or all, are told what can't be done."""
+        event = trouble_of(error, about)
+        if page is None:
+            self.tell(event)
+        else:
+            page.outbox.put(event)
+
+    # Steps
+
+    def step(self, document: Document, label: str, *, alike: Hashable = None) -> bool:
+        """A step is done; like steps in quick succession are one. False: nothing is different."""
+        return self.change(change(self.document, document), label, alike=alike)
+
+    def change(self, what: Change, label: str, *, alike: Hashable = None) -> bool:
+        """The same, where it is known what becomes different."""
+        if not what:
+            return False
+        before, state, begin = self.document, self.history.state, self._begin()
+        merges = self.history.step(what, label, now=self._clock(), alike=alike)
+        self._went(what, (*begin, *self.ledger.step(before, what, self.document, label, state, merges=merges)))
+        return True
+
+    def walk(self, *, on: bool) -> bool:
+        """Undo, or redo; False: there is none."""
+        before, state = self.document, self.history.state
+        if (self.history.redo_label if on else self.history.undo_label) is None:
+            return False
+        begin = self._begin()
+        self.history.redo() if on else self.history.undo()
+        what = change(before, self.document)
+        self._went(what, (*begin, *self.ledger.walk(before, what, self.document, state, self.history.state, on=on)))
+        return True
+
+    def is_in_file(self, name: str, file: str) -> None:
+        """The present state is called so, and is in that file of the folder; its journal begins anew."""
+        self.history.keep(self.document.replace(name=name))
+        self.history.part()
+        self.files.saved = {state: own for state, own in self.files.saved.items() if own != file} | {self.history.state: file}
+        self.ledger.forget()
+
+    def _begin(self) -> tuple[journal_lines.Line, ...]:
+        name = self.files.saved.get(self.history.state)
+        return self.ledger.begin(self.document, name is not None, None if name is None else self.files.signatures.get(name))
+
+    def _went(self, what: Change, lines: tuple[journal_lines.Line, ...]) -> None:
+        """The document is another now."""
+        document, since = self.document, self.revision
+        self.revision += 1
+        self._remember_picture()
+        if "settled" in what.others:
+            self._settled_since = self.revision
+        told = wire.changed(what, document, since, self.revision, **self._state())
+        self.scribe.write(lines, lambda: self.tell(told))
+        if what.put or what.gone or what.order is not None or what.others.keys() - _NO_TREE:
+            self.engine.make(self.revision, document)
+
+    # What comes of it
+
+    def on_outcome(self, outcome: Outcome) -> None:
+        """The engine has something to tell."""
+        if outcome.settled is not None and self._settled_since <= outcome.revision <= self.revision:
+            self._settle(outcome.settled)
+        self.tell(outcome.event)
+        self._came.set()
+
+    async def settles(self, wanted: Callable[[Document], bool], seconds: float) -> bool:
+        """Wait until the document is as wanted by what the engine finds; False: the tree is made, or the time is over, and it is not."""
+        until = self._clock() + seconds
+        while not wanted(self.document):
+            working = self._kept.get(messages.Working)
+            if working is not None and working.revision >= self.revision and working.state != "working":
+                return False
+            self._came.clear()
+            try:
+                await asyncio.wait_for(self._came.wait(), until - self._clock())
+            except TimeoutError:
+                return False
+        return True
+
+    def _settle(self, settled: Settled) -> None:
+        before = self.document
+        settled = sharing(settled, before.settled)
+        if settled is before.settled:
+            return
+        self.history.keep(before.replace(settled=settled))
+        lines = self.ledger.keep(before, self.document)
+        if lines:
+            self.scribe.write(lines, lambda: None)
+
+    def _remember_picture(self) -> None:
+        if self.document.underlay is not None:
+            self.pictures[wire.digest(self.document.underlay.picture)] = self.document.underlay.picture
+
+    def _cannot_keep(self, error: OSError) -> None:
+        why = (error.strerror or "it fails").lower()
+        self.tell(messages.Trouble(message=f"Steps can't be kept for recovery: {why}.", remedy="Free some space, and save the drawing.", about="program"))
+
+
+def trouble_of(error: SketchTreeError, about: str | None = None) -> messages.Trouble:
+    """An error as the page is told."""
+    stroke = getattr(error, "stroke", None)
+    return messages.Trouble(message=error.message, remedy=error.remedy, stroke=None if stroke is None else str(stroke), about=about or "drawing")

@@ -1,0 +1,220 @@
+"""What does each request of a page do? One function a request; what can't be done raises SketchTreeError, and nothing has happened then."""
+
+import asyncio
+from collections.abc import Awaitable, Callable
+from typing import Any
+
+from sketchtree.editing import operations
+from sketchtree.editing.document import Document
+from sketchtree.editing.edits import Adopted
+from sketchtree.errors import OptionError, SketchError, SketchTreeError
+from sketchtree.sketch.strokes import Stroke
+from sketchtree.studio import filing, messages, wire
+from sketchtree.studio.change import Change
+from sketchtree.studio.desk import Desk, Page, trouble_of
+
+_SETTLES = 5.0  # seconds that an edit waits for limbs just drawn
+
+
+async def do(desk: Desk, page: Page, request: messages.Request) -> None:
+    """Do what is asked. Raises SketchTreeError."""
+    if not page.greeted and not isinstance(request, messages.Hello):
+        raise OptionError("The first message must be a `hello`.", remedy="Load the page again.")
+    await _DOING[type(request)](desk, page, request)
+
+
+async def _hello(desk: Desk, page: Page, request: messages.Hello) -> None:
+    if request.version != messages.VERSION:
+        page.outbox.put(messages.Trouble(message="This page is of another version of the program.", remedy="Load the page again.", about="program"))
+        return
+    desk.greet(page)
+    _aside(desk, page, lambda: filing.welcome(desk, page))
+
+
+async def _strokes(desk: Desk, page: Page, request: messages.Strokes) -> None:
+    async with desk.turn:
+        old = desk.document.strokes
+        put = {said.id: _stroke(said, old.get(said.id)) for said in request.put}
+        put = {name: stroke for name, stroke in put.items() if old.get(name) is not stroke}
+        stay = {said.id for said in request.put}
+        gone = tuple(name for name in dict.fromkeys(request.gone) if name in old and name not in stay)
+        count = len(old) - len(gone) + sum(name not in old for name in put)
+        if count > messages.MAX_STROKES:
+            raise SketchError(f"The drawing would have {count} strokes; {messages.MAX_STROKES} is the most.", remedy="Erase some first.")
+        if not desk.change(Change(put, gone), request.label):
+            page.outbox.put(desk.state_only())  # the page waits for an answer
+
+
+def _stroke(said: messages.Stroke, old: Stroke | None) -> Stroke:
+    """The stroke; the old one where the page says what is known, as it does after the line was cut."""
+    return old if old is not None and wire.stroke_out(old) == said else wire.stroke_in(said, old)
+
+
+async def _sketching(desk: Desk, page: Page, request: messages.Sketching) -> None:
+    if request.stroke is not None:
+        wire.stroke_in(request.stroke)
+    desk.engine.ghost(desk.revision, desk.document, request.stroke, None)
+
+
+async def _choose(desk: Desk, page: Page, request: messages.Choose) -> None:
+    async with desk.turn:
+        named = tuple(sorted(request.options))
+        desk.step(wire.choose(desk.document, request.options), ", ".join(named) or "options", alike=("choose", named))
+
+
+async def _glance(desk: Desk, page: Page, request: messages.Glance) -> None:
+    shown = None if request.template is None else wire.choose(desk.document, {"template": request.template})
+    desk.engine.glance(desk.revision, shown)
+
+
+async def _hold(desk: Desk, page: Page, request: messages.Hold) -> None:
+    if request.live:
+        desk.engine.ghost(desk.revision, desk.document, None, request)
+        return
+    async with desk.turn:
+        document = await _with_limb(desk, int(request.limb))
+        desk.step(operations.hold(document, int(request.limb), request.share, request.depth), "depth")
+
+
+async def _flip(desk: Desk, page: Page, request: messages.Flip) -> None:
+    async with desk.turn:
+        desk.step(operations.flip(await _with_limb(desk, int(request.limb)), int(request.limb)), "flip")
+
+
+async def _lock(desk: Desk, page: Page, request: messages.Lock) -> None:
+    async with desk.turn:
+        limb = int(request.limb)
+        document = await _with_limb(desk, limb) if request.on else desk.document
+        desk.step(operations.lock(document, limb, request.on), "lock" if request.on else "unlock")
+
+
+async def _delete(desk: Desk, page: Page, request: messages.Delete) -> None:
+    async with desk.turn:
+        limb = int(request.limb)
+        found = await _undrawn(desk, limb)
+        desk.step(operations.delete(desk.document, limb) if found is None else operations.clear(desk.document, found), "delete")
+
+
+async def _mirror(desk: Desk, page: Page, request: messages.Mirror) -> None:
+    async with desk.turn:
+        desk.step(operations.mirror(desk.document), "mirror")
+
+
+async def _settle(desk: Desk, page: Page, request: messages.Settle) -> None:
+    async with desk.turn:
+        desk.step(operations.settle_anew(desk.document), "settle")
+
+
+async def _with_limb(desk: Desk, limb: int) -> Document:
+    """The document, in which that limb is drawn, or adopted now. Raises SketchTreeError."""
+    found = await _undrawn(desk, limb)
+    return desk.document if found is None else operations.adopt(desk.document, found)
+
+
+async def _undrawn(desk: Desk, limb: int) -> Adopted | None:
+    """An undrawn limb as the tree has it; None: it is drawn or adopted. One that was drawn just now may have to settle first. Raises SketchTreeError."""
+
+    def is_drawn(document: Document) -> bool:
+        return limb in document.settled.limbs
+
+    if is_drawn(desk.document):
+        return None
+    try:
+        found = await desk.engine.find(desk.document, limb)
+    except SketchTreeError:
+        if not await desk.settles(is_drawn, _SETTLES):
+            raise
+        return None
+    return None if is_drawn(desk.document) else found
+
+
+async def _readings(desk: Desk, page: Page, request: messages.Readings) -> None:
+    _aside(desk, page, lambda: _look_for_readings(desk), only="readings")
+
+
+async def _look_for_readings(desk: Desk) -> None:
+    revision, document = desk.revision, desk.document
+    event, settled = await desk.engine.alternatives(revision, document)
+    desk.other_readings = (event.revision, document, settled)
+    desk.tell(event)
+
+
+async def _pick(desk: Desk, page: Page, request: messages.Pick) -> None:
+    async with desk.turn:
+        if desk.other_readings is None or desk.other_readings[0] != request.revision:
+            raise OptionError("Those readings are not the newest.", remedy="Look at the readings again, then pick.")
+        _, document, settled = desk.other_readings
+        if any(getattr(document, name) is not getattr(desk.document, name) for name in ("strokes", "edits", "reading")):
+            raise OptionError("The drawing is another since those readings were made.", remedy="Look at the readings again, then pick.")
+        if request.reading >= len(settled):
+            raise OptionError(f"There are {len(settled)} readings.", remedy="Pick one of them.")
+        desk.step(operations.pick(desk.document, settled[request.reading]), "reading")
+
+
+async def _undo(desk: Desk, page: Page, request: messages.Undo) -> None:
+    async with desk.turn:
+        desk.walk(on=False)
+
+
+async def _redo(desk: Desk, page: Page, request: messages.Redo) -> None:
+    async with desk.turn:
+        desk.walk(on=True)
+
+
+async def _cancel(desk: Desk, page: Page, request: messages.Cancel) -> None:
+    desk.engine.cancel()
+    for task in desk.tasks:
+        if task.get_name() == "readings":
+            task.cancel()
+
+
+async def _new(desk: Desk, page: Page, request: messages.New) -> None:
+    async with desk.turn:
+        desk.step(Document(), "new")
+
+
+async def _open(desk: Desk, page: Page, request: messages.Open) -> None:
+    async with desk.turn:
+        await filing.open_named(desk, request.name, example=request.example)
+
+
+async def _save(desk: Desk, page: Page, request: messages.Save) -> None:
+    async with desk.turn:
+        await filing.save(desk, request.name, over=request.over)
+
+
+async def _set_underlay(desk: Desk, page: Page, request: messages.SetUnderlay) -> None:
+    async with desk.turn:
+        document, said = desk.document, request.underlay
+        if said is None:
+            desk.step(document.replace(underlay=None), "picture")
+            return
+        picture = desk.pictures.get(said.digest)
+        if picture is None:
+            raise OptionError("That picture is not here any more.", remedy="Add it again.")
+        desk.step(document.replace(underlay=wire.underlay_in(said, picture)), "picture", alike="underlay")
+
+
+def _aside(desk: Desk, page: Page, work: Callable[[], Awaitable[None]], only: str | None = None) -> None:
+    """Do it beside the other requests; of the same `only`, the newest wins."""
+    for task in desk.tasks if only is not None else ():
+        if task.get_name() == only:
+            task.cancel()
+
+    async def run() -> None:
+        try:
+            await work()
+        except SketchTreeError as error:
+            page.outbox.put(trouble_of(error))
+
+    task = asyncio.get_running_loop().create_task(run(), name=only)
+    desk.tasks.add(task)
+    task.add_done_callback(desk.tasks.discard)
+
+
+_DOING: dict[type, Callable[[Desk, Page, Any], Awaitable[None]]] = {
+    messages.Hello: _hello, messages.Strokes: _strokes, messages.Sketching: _sketching, messages.Choose: _choose, messages.Glance: _glance,
+    messages.Hold: _hold, messages.Flip: _flip, messages.Mirror: _mirror, messages.Lock: _lock, messages.Delete: _delete, messages.Settle: _settle,
+    messages.Readings: _readings, messages.Pick: _pick, messages.Undo: _undo, messages.Redo: _redo, messages.Cancel: _cancel, messages.New: _new,
+    messages.Open: _open, messages.Save: _save, messages.SetUnderlay: _set_underlay,
+}  # fmt: skip

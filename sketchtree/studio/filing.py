@@ -1,0 +1,116 @@
+"""Where do drawings come from and go to? The folder's files, examples, what is uploaded; and the project file."""
+
+import asyncio
+import os
+from pathlib import Path
+
+import msgspec
+
+from sketchtree.editing.document import Document
+from sketchtree.errors import ExportError, SketchError
+from sketchtree.studio import examples, messages
+from sketchtree.studio.desk import Desk, Page
+from sketchtree.studio.folder import PROJECT, is_name, project_name
+from sketchtree.studio.ids import fitting
+from sketchtree.studio.recovery import StudioError, journal_of
+from sketchtree.studio.underlays import placed
+
+
+async def welcome(desk: Desk, page: Page) -> None:
+    """Tell a page what there is to choose from."""
+    catalogue = await desk.engine.catalogue()
+    shown = catalogue.examples or [messages.Choice(name=name, title=examples.title(name), picture=f"/picture/example/{name}.png") for name in examples.names()]
+    folder = desk.files.folder
+    page.outbox.put(
+        msgspec.structs.replace(
+            catalogue, version=messages.VERSION, examples=shown, recovered=desk.recovered,
+            folder="" if folder is None else folder.name, files=[] if folder is None else await asyncio.to_thread(folder.files),
+        )
+    )  # fmt: skip
+
+
+async def open_named(desk: Desk, name: str, *, example: bool) -> None:
+    """A file of the folder, or an example, is opened as a step. Raises SketchTreeError."""
+    if example:
+        await open_bytes(desk, examples.data(name), name)
+        return
+    folder = desk.files.folder
+    if folder is None:
+        raise SketchError("There is no folder to open from.", remedy="Upload the file instead.")
+    signature = folder.signature(name)
+    data = await asyncio.to_thread(folder.read, name)
+    desk.files.signatures[name] = signature
+    await open_bytes(desk, data, name, saved_as=name if name.lower().endswith(PROJECT) else None)
+
+
+async def open_bytes(desk: Desk, data: bytes, name: str, *, saved_as: str | None = None) -> None:
+    """A drawing or a project takes the place of what is there, as a step. `desk.turn` is held. Raises SketchTreeError."""
+    document = await read(desk, data, name)
+    if desk.step(document, "open") and saved_as is not None:
+        desk.files.saved[desk.history.state] = saved_as
+        desk.tell(desk.state_only())
+
+
+async def read(desk: Desk, data: bytes, name: str) -> Document:
+    """The document of a file, called as the file is. Raises SketchTreeError."""
+    if not is_name(name):
+        raise SketchError("That is no name of a drawing.", remedy="Rename the file, without a path, a colon, or a dot at its start.")
+    if len(data) > messages.MAX_UPLOAD:
+        raise SketchError(f"{name} has {len(data) / 1e6:.0f} MB; {messages.MAX_UPLOAD / 1e6:.0f} MB is the most.", remedy="Choose a smaller file.")
+    document = await desk.engine.read(data, name)
+    return fitting(document).replace(name=Path(name).stem)
+
+
+async def trace(desk: Desk, picture: bytes, name: str) -> None:
+    """A picture to trace over lies under the drawing, as a step. Raises SketchTreeError."""
+    underlay = await asyncio.to_thread(placed, picture, name, desk.document)
+    async with desk.turn:
+        desk.step(desk.document.replace(underlay=underlay), "picture")
+
+
+async def save(desk: Desk, name: str, *, over: bool) -> None:
+    """The project, as a file of the folder; afterwards its journal is empty. `desk.turn` is held. Raises SketchTreeError."""
+    folder = desk.files.folder
+    if folder is None:
+        raise ExportError("There is no folder to save in.", remedy="Download the project instead.")
+    file = project_name(name)
+    found, known = await asyncio.to_thread(folder.signature, file), desk.files.signatures.get(file)
+    stem = file[: -len(PROJECT)]
+    if found is not None and not over and (found != known or stem != desk.document.name):
+        what = "has been changed by another program" if stem == desk.document.name and known is not None else "is there already"
+        raise ExportError(f"{file} {what}.", remedy="Choose another name, or save over it.")
+    document = desk.document.replace(name=stem)
+    journal = await _journal_for(desk, folder.path_of(file))
+    try:
+        data = await desk.engine.project(document)
+        desk.files.signatures[file] = await asyncio.to_thread(folder.write, file, data)
+    except BaseException:
+        if journal is not desk.scribe.journal:
+            journal.close()
+        raise
+    desk.is_in_file(stem, file)
+    await _turn_to(desk, journal)
+    desk.tell(messages.Saved(name=stem, files=await asyncio.to_thread(folder.files)))
+
+
+async def _journal_for(desk: Desk, path: Path):
+    """The journal that the project will have. Raises StudioError where another studio has that project."""
+    present = desk.scribe.journal
+    if present is None or present.project is not None and os.path.abspath(present.project) == os.path.abspath(path):
+        return present
+    try:
+        return await asyncio.to_thread(journal_of, path)
+    except StudioError as error:
+        raise StudioError(error.message, remedy="Save under another name.") from error
+
+
+async def _turn_to(desk: Desk, journal) -> None:
+    """All is in the file: the journals begin anew."""
+    before = desk.scribe.journal
+    if journal is None:
+        return
+    await desk.scribe.turn_to(journal)
+    await asyncio.to_thread(journal.clear if journal is before else journal.set_aside)
+    if before is not journal:
+        await asyncio.to_thread(before.clear)
+        before.close()

@@ -1,0 +1,169 @@
+"""What does the journal say of a step? One JSON object a line; played from the first, they give the drawing with all its steps.
+
+    begin     the drawing that the steps start from         picture   the bytes of a picture to trace over, once
+    step      what a step changed, and what undo calls it   keep      where the depths have settled since
+    back, on  undo, redo
+"""
+
+from collections.abc import Mapping
+from dataclasses import replace
+from typing import Any
+
+import msgspec
+import numpy as np
+from msgspec import UNSET, UnsetType
+
+from sketchtree.editing.document import Document, Underlay
+from sketchtree.editing.edits import Edits
+from sketchtree.editing.settled import Depths, Settled
+from sketchtree.options import ReadingOptions, TreeOptions
+from sketchtree.sketch.strokes import Stroke
+from sketchtree.studio import wire
+from sketchtree.studio.change import Change, apply, change
+
+VERSION = 1
+_PLAIN = ("edits", "reading", "tree", "seed", "name", "units", "page")  # fields that are written as they are
+
+
+class _Line(msgspec.Struct, forbid_unknown_fields=True, frozen=True, kw_only=True, omit_defaults=True):
+    """Fields by name; any other is refused."""
+
+
+class _Placed(_Line):
+    digest: str
+    x: float
+    y: float
+    width: float
+    height: float
+    opacity: float
+
+
+class _Resettled(_Line):
+    rest: Settled  # without its limbs
+    put: dict[int, Depths] = {}
+    gone: list[int] = []
+
+
+class Different(_Line):
+    """A `Change` that can be written down."""
+
+    put: list[Stroke] = []
+    gone: list[str] = []
+    order: list[str] | None = None
+    edits: Edits | UnsetType = UNSET
+    settled: _Resettled | UnsetType = UNSET
+    reading: ReadingOptions | UnsetType = UNSET
+    tree: TreeOptions | UnsetType = UNSET
+    seed: int | UnsetType = UNSET
+    underlay: _Placed | None | UnsetType = UNSET
+    name: str | UnsetType = UNSET
+    units: str | UnsetType = UNSET
+    page: tuple[float, float, float, float] | None | UnsetType = UNSET
+
+
+class Begin(_Line, tag="begin"):
+    """The first line."""
+
+    version: int
+    document: Different
+    saved: bool  # as in its file
+    signature: tuple[int, int] | None  # of the file as it was then: when it was written (ns), bytes; None: there was none
+
+
+class Picture(_Line, tag="picture"):
+    """A picture to trace over, before the first line that names it."""
+
+    digest: str
+    data: bytes
+
+
+class Step(_Line, tag="step"):
+    """A step was done."""
+
+    label: str
+    different: Different
+    merges: bool = False  # with that before
+
+
+class Keep(_Line, tag="keep"):
+    """The depths have settled; no step."""
+
+    different: Different
+
+
+class Back(_Line, tag="back"):
+    """Undo."""
+
+
+class On(_Line, tag="on"):
+    """Redo."""
+
+
+Line = Begin | Picture | Step | Keep | Back | On
+
+
+def different(old: Document, new: Document) -> Different:
+    """What makes `new` of `old`, to be written down."""
+    return told(old, change(old, new), new)
+
+
+def told(old: Document, what: Change, new: Document) -> Different:
+    """A change from `old` to `new`, to be written down."""
+    said: dict[str, Any] = {name: what.others[name] for name in _PLAIN if name in what.others}
+    if "settled" in what.others:
+        said["settled"] = _resettled(old.settled, new.settled)
+    if "underlay" in what.others:
+        said["underlay"] = _placed(new.underlay)
+    return Different(put=list(what.put.values()), gone=list(what.gone), order=None if what.order is None else list(what.order), **said)
+
+
+def differing(document: Document, said: Different, pictures: Mapping[str, bytes]) -> Document:
+    """The document after what was written down. Raises KeyError where a picture or a stroke is missing."""
+    others = {name: getattr(said, name) for name in _PLAIN if getattr(said, name) is not UNSET}
+    if said.settled is not UNSET:
+        gone = set(said.settled.gone)
+        limbs = {limb: depths for limb, depths in document.settled.limbs.items() if limb not in gone} | said.settled.put
+        others["settled"] = replace(said.settled.rest, limbs=limbs)
+    if said.underlay is not UNSET:
+        place = said.underlay
+        others["underlay"] = place and Underlay(pictures[place.digest], place.x, place.y, place.width, place.height, place.opacity)
+    order = None if said.order is None else tuple(said.order)
+    return apply(document, Change({stroke.id: stroke for stroke in said.put}, tuple(said.gone), order, others))
+
+
+def encode(line: Line) -> bytes:
+    """One line, with its end."""
+    return _ENCODER.encode(line) + b"\n"
+
+
+def decode(text: bytes) -> Line:
+    """Raises msgspec.MsgspecError, or SketchTreeError where a stroke or an option is none."""
+    return _DECODER.decode(text)
+
+
+def _resettled(old: Settled, new: Settled) -> _Resettled:
+    put = {limb: depths for limb, depths in new.limbs.items() if old.limbs.get(limb) is not depths}
+    return _Resettled(rest=replace(new, limbs={}), put=put, gone=[limb for limb in old.limbs if limb not in new.limbs])
+
+
+def _placed(underlay: Underlay | None) -> _Placed | None:
+    if underlay is None:
+        return None
+    place = (underlay.x, underlay.y, underlay.width, underlay.height, underlay.opacity)
+    return _Placed(digest=wire.digest(underlay.picture), **dict(zip(("x", "y", "width", "height", "opacity"), map(float, place))))
+
+
+def _plain(value: Any) -> Any:
+    if isinstance(value, (np.ndarray, np.generic)):
+        return value.tolist()
+    raise TypeError(f"the journal has no word for {type(value).__name__}")
+
+
+def _array(kind: type, value: Any) -> Any:
+    if isinstance(value, list):
+        return np.array(value, np.float64)  # what is unknown, NaN, is written as null, and comes back
+    raise TypeError(f"the journal has no {kind}")
+
+
+_ENCODER = msgspec.json.Encoder(enc_hook=_plain)
+_DECODER = msgspec.json.Decoder(Line, dec_hook=_array)

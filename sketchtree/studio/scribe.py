@@ -1,0 +1,66 @@
+"""How is a step in the journal before it is answered, and nobody waits? Lines that come while others are being written go to the disk with one flush."""
+
+import asyncio
+from collections.abc import Callable
+
+from sketchtree.studio.journal_lines import Line
+from sketchtree.studio.recovery import Journal
+
+FULL = 256  # steps that wait for the disk before those who make more are held up
+
+
+class Scribe:
+    """Writes on another thread; tells on the event loop, in the order of the steps."""
+
+    def __init__(self, journal: Journal | None, on_failure: Callable[[OSError], None]):
+        self._journal = journal
+        self._on_failure = on_failure
+        self._waiting: list[tuple[tuple[Line, ...], Callable[[], None]]] = []
+        self._task: asyncio.Task | None = None
+        self._room = asyncio.Event()
+        self._room.set()
+        self._failed = False
+
+    @property
+    def journal(self) -> Journal | None:
+        """Where it writes."""
+        return self._journal
+
+    def write(self, lines: tuple[Line, ...], then: Callable[[], None]) -> None:
+        """`then` is called when the lines are on the disk, or could not be written."""
+        if self._journal is None:
+            then()
+            return
+        self._waiting.append((lines, then))
+        if len(self._waiting) >= FULL:
+            self._room.clear()
+        if self._task is None or self._task.done():
+            self._task = asyncio.get_running_loop().create_task(self._work())
+
+    async def room(self) -> None:
+        """Wait until the disk keeps up."""
+        await self._room.wait()
+
+    async def rest(self) -> None:
+        """Wait until all is written."""
+        while self._task is not None and not self._task.done():
+            await asyncio.shield(self._task)
+
+    async def turn_to(self, journal: Journal | None) -> None:
+        """Write elsewhere from now on."""
+        await self.rest()
+        self._journal = journal
+
+    async def _work(self) -> None:
+        while self._waiting:
+            batch, self._waiting = self._waiting, []
+            self._room.set()
+            try:
+                await asyncio.to_thread(self._journal.write, *(line for lines, _ in batch for line in lines))
+                self._failed = False
+            except OSError as error:
+                if not self._failed:
+                    self._on_failure(error)
+                self._failed = True
+            for _, then in batch:
+                then()

@@ -1,0 +1,208 @@
+"""What does the browser ask for, and what does it get?
+
+    /  /assets/…                          the page, as it was built
+    /ws                                   messages (`messages`)
+    /texture/KEY/MAP.png                  what the tree wears
+    /picture/WHAT/NAME.png                thumbnails
+    /underlay/DIGEST                      the picture to trace over
+    POST /upload?name=&as=                a drawing or project to open; a picture to trace over, or to read strokes from
+    POST /export                          the tree, as files
+    /download  /command                   the project; the command line that makes the same tree
+"""
+
+import asyncio
+import re
+from pathlib import Path
+
+import msgspec
+from starlette.applications import Starlette
+from starlette.exceptions import HTTPException
+from starlette.requests import Request
+from starlette.responses import FileResponse, PlainTextResponse, Response
+from starlette.routing import Route, WebSocketRoute
+from starlette.types import ASGIApp
+from starlette.websockets import WebSocket, WebSocketDisconnect
+
+from sketchtree.errors import SketchTreeError
+from sketchtree.studio import exports, filing, messages
+from sketchtree.studio.folder import PROJECT, is_name
+from sketchtree.studio.security import Guard, Guarded
+from sketchtree.studio.session import Session
+from sketchtree.studio.underlays import kind_of
+
+_REQUEST = msgspec.json.Decoder(messages.Request)
+_EXPORT = msgspec.json.Decoder(exports.Export)
+_SMALL = 10_000  # bytes of a request that says what to export
+_KEY = re.compile(r"[A-Za-z0-9_.:-]{1,120}")
+_KINDS = {
+    ".html": "text/html; charset=utf-8", ".js": "text/javascript; charset=utf-8", ".css": "text/css; charset=utf-8", ".svg": "image/svg+xml",
+    ".png": "image/png", ".woff2": "font/woff2", ".json": "application/json", ".wasm": "application/wasm", ".map": "application/json",
+}  # fmt: skip
+
+
+class Studio:
+    """The routes of one session."""
+
+    def __init__(self, session: Session, page: Path):
+        self._session = session
+        self._pages = {path.relative_to(page).as_posix(): path for path in sorted(page.rglob("*")) if path.is_file() and path.suffix in _KINDS}
+        self._exporting = asyncio.Lock()  # one after the other
+
+    def app(self, guard: Guard) -> ASGIApp:
+        """The application, which lets in whom the guard does."""
+        routes = [
+            Route("/", self._index),
+            Route("/texture/{key}/{name}.png", self._texture),
+            Route("/picture/{what}/{name}.png", self._picture),
+            Route("/underlay/{digest}", self._underlay),
+            Route("/upload", self._upload, methods=["POST"]),
+            Route("/export", self._export, methods=["POST"]),
+            Route("/download", self._download),
+            Route("/command", self._command),
+            WebSocketRoute("/ws", self._socket),
+            Route("/{path:path}", self._file),
+        ]
+        handlers = {HTTPException: _not_so, SketchTreeError: _cannot}
+        return Guarded(Starlette(routes=routes, exception_handlers=handlers), guard)
+
+    # The page
+
+    async def _index(self, request: Request) -> Response:
+        return self._built("index.html")
+
+    async def _file(self, request: Request) -> Response:
+        return self._built(request.path_params["path"])
+
+    def _built(self, name: str) -> Response:
+        """A file of the built page: one of those that were there at the start, and no other."""
+        path = self._pages.get(name)
+        if path is None:
+            raise HTTPException(404)
+        return FileResponse(path, media_type=_KINDS[path.suffix])
+
+    # Messages
+
+    async def _socket(self, socket: WebSocket) -> None:
+        await socket.accept()
+        page = self._session.join(lambda said: socket.send_bytes(said) if isinstance(said, bytes) else socket.send_text(said))
+        try:
+            while True:
+                received = await socket.receive()
+                if received["type"] == "websocket.disconnect":
+                    return
+                await self._take(page, received.get("text") or received.get("bytes") or b"")
+        except WebSocketDisconnect:
+            return
+        finally:
+            self._session.leave(page)
+
+    async def _take(self, page, said: str | bytes) -> None:
+        try:
+            request = _REQUEST.decode(said)
+        except (msgspec.MsgspecError, UnicodeError, RecursionError) as error:
+            what = str(error)[:300]
+            page.outbox.put(messages.Trouble(message=f"A message of the page can't be read: {what}.", remedy="Load the page again.", about="message"))
+            return
+        await self._session.take(page, request)
+
+    # Pictures
+
+    async def _texture(self, request: Request) -> Response:
+        return await self._png(self._session.desk.engine.texture, request.path_params["key"], request.path_params["name"])
+
+    async def _picture(self, request: Request) -> Response:
+        return await self._png(self._session.desk.engine.picture, request.path_params["what"], request.path_params["name"])
+
+    async def _png(self, source, first: str, second: str) -> Response:
+        if not (_KEY.fullmatch(first) and (_KEY.fullmatch(second) or is_name(second))):
+            raise HTTPException(404)
+        data = await source(first, second)
+        if data is None:
+            raise HTTPException(404)
+        return Response(data, media_type="image/png")
+
+    async def _underlay(self, request: Request) -> Response:
+        picture = self._session.desk.pictures.get(request.path_params["digest"])
+        kind = None if picture is None else kind_of(picture)
+        if kind is None:
+            raise HTTPException(404)
+        return Response(picture, media_type=kind)
+
+    # Files
+
+    async def _upload(self, request: Request) -> Response:
+        name, use = request.query_params.get("name", ""), request.query_params.get("as", "drawing")
+        if use not in ("drawing", "underlay"):
+            raise HTTPException(400)
+        data = await _body(request, messages.MAX_UPLOAD)
+        desk = self._session.desk
+        await desk.ready.wait()
+        if use == "underlay":
+            await filing.trace(desk, data, name if is_name(name) else "This file")
+        else:
+            async with desk.turn:
+                await filing.open_bytes(desk, data, name)
+        return _json({"revision": desk.revision})
+
+    async def _export(self, request: Request) -> Response:
+        try:
+            wanted = _EXPORT.decode(await _body(request, _SMALL))
+        except (msgspec.MsgspecError, UnicodeError, RecursionError) as error:
+            return _json({"message": f"What to export can't be read: {str(error)[:300]}.", "remedy": "Load the page again."}, 400)
+        desk = self._session.desk
+        await desk.ready.wait()
+        document = desk.document
+        async with self._exporting:
+            files = await desk.engine.export(document, document.name + wanted.format, wanted.options)
+        if len(files) == 1:
+            ((name, data),) = files.items()
+            return _attachment(name, data)
+        return _attachment(document.name + ".zip", await asyncio.to_thread(exports.zipped, files))
+
+    async def _download(self, request: Request) -> Response:
+        await self._session.desk.ready.wait()
+        document = self._session.document
+        return _attachment(document.name + PROJECT, await self._session.desk.engine.project(document))
+
+    async def _command(self, request: Request) -> Response:
+        await self._session.desk.ready.wait()
+        try:
+            wanted = msgspec.convert({"format": ".glb"} | dict(request.query_params), exports.Export, strict=False)
+        except msgspec.ValidationError as error:
+            return _json({"message": f"What to export can't be read: {str(error)[:300]}.", "remedy": "Load the page again."}, 400)
+        return PlainTextResponse(exports.command_line(self._session.document, wanted))
+
+
+async def _body(request: Request, most: int) -> bytes:
+    """The body, which is not read on where it is too long."""
+    length = request.headers.get("content-length", "0")
+    if not length.isdecimal() or int(length) > most:
+        raise HTTPException(413)
+    whole = bytearray()
+    async for part in request.stream():
+        whole += part
+        if len(whole) > most:
+            raise HTTPException(413)
+    return bytes(whole)
+
+
+def _attachment(name: str, data: bytes) -> Response:
+    return Response(data, media_type="application/octet-stream", headers={"Content-Disposition": exports.disposition(name)})
+
+
+def _json(what: dict, status: int = 200) -> Response:
+    return Response(msgspec.json.encode(what), status, media_type="application/json")
+
+
+_SAID = {400: "That was not asked rightly.", 404: "There is nothing here.", 405: "That can't be done here.", 413: "That is too large."}
+
+
+async def _not_so(request: Request, error: HTTPException) -> Response:
+    """Nothing of what was asked is said again."""
+    if error.status_code == 413:
+        return _json({"message": f"The file is too large: {messages.MAX_UPLOAD / 1e6:.0f} MB is the most.", "remedy": "Choose a smaller one."}, 413)
+    return PlainTextResponse(_SAID.get(error.status_code, "That does not work.") + "\n", error.status_code, headers=error.headers)
+
+
+async def _cannot(request: Request, error: SketchTreeError) -> Response:
+    return _json({"message": error.message, "remedy": error.remedy}, 422)

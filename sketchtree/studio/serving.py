@@ -1,0 +1,120 @@
+"""How does the studio start and end? A socket of this machine alone, the engine, the first drawing, then the line that says where it is."""
+
+import asyncio
+import errno
+import os
+import socket
+from collections.abc import Callable
+from dataclasses import dataclass
+from pathlib import Path
+
+import uvicorn
+
+from sketchtree.editing.document import Document
+from sketchtree.errors import OptionError, SketchTreeError
+from sketchtree.studio import examples, filing
+from sketchtree.studio.desk import trouble_of
+from sketchtree.studio.engine import Engine
+from sketchtree.studio.folder import PROJECT, Folder
+from sketchtree.studio.messages import MAX_MESSAGE
+from sketchtree.studio.recovery import Journal, journal_of
+from sketchtree.studio.security import ADDRESS, Guard
+from sketchtree.studio.server import Studio
+from sketchtree.studio.session import Session
+
+_PATIENCE = 2  # seconds that open connections have to end
+
+
+@dataclass(frozen=True)
+class Start:
+    """What to begin with."""
+
+    file: Path | None  # a drawing or a project; a project that is not there yet is a new one
+    folder: Path  # of the files that the page may name
+    seed: int = 0
+    port: int = 0  # 0: any that is free
+
+
+def bound(port: int) -> socket.socket:
+    """A socket that listens to this machine only. Raises OptionError where the port is taken."""
+    made = socket.socket(socket.AF_INET, socket.SOCK_STREAM)
+    if os.name == "posix":  # elsewhere this would share the port with another program
+        made.setsockopt(socket.SOL_SOCKET, socket.SO_REUSEADDR, 1)
+    try:
+        made.bind((ADDRESS, port))
+    except OSError as error:
+        made.close()
+        if error.errno == errno.EADDRINUSE:
+            raise OptionError(f"Port {port} is taken.", remedy="Give another one with `--port`, or leave the option out.") from None
+        raise OptionError(f"Port {port} can't be had: {(error.strerror or 'it fails').lower()}.", remedy="Leave `--port` out.") from None
+    return made
+
+
+async def serve(engine: Engine, start: Start, page: Path, told: Callable[[str], None]) -> None:
+    """Run until a signal stops it; `told` gets the address when it accepts connections. Raises SketchTreeError where it can't start."""
+    with bound(start.port) as listening:
+        guard = Guard(listening.getsockname()[1])
+        session = Session(engine, folder=Folder(start.folder))
+        journal = journal_of(start.file)
+        try:
+            await engine.start()
+            await _begin(session, journal, start)
+            await _run(Studio(session, page).app(guard), listening, lambda: told(guard.url))
+        finally:
+            await session.end()
+            journal.close()
+            await engine.stop()
+
+
+async def _begin(session: Session, journal: Journal, start: Start) -> None:
+    """The first drawing: what an earlier session left, else the file, else an example. Raises SketchTreeError for a file that can't be read."""
+    recovered = await asyncio.to_thread(journal.play)
+    saved_as = start.file.name if start.file is not None and start.file.suffix.lower() == PROJECT and start.file.exists() else None
+    if recovered is not None:
+        session.begin(journal=journal, recovered=recovered, saved_as=saved_as)
+        return
+    if start.file is None:
+        _aside(session, _example(session, journal, start.seed))
+        return
+    if not start.file.exists():
+        session.begin(Document(name=start.file.stem, seed=start.seed), journal=journal)
+        return
+    folder = session.desk.files.folder
+    session.desk.files.signatures[start.file.name] = folder.signature(start.file.name)
+    document = await filing.read(session.desk, await asyncio.to_thread(folder.read, start.file.name), start.file.name)
+    session.begin(_seeded(document, start.seed), journal=journal, saved_as=saved_as)
+
+
+async def _example(session: Session, journal: Journal, seed: int) -> None:
+    """An example to look at; without it, an empty page."""
+    try:
+        document = await filing.read(session.desk, examples.data(examples.FIRST), examples.FIRST)
+    except SketchTreeError as error:
+        session.desk.notes.append(trouble_of(error, "file"))
+        document = Document()
+    session.begin(_seeded(document, seed), journal=journal)
+
+
+def _seeded(document: Document, seed: int) -> Document:
+    return document.replace(seed=seed) if seed else document
+
+
+def _aside(session: Session, work) -> None:
+    task = asyncio.get_running_loop().create_task(work)
+    session.desk.tasks.add(task)
+    task.add_done_callback(session.desk.tasks.discard)
+
+
+async def _run(app, listening: socket.socket, told: Callable[[], None]) -> None:
+    """Answer requests until a signal comes."""
+    config = uvicorn.Config(
+        app, loop="asyncio", lifespan="off", log_config=None, access_log=False, server_header=False, date_header=False, proxy_headers=False,
+        ws="websockets-sansio", ws_max_size=MAX_MESSAGE, ws_per_message_deflate=False, ws_ping_interval=None, timeout_graceful_shutdown=_PATIENCE,
+    )  # fmt: skip
+    server = uvicorn.Server(config)
+    serving = asyncio.get_running_loop().create_task(server.serve(sockets=[listening]))
+    while not server.started and not serving.done():
+        await asyncio.sleep(0.005)
+    if server.started:
+        told()
+    await serving
