@@ -21,6 +21,7 @@ _EXTRAS = (
     ("usd", "pxr", "usd-core", "writing .usd .usda .usdc .usdz"),
     ("solid", "manifold3d", "manifold3d", "--solid"),
     ("cluster", "distributed", "distributed", "--scheduler"),
+    ("studio", "starlette", "starlette", "sketchtree studio"),
 )  # extra, module, distribution, for what
 
 

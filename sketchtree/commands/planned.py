@@ -9,7 +9,6 @@ COMMANDS = {
     "grow": "A trunk from scribbles, and a tree that grows",
     "views": "Many photos, or a point cloud",
     "cloud": "Many photos, or a point cloud",
-    "studio": "The studio",
 }
 """Command → the section of docs/roadmap.md that describes it."""
 
