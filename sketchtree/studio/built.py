@@ -8,13 +8,23 @@ DIST = Path(__file__).parent / "page" / "dist"
 
 
 def page_folder(dist: Path = DIST) -> Path:
-    """The folder with `index.html`, its assets and the notebook's `widget.js`. Raises SketchTreeError, with the remedy, where the page was not built."""
-    if not (dist / "index.html").is_file():
+    """The folder with `index.html` and its assets. Raises SketchTreeError, with the remedy, where the page was not built."""
+    _check(dist, "index.html")
+    return dist
+
+
+def widget_file(dist: Path = DIST) -> Path:
+    """The notebook's page, one file. Raises SketchTreeError likewise."""
+    _check(dist, "widget.js")
+    return dist / "widget.js"
+
+
+def _check(dist: Path, needed: str) -> None:
+    if not (dist / needed).is_file():
         raise SketchTreeError(
             "The studio's page is not in this installation: it is made when the package is built, and Node.js or the network was missing then.",
             remedy=_remedy(dist.parent),
         )
-    return dist
 
 
 def _remedy(page: Path) -> str:

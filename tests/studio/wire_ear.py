@@ -1,0 +1,116 @@
+"""A page without a screen: it says what it is told to, and keeps what the program says."""
+
+import json
+import struct
+import threading
+import time
+from collections import Counter
+from collections.abc import Callable
+from urllib.parse import urlsplit
+
+PATIENCE = 30.0
+
+
+class Ear:
+    """Connected as a page is, with the cookie of one."""
+
+    def __init__(self, address: str, cookies: list[dict]):
+        from websockets.sync.client import connect
+
+        place = urlsplit(address).netloc
+        cookie = "; ".join(f"{one['name']}={one['value']}" for one in cookies)
+        self._line = connect(f"ws://{place}/ws", additional_headers={"Cookie": cookie}, origin=f"http://{place}", max_size=None, compression=None)
+        self._changed = threading.Condition()
+        self._strokes: dict[str, dict] = {}
+        self._others: dict = {"options": {}, "edits": [], "underlay": None}
+        self._limbs: list[dict] = []
+        self._counts: Counter = Counter()
+        self._latest: dict[str, dict] = {}
+        self._heard = 0.0
+        threading.Thread(target=self._listen, daemon=True).start()
+        self.ask({"type": "hello", "version": 1})
+        self.wait(lambda: self._counts["changed"] > 0, "the drawing")
+
+    def ask(self, request: dict) -> None:
+        self._line.send(json.dumps(request))
+
+    def throw(self, anything: str | bytes) -> None:
+        """Something that is no request."""
+        self._line.send(anything)
+
+    def close(self) -> None:
+        self._line.close()
+
+    def sync(self) -> None:
+        """Until what was said before was heard: the program works in order."""
+        seen = self._counts["trouble"]
+        self.ask({"type": "open", "name": "no such file.svg"})
+        self.wait(lambda: self._counts["trouble"] > seen, "an answer")
+
+    def wait(self, holds: Callable[[], bool], what: str, patience: float = PATIENCE) -> None:
+        end = time.monotonic() + patience
+        with self._changed:
+            while not holds():
+                if not self._changed.wait(min(0.5, max(0.0, end - time.monotonic()))) and time.monotonic() > end:
+                    raise AssertionError(f"{what} did not come; heard {dict(self._counts)}")
+
+    def count(self, kind: str) -> int:
+        return self._counts[kind]
+
+    @property
+    def quiet(self) -> bool:
+        """The program has nothing to do."""
+        return self._latest.get("working", {}).get("state") == "idle"
+
+    @property
+    def strokes(self) -> list[dict]:
+        return list(self._strokes.values())
+
+    @property
+    def options(self) -> dict:
+        return self._others["options"]
+
+    @property
+    def edits(self) -> dict[str, dict]:
+        """What was done by hand, by limb id."""
+        return {one["limb"]: one for one in self._others["edits"]}
+
+    @property
+    def state(self) -> dict:
+        """All that a project keeps."""
+        return {"strokes": self.strokes, **self._others}
+
+    def limb_of(self, stroke: str) -> dict:
+        """The limb that this stroke drew."""
+        return next(limb for limb in self._limbs if stroke in limb["strokes"])
+
+    def _listen(self) -> None:
+        from websockets.exceptions import ConnectionClosed
+
+        try:
+            for said in self._line:
+                event = json.loads(said) if isinstance(said, str) else json.loads(said[4 : 4 + struct.unpack_from("<I", said)[0]])
+                with self._changed:
+                    self._take(event)
+                    self._changed.notify_all()
+        except ConnectionClosed:
+            pass
+
+    def _take(self, event: dict) -> None:
+        kind = event["type"]
+        self._counts[kind] += 1
+        self._latest[kind] = event
+        if kind == "tree" and event["limbs"] is not None:
+            self._limbs = event["limbs"]
+        if kind != "changed":
+            return
+        if event["since"] == 0:
+            self._strokes.clear()
+        for name in event["gone"]:
+            self._strokes.pop(name, None)
+        self._strokes.update({stroke["id"]: stroke for stroke in event["put"]})
+        if event["order"] is not None:
+            self._strokes = {name: self._strokes[name] for name in event["order"]}
+        self._others |= {name: event[name] for name in ("options", "edits") if event[name] is not None}
+        if event["underlay_changed"] or event["since"] == 0:
+            self._others["underlay"] = event["underlay"]
