@@ -18,7 +18,7 @@ from sketchtree.editing.document import Document
 from sketchtree.studio import messages
 from sketchtree.studio.desk import Page
 from sketchtree.studio.doing import do
-from sketchtree.studio.engine import Engine
+from sketchtree.studio.engine import Engine, Outcome
 from sketchtree.studio.outbox import Outbox, encode
 from sketchtree.studio.session import Session
 
@@ -27,6 +27,41 @@ _UNDERLAY = re.compile(r"/underlay/(?P<digest>[0-9a-f]{16,64})")
 _PATIENCE = 60.0  # seconds that Python waits for the session
 
 Say = Callable[[dict, list[bytes]], None]
+
+
+class LateEngine:
+    """An engine that begins when a page shows its trees; until then it only keeps the newest drawing."""
+
+    def __init__(self, engine: Engine):
+        self.engine = engine
+        self._awake = False
+        self._newest: tuple[int, Document] | None = None
+
+    def __getattr__(self, name: str) -> Any:
+        return getattr(self.engine, name)
+
+    @property
+    def on_outcome(self) -> Callable[[Outcome], None]:
+        """As `Engine.on_outcome`."""
+        return self.engine.on_outcome
+
+    @on_outcome.setter
+    def on_outcome(self, told: Callable[[Outcome], None]) -> None:
+        self.engine.on_outcome = told
+
+    async def start(self) -> None:
+        """As `Engine.start`; then the tree of the newest drawing is made."""
+        await self.engine.start()
+        self._awake = True
+        if self._newest is not None:
+            self.engine.make(*self._newest)
+
+    def make(self, revision: int, document: Document) -> None:
+        """As `Engine.make`."""
+        if self._awake:
+            self.engine.make(revision, document)
+        else:
+            self._newest = (revision, document)
 
 
 class Cell:
@@ -79,7 +114,7 @@ class Cell:
         return asyncio.run_coroutine_threadsafe(work, self._loop).result(_PATIENCE)
 
     async def _begin(self, make_engine: Callable[[], Engine], document: Document) -> tuple[Session, Page]:
-        session = Session(make_engine())
+        session = Session(LateEngine(make_engine()))
         session.begin(document)
         return session, Page(Outbox(session.desk.whole, session.desk.engine.frame), greeted=True)  # Python's own: it asks, and is told nothing
 
