@@ -57,6 +57,7 @@ describe("a pointer that lingers", () => {
     const pointer = linger<string>(250, (what) => told.push(what), () => told.push("away"));
     pointer.over("oak");
     vi.advanceTimersByTime(250);
+    pointer.pass(); // between the two
     pointer.over("elm");
     vi.advanceTimersByTime(250);
     expect(told).toEqual(["oak", "elm"]);

@@ -2,6 +2,7 @@
 
 export interface Linger<T> {
   over(what: T): void;
+  pass(): void; // not on anything now, but near: what was rested on still counts
   away(): void;
 }
 
@@ -21,6 +22,7 @@ export function linger<T>(delay: number, rest: (what: T) => void, leave: () => v
         rest(what);
       }, delay);
     },
+    pass: stop,
     away() {
       stop();
       if (resting) leave();

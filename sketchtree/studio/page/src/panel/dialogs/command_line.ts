@@ -2,28 +2,38 @@
 
 import { button } from "../../parts/button";
 import { element } from "../../parts/element";
-import { toast } from "../../parts/toast";
 import { ask, Refused } from "../ask";
 import { USUAL, type ExportOptions, type OptionName } from "./export_options";
 
-export function commandLine(options: () => ExportOptions): { root: HTMLElement; reset: () => void } {
-  const line = element("input", { class: "field command", testId: "command-line", title: "Makes this tree again from the saved project, in a terminal", aria: { label: "Command line" } });
+export interface CommandLine {
+  copy: HTMLButtonElement;
+  shown: HTMLElement; // the command, once it was asked for
+  reset: () => void;
+}
+
+export function commandLine(options: () => ExportOptions, failed: (error: Refused) => void): CommandLine {
+  const line = element("textarea", { class: "field command", testId: "command-line", aria: { label: "Command line" } });
   line.readOnly = true;
-  line.hidden = true;
+  line.rows = 3;
   line.addEventListener("focus", () => line.select());
-  const copy = async (): Promise<void> => {
+  const words = element("p", { class: "hint", role: "status" });
+  const shown = element("div", { class: "command-shown" }, element("h3", {}, "In a terminal"), line, words);
+  const fetched = async (): Promise<void> => {
     try {
       line.value = (await (await ask(`command?${query(options())}`)).text()).trim();
-      line.hidden = false;
-      await navigator.clipboard.writeText(line.value);
-      toast("The command line is copied.", { remedy: "Save the project first: the command reads it." });
     } catch (error) {
-      if (error instanceof Refused) toast(error.message, { remedy: error.remedy, kind: "wrong" });
-      else line.focus(); // this browser keeps its clipboard shut: the text is selected, ready for Ctrl+C
+      if (error instanceof Refused) failed(error);
+      return;
     }
+    shown.hidden = false;
+    words.textContent = "Save the project first: the command reads it.";
+    await navigator.clipboard.writeText(line.value).then(
+      () => { words.textContent = "Copied. Save the project first: the command reads it."; },
+      () => line.focus(), // this browser keeps its clipboard shut: the text is selected, ready for Ctrl+C
+    );
   };
-  const made = button({ label: "Copy command line", icon: "copy", testId: "copy-command", hint: "A command that makes this very tree again", onPress: () => { void copy(); } });
-  return { root: element("div", { class: "command-row" }, made, line), reset: () => { line.hidden = true; } };
+  const copy = button({ label: "Copy command line", icon: "copy", testId: "copy-command", hint: "A command that makes this very tree again", onPress: () => { void fetched(); } });
+  return { copy, shown, reset: () => { shown.hidden = true; } };
 }
 
 /** What is not as usual. */

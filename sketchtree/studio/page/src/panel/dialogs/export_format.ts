@@ -13,7 +13,7 @@ export interface FormatLook {
   format: Choice;
   hint: string;
   request: () => ExportOptions & { revision: number };
-  refused: (error: Refused) => void; // what went wrong, for the dialog to tell
+  failed: (error: Refused) => void; // what went wrong, for the dialog to tell
   started: () => void;
 }
 
@@ -52,7 +52,7 @@ async function make(look: FormatLook, signal: AbortSignal, note: HTMLElement): P
       return;
     }
     note.textContent = "Not made";
-    look.refused(error instanceof Refused ? error : new Refused("The file could not be made.", "Try again; if it stays so, start the studio again."));
+    look.failed(error instanceof Refused ? error : new Refused("The file could not be made.", "Try again; if it stays so, start the studio again."));
   } finally {
     clearInterval(clock);
   }

@@ -33,7 +33,8 @@ class Strip {
     this.walk = roving(this.list, () => this.shown());
     this.glance = linger<string>(REST, (template) => this.look(template), () => this.look(null));
     this.list.addEventListener("wheel", (event) => this.wheel(event), { passive: false });
-    for (const leave of ["pointerleave", "focusout"]) this.list.addEventListener(leave, () => { if (this.late && !this.inHand()) this.order(); });
+    this.list.addEventListener("pointerleave", () => this.left());
+    this.list.addEventListener("focusout", (event) => { if (!(event.relatedTarget instanceof Node && this.list.contains(event.relatedTarget))) this.left(); });
   }
 
   /** The cards there are. */
@@ -76,6 +77,12 @@ class Strip {
     else this.order();
   }
 
+  /** Pointer or focus went elsewhere: the tree as it is, and the order that waited. */
+  private left(): void {
+    this.glance.away();
+    if (this.late && !this.inHand()) this.order();
+  }
+
   /** Best first; "auto" before all, "none" after all. */
   private order(): void {
     const { welcome, matches } = this.store.known;
@@ -93,9 +100,8 @@ class Strip {
     const root = made.root;
     root.addEventListener("click", () => this.choose(name));
     root.addEventListener("pointerenter", (event) => { if (event.pointerType !== "touch") this.glance.over(name); });
-    root.addEventListener("pointerleave", () => this.glance.away());
+    root.addEventListener("pointerleave", () => this.glance.pass());
     root.addEventListener("focus", () => { if (root.matches(":focus-visible")) this.glance.over(name); });
-    root.addEventListener("blur", () => this.glance.away());
     this.cards.set(name, made);
   }
 
