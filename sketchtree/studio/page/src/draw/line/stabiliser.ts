@@ -9,7 +9,7 @@ import type { Sample } from "./samples";
 const FREE = 30; // Hz: cut-off of strength 0, nothing is held back
 const HELD = 1.2; // Hz: of strength 1, at rest
 const GROWTH = 0.006; // Hz for each px/s
-const SPEED_MEMORY = 0.5; // share of the last speed that stays
+const SPEED_MEMORY = 0.8; // share of the last speed that stays
 const CATCH_UP = 4; // points that lead the lagging end to the pen
 
 /** `pixel`: CSS pixels a page unit, so that the hand feels the same at any zoom. */
@@ -17,15 +17,16 @@ export function stabilise(raw: readonly Sample[], strength: number, pixel: numbe
   if (raw.length < 3 || strength <= 0) return raw.slice();
   const rest = FREE * (HELD / FREE) ** Math.min(1, strength);
   const steady: Sample[] = [raw[0]!];
-  let speed = 0;
+  let [vx, vy] = [0, 0]; // px/s, of the last moment: a shake to and fro is no speed
   for (let at = 1; at < raw.length; at += 1) {
     const now = raw[at]!;
     const before = raw[at - 1]!;
     const last = steady[at - 1]!;
     const seconds = Math.max(now.time - before.time, 1) / 1000;
-    const fresh = (Math.hypot(now.x - before.x, now.y - before.y) * pixel) / seconds;
-    speed = SPEED_MEMORY * speed + (1 - SPEED_MEMORY) * fresh;
-    const share = 1 - Math.exp(-2 * Math.PI * (rest + GROWTH * speed) * seconds);
+    const fresh = ((1 - SPEED_MEMORY) * pixel) / seconds;
+    vx = SPEED_MEMORY * vx + fresh * (now.x - before.x);
+    vy = SPEED_MEMORY * vy + fresh * (now.y - before.y);
+    const share = 1 - Math.exp(-2 * Math.PI * (rest + GROWTH * Math.hypot(vx, vy)) * seconds);
     steady.push({ x: last.x + share * (now.x - last.x), y: last.y + share * (now.y - last.y), pressure: last.pressure + share * (now.pressure - last.pressure), time: now.time });
   }
   return lifted ? leadOn(steady, raw[raw.length - 1]!) : steady;
