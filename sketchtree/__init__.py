@@ -12,6 +12,7 @@ The public names, in the order of the pipeline; each is imported when it is firs
     write_glb, write_swc, preview        files and pictures
     sketch_to_tree                       all of it in one call → TreeModel
     sketches_to_forest                   several, grown together → Forest
+    draw                                 a page to draw on in a cell of a notebook → DrawingWidget
 """
 
 from importlib import import_module
@@ -53,6 +54,7 @@ _HOMES = {
     "sketchtree.options": ("ReadingOptions", "TreeOptions"),
     "sketchtree.pipeline": ("sketch_to_tree", "draw_out", "complete", "TreeModel"),
     "sketchtree.forest": ("sketches_to_forest", "Forest"),
+    "sketchtree.studio.widget": ("draw", "DrawingWidget"),
     "sketchtree.errors": ("SketchTreeError", "SketchError", "SkeletonError", "TemplateError", "ExportError"),
 }
 _HOME_OF = {name: module for module, names in _HOMES.items() for name in names}

@@ -14,12 +14,17 @@ from collections.abc import Callable, Iterable
 from pathlib import Path
 from typing import Any
 
-import anywidget
-import traitlets
+from sketchtree.errors import OptionError, SketchTreeError
+
+try:
+    import anywidget
+    import msgspec  # noqa: F401
+    import traitlets
+except ImportError as error:
+    raise OptionError(f"Drawing in a notebook needs {error.name}.", remedy="Install it: pip install 'sketchtree[studio]'.") from error
 
 from sketchtree.editing.document import Document
 from sketchtree.editing.project import hand_work
-from sketchtree.errors import SketchTreeError
 from sketchtree.sketch.strokes import Sketch
 from sketchtree.studio import messages
 from sketchtree.studio.built import widget_file

@@ -1,5 +1,7 @@
 """A cell of a notebook: drawn on by page and Python alike, read back as a `Sketch`, made into a tree."""
 
+import importlib
+import sys
 import threading
 import time
 
@@ -143,6 +145,14 @@ def test_without_a_built_page_it_says_what_to_do(monkeypatch, tmp_path):
     monkeypatch.setattr(widget, "widget_file", lambda: built.widget_file(tmp_path / "nothing"))
     with pytest.raises(SketchTreeError, match="The studio's page is not in this installation"):
         widget.draw(engine=FakeEngine)
+
+
+def test_without_the_extra_it_says_what_to_install(monkeypatch):
+    monkeypatch.setitem(sys.modules, "anywidget", None)
+    monkeypatch.delitem(sys.modules, "sketchtree.studio.widget")
+    with pytest.raises(OptionError) as told:
+        importlib.import_module("sketchtree.studio.widget")
+    assert str(told.value) == "Drawing in a notebook needs anywidget. Install it: pip install 'sketchtree[studio]'."
 
 
 @pytest.mark.slow
