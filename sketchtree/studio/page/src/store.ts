@@ -5,7 +5,7 @@
 // `known` mirrors what the program said last; `ui` is this page's own and is never sent.
 
 import type { Alternatives, Changed, Edit, Event, Ghost, Limb, Matches, Options, Read, Request, Stroke, Strokes, Tree, Trouble, Underlay, Welcome, Working } from "./messages";
-import { shown } from "./link/echo";
+import { Echo } from "./link/echo";
 
 export type Tool = "branch" | "crown" | "obstacle" | "erase" | "select" | "pan";
 
@@ -66,7 +66,7 @@ export class Store {
   address: (path: string) => string = (path) => path; // where a picture of the program is ("/texture/…", "/underlay/…"); link/ may know better: a notebook has no server
 
   pending: Strokes[] = []; // sent and not confirmed yet; link/ keeps it
-  private truth = new Map<string, Stroke>(); // as the program has them; `known.strokes` shows those on their way as well
+  private readonly echo = new Echo(); // what the program has, and what is on its way
 
   private readonly listeners = new Map<Topic, Set<Listener>>();
 
@@ -100,10 +100,11 @@ export class Store {
     this.tell("connected");
   }
 
-  /** Strokes are on their way, or were refused: show it. */
-  setPending(pending: Strokes[]): void {
+  /** Strokes are on their way, or were refused: show it. `added`: the only one that is new. */
+  setPending(pending: Strokes[], added?: Strokes): void {
     this.pending = pending;
-    this.known.strokes = shown(this.truth, pending);
+    this.echo.send(pending, added);
+    this.known.strokes = this.echo.shown;
     this.tell("strokes");
   }
 
@@ -142,11 +143,8 @@ export class Store {
     const known = this.known;
     const topics: Topic[] = ["revision", "undo", "redo", "saved"];
     const before = known.strokes;
-    if (event.since === 0) this.truth = new Map();
-    for (const id of event.gone) this.truth.delete(id);
-    for (const stroke of event.put) this.truth.set(stroke.id, stroke);
-    if (event.order) this.truth = new Map(event.order.flatMap((id) => (this.truth.has(id) ? [[id, this.truth.get(id)!] as const] : [])));
-    known.strokes = shown(this.truth, this.pending);
+    this.echo.changed(event, this.pending);
+    known.strokes = this.echo.shown;
     if (known.strokes !== before || event.put.length || event.gone.length) topics.push("strokes");
     if (event.options) { known.options = event.options; topics.push("options"); }
     if (event.edits) { known.edits = event.edits; topics.push("edits"); }

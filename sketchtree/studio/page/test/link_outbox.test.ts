@@ -1,5 +1,4 @@
 import { beforeEach, describe, expect, test } from "vitest";
-import { shown } from "../src/link/echo";
 import { pause } from "../src/link/line";
 import { Outbox } from "../src/link/outbox";
 import type { Changed, Request, SentStroke, Stroke } from "../src/messages";
@@ -122,20 +121,6 @@ test("what an earlier visit left goes before what is new", () => {
   outbox.restore([{ key: 7, request: put(stroke("old")), sent: false }]);
   greet();
   expect(sent.map((request) => (request.type === "strokes" ? request.put![0]!.id : ""))).toEqual(["old", "new"]);
-});
-
-describe("what is shown", () => {
-  test("is the program's drawing and over it what is on its way", () => {
-    const truth = new Map([["a", stroke("a")], ["b", stroke("b")]]);
-    const both = shown(truth, [{ type: "strokes", label: "move", put: [stroke("a", 9)] }, { type: "strokes", label: "erase", gone: ["b"] }]);
-    expect([...both.values()]).toEqual([stroke("a", 9)]);
-    expect(truth.size).toBe(2);
-  });
-
-  test("is the program's drawing itself when nothing is on its way", () => {
-    const truth = new Map([["a", stroke("a")]]);
-    expect(shown(truth, [])).toBe(truth);
-  });
 });
 
 test("pauses between two tries grow, up to a few seconds", () => {

@@ -31,7 +31,7 @@ export function mountLink(store: Store, shelf: Shelf = new Shelf()): void {
   store.send = (request: Request): void => {
     const kept = outbox.add(request);
     if (!kept || kept.request.type !== "strokes") return;
-    store.setPending(outbox.strokes);
+    store.setPending(outbox.strokes, kept.request);
     void shelf.put({ key: kept.key, project: projectOf(store), request: kept.request });
   };
 
