@@ -118,9 +118,10 @@ class Desk:
         """Everything, for a page that knows nothing."""
         return wire.whole(self.document, self.revision, **self._state())
 
-    def state_only(self) -> messages.Changed:
-        """Nothing is different but what undo, redo and the file say."""
-        return messages.Changed(since=self.revision, revision=self.revision, **self._state())
+    def answer(self, page: Page) -> None:
+        """The page is told that nothing is different, after all that is on its way to it."""
+        nothing = messages.Changed(since=self.revision, revision=self.revision, **self._state())
+        self.scribe.write((), lambda: page.outbox.put(nothing))
 
     def _state(self) -> dict:
         return {"undo": self.history.undo_label, "redo": self.history.redo_label, "saved": self.saved}
@@ -161,16 +162,18 @@ class Desk:
 
     # Steps
 
-    def step(self, document: Document, label: str, *, alike: Hashable = None) -> bool:
-        """A step is done; like steps in quick succession are one. False: nothing is different."""
-        return self.change(change(self.document, document), label, alike=alike)
+    def step(self, document: Document, label: str, *, alike: Hashable = None, saved_as: str | None = None) -> bool:
+        """A step is done; like steps in quick succession are one. `saved_as` names the file that holds the document. False: nothing is different."""
+        return self.change(change(self.document, document), label, alike=alike, saved_as=saved_as)
 
-    def change(self, what: Change, label: str, *, alike: Hashable = None) -> bool:
+    def change(self, what: Change, label: str, *, alike: Hashable = None, saved_as: str | None = None) -> bool:
         """The same, where it is known what becomes different."""
         if not what:
             return False
         before, state, begin = self.document, self.history.state, self._begin()
         merges = self.history.step(what, label, now=self._clock(), alike=alike)
+        if saved_as is not None:
+            self.files.saved[self.history.state] = saved_as
         self._went(what, (*begin, *self.ledger.step(before, what, self.document, label, state, merges=merges)))
         return True
 

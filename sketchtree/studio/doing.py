@@ -42,7 +42,7 @@ async def _strokes(desk: Desk, page: Page, request: messages.Strokes) -> None:
         if count > messages.MAX_STROKES:
             raise SketchError(f"The drawing would have {count} strokes; {messages.MAX_STROKES} is the most.", remedy="Erase some first.")
         if not desk.change(Change(put, gone), request.label):
-            page.outbox.put(desk.state_only())  # the page waits for an answer
+            desk.answer(page)  # it waits for one
 
 
 def _stroke(said: messages.Stroke, old: Stroke | None) -> Stroke:

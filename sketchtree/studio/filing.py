@@ -46,9 +46,7 @@ async def open_named(desk: Desk, name: str, *, example: bool) -> None:
 async def open_bytes(desk: Desk, data: bytes, name: str, *, saved_as: str | None = None) -> None:
     """A drawing or a project takes the place of what is there, as a step. `desk.turn` is held. Raises SketchTreeError."""
     document = await read(desk, data, name)
-    if desk.step(document, "open") and saved_as is not None:
-        desk.files.saved[desk.history.state] = saved_as
-        desk.tell(desk.state_only())
+    desk.step(document, "open", saved_as=saved_as)
 
 
 async def read(desk: Desk, data: bytes, name: str) -> Document:

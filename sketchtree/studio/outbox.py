@@ -11,7 +11,7 @@ import msgspec
 
 from sketchtree.studio import messages
 
-MOST = 64  # `Changed` messages that wait, and
+MOST = 4096  # `Changed` messages that wait, and
 MOST_BYTES = 8_000_000  # bytes of them
 _TROUBLES = 16
 

@@ -9,6 +9,7 @@ from dataclasses import dataclass
 from pathlib import Path
 
 import uvicorn
+from starlette.types import ASGIApp
 
 from sketchtree.editing.document import Document
 from sketchtree.errors import OptionError, SketchTreeError
@@ -50,8 +51,8 @@ def bound(port: int) -> socket.socket:
     return made
 
 
-async def serve(engine: Engine, start: Start, page: Path, told: Callable[[str], None]) -> None:
-    """Run until a signal stops it; `told` gets the address when it accepts connections. Raises SketchTreeError where it can't start."""
+async def serve(engine: Engine, start: Start, page: Path, told: Callable[[str], None], stop: asyncio.Event | None = None) -> None:
+    """Run until a signal, or `stop`, ends it; `told` gets the address when it accepts connections. Raises SketchTreeError where it can't start."""
     with bound(start.port) as listening:
         guard = Guard(listening.getsockname()[1])
         session = Session(engine, folder=Folder(start.folder))
@@ -59,7 +60,7 @@ async def serve(engine: Engine, start: Start, page: Path, told: Callable[[str], 
         try:
             await engine.start()
             await _begin(session, journal, start)
-            await _run(Studio(session, page).app(guard), listening, lambda: told(guard.url))
+            await _run(Studio(session, page).app(guard), listening, lambda: told(guard.url), stop or asyncio.Event())
         finally:
             await session.end()
             journal.close()
@@ -105,8 +106,8 @@ def _aside(session: Session, work) -> None:
     task.add_done_callback(session.desk.tasks.discard)
 
 
-async def _run(app, listening: socket.socket, told: Callable[[], None]) -> None:
-    """Answer requests until a signal comes."""
+async def _run(app: ASGIApp, listening: socket.socket, told: Callable[[], None], stop: asyncio.Event) -> None:
+    """Answer requests until a signal comes, or `stop`."""
     config = uvicorn.Config(
         app, loop="asyncio", lifespan="off", log_config=None, access_log=False, server_header=False, date_header=False, proxy_headers=False,
         ws="websockets-sansio", ws_max_size=MAX_MESSAGE, ws_per_message_deflate=False, ws_ping_interval=None, timeout_graceful_shutdown=_PATIENCE,
@@ -117,4 +118,8 @@ async def _run(app, listening: socket.socket, told: Callable[[], None]) -> None:
         await asyncio.sleep(0.005)
     if server.started:
         told()
+    stopping = asyncio.get_running_loop().create_task(stop.wait())
+    await asyncio.wait((serving, stopping), return_when=asyncio.FIRST_COMPLETED)
+    stopping.cancel()
+    server.should_exit = True
     await serving

@@ -63,6 +63,7 @@ class Session:
         except SketchTreeError as error:
             page.outbox.put(trouble_of(error))
         await self.desk.scribe.room()
+        await asyncio.sleep(0)  # what there is to send goes first
 
     def leave(self, page: Page) -> None:
         """It is gone."""

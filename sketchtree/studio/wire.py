@@ -16,6 +16,7 @@ from sketchtree.studio.change import Change
 
 _READING = ("template", "theta", "height", "planar", "crown")
 _TREE = {name: name for name in ("generations", "fill", "density", "light", "leaf", "bark", "season")} | {"gravity": "sag"}
+_DOWN = np.array([1.0, -1.0])
 _AGAIN = "Draw it again."
 
 
@@ -52,7 +53,7 @@ def stroke_out(stroke: Stroke) -> messages.Stroke:
 
 def flipped(points: np.ndarray) -> np.ndarray:
     """Points with y the other way; no zero becomes a negative one."""
-    return np.stack([points[:, 0], 0.0 - points[:, 1]], axis=1)
+    return points * _DOWN + 0.0
 
 
 def options_out(document: Document) -> messages.Options:

@@ -22,6 +22,7 @@ class FakeEngine:
         self.ghosts: list[tuple] = []
         self.glances: list = []
         self.cancelled = self.refreshed = 0
+        self.size = 8  # bytes of a frame's arrays
         self.answers = True  # tells a tree for every document
         self.whole: bytes | None = None
         self.running = False
@@ -39,7 +40,7 @@ class FakeEngine:
 
     def answer(self, revision, document):
         """As if the tree had been made."""
-        self.whole = frame(revision)
+        self.whole = frame(revision, size=self.size)
         self.on_outcome(Outcome(revision, self.whole, settled=settled(document)))
         self.on_outcome(Outcome(revision, messages.Working(state="idle", revision=revision)))
 
