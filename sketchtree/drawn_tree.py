@@ -93,7 +93,7 @@ def draw_out(
     was touched, in the scale of `similarity` if given."""
     watch = watch or Watch()
     with watch("read"):
-        by_hand = read_hand_work(sketch) if edits is None or settled is None else None
+        by_hand = read_hand_work(sketch) if edits is None or settled is None else None  # of a project file
         edits, settled = by_hand.edits if edits is None else edits, by_hand.settled if settled is None else settled
         sketch, graph = read_drawing(sketch, options, watch)
         above = graph.above_ground()

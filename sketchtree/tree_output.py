@@ -9,6 +9,8 @@ from sketchtree.export.files import MESHES, PROJECTS, SKELETONS
 from sketchtree.options import FileOptions
 from sketchtree.version import __version__
 
+WHOLE = MESHES + SKELETONS + PROJECTS  # what a whole tree can be written as; a picture of it is for `view`
+
 
 @dataclass(frozen=True)
 class Made:

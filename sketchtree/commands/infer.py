@@ -27,6 +27,7 @@ def infer(sketch: Path, output: Path, frame: str, seed: int, quiet: bool, json_l
     writing.check_outputs(sketch, output, report, posterior=posterior, others=others, kinds=writing.SKELETONS)
     from sketchtree import options as choices
     from sketchtree import pipeline
+    from sketchtree.editing.settled import Settled
     from sketchtree.keys import root_key
     from sketchtree.templates.store.database import Database
     from sketchtree.watch import Watch
@@ -37,7 +38,8 @@ def infer(sketch: Path, output: Path, frame: str, seed: int, quiet: bool, json_l
     watch = Watch(progress, progress.part)
     with progress.running():
         templates = None if db is None and reading.template == "none" else Database.open(db)
-        drawn = pipeline.draw_out(sketch, templates, key=root_key(seed), options=reading, watch=watch)
+        anew = Settled() if posterior or reading.samples else None  # of a project: samples are of what nobody holds, not of what it has settled on
+        drawn = pipeline.draw_out(sketch, templates, key=root_key(seed), options=reading, settled=anew, watch=watch)
         run = writing.Run("infer", seed, imported, began, watch, choices.options_as_dict(reading) | {"frame": frame})
         with watch("export"):
             writing.write_posterior(posterior, drawn, frame=frame)

@@ -15,6 +15,7 @@ from sketchtree.choose import bark_model, leaf_model
 from sketchtree.drawn_tree import DrawnTree, draw_out
 from sketchtree.dressing import Dress
 from sketchtree.editing.document import Document
+from sketchtree.editing.settled import Depths, Settled
 from sketchtree.geometry.radii import PipeRadii
 from sketchtree.keys import root_key
 from sketchtree.pipeline import LeafyTree, foliage, grow, weathered
@@ -31,7 +32,10 @@ _GROWING = ("generations", "fill", "max_segments", "density", "light", "obstacle
 
 
 class Stopped(Exception):
-    """A newer document came."""
+    """A newer document came, or there is nothing to hurry about."""
+
+
+_MOST = 16  # limbs that are hurried; more of them come with the full tree, which takes hardly longer
 
 
 @dataclass(frozen=True)
@@ -41,6 +45,7 @@ class Basis:
     scale: float
     translate: tuple[float, float, float]
     owners: tuple[str, ...]
+    settled: Settled
     segments: int
     leaves: int
     triangles: tuple[int, int]
@@ -142,7 +147,9 @@ def hurried(bench: Bench, document: Document, basis: Basis | None, watch: Watch)
     drawn = draw_out(
         document.sketch, bench.templates, key=key, options=document.reading, edits=document.edits, settled=document.settled, similarity=similarity, quick=True, watch=watch
     )
-    touched = drawn.touched if basis is not None else frozenset(drawn.settled.limbs)
+    touched = frozenset(drawn.settled.limbs) if basis is None else _moved(drawn, basis.settled)
+    if len(touched) > _MOST:
+        raise Stopped
     with watch("propagate"):
         grown = grow(drawn, _light(document.tree), key=key)
         radius = np.full(len(grown.skeleton), np.nan)
@@ -158,6 +165,19 @@ def hurried(bench: Bench, document: Document, basis: Basis | None, watch: Watch)
     with watch("mesh"):
         chunks = chunks_of(tree, key=key, only=touched) if touched else Chunks((), (), (), {}, (0, 0))
     return drawn, tree, chunks
+
+
+def _moved(drawn: DrawnTree, before: Settled) -> frozenset[int]:
+    """Limbs that are new, or not where they were."""
+    near = 1e-4 * max(drawn.graph.height, 1e-300)
+
+    def same(limb: int, now: Depths) -> bool:
+        was = before.limbs.get(limb)
+        if was is None or was.parent != now.parent or np.abs(was.course - now.course).max() > near:
+            return False
+        return bool(np.abs(np.interp(was.share, now.share, now.depth) - was.depth).max() <= near)
+
+    return frozenset(limb for limb, now in drawn.settled.limbs.items() if not same(limb, now))
 
 
 def _light(options):

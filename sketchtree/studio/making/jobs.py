@@ -1,0 +1,144 @@
+"""What can a worker be asked for? Each kind of job is a method."""
+
+import dataclasses
+import tempfile
+from pathlib import Path
+
+from sketchtree.editing.document import Document
+from sketchtree.keys import root_key
+from sketchtree.options import FileOptions, options_as_dict
+from sketchtree.studio.making import work
+from sketchtree.studio.making.chunks import Chunks, chunks_of
+from sketchtree.studio.making.textures import Textures, thumbnail
+from sketchtree.templates.store.database import Database
+
+
+class Jobs:
+    """All that one worker knows."""
+
+    def __init__(self, database: Path | None, desk):
+        self.templates = Database.open(database)
+        self.bench, self.glance_bench = work.Bench(self.templates), work.Bench(self.templates)
+        self.textures = Textures()
+        self.desk = desk
+        self._shown: tuple | None = None  # revision, document, drawn, tree, chunks of the last full tree
+
+    def do(self, number: int, kind: str, arguments: tuple) -> object:
+        """The answer to one job."""
+        watch = work.watching(
+            lambda stage, done: self.desk.say(number, "event", ("working", stage, done)), lambda: self.desk.stopped(number, kind)
+        )
+        return getattr(self, f"_{kind}")(number, watch, *arguments)
+
+    def warm_up(self) -> None:
+        """Compile what every drawing needs, before it is asked for."""
+        from sketchtree.studio.making.warm import warm_up
+
+        warm_up()
+
+    def _full(self, number, watch, revision: int, document: Document, known: dict[str, str]):
+        from sketchtree.studio.making.remarks import how_like, how_read
+
+        drawn = work.drawn_tree(self.bench, document, watch)
+        for event in (how_read(revision, drawn), how_like(revision, drawn)):
+            self.desk.say(number, "event", ("event", event))
+        tree = work.leafy_tree(self.bench, document, drawn, watch)
+        with watch("mesh"):
+            chunks = chunks_of(tree, key=root_key(document.seed))
+        watch.on_part(0.9)
+        self.textures.remember(chunks.materials)
+        self._shown = revision, document, drawn, tree, chunks
+        frame, digests = work.tree_frame(revision, "full", document, drawn, tree, chunks, known)
+        return frame, digests, _basis(drawn, tree, chunks, digests)
+
+    def _frame(self, number, watch):
+        if self._shown is None:
+            return None
+        revision, document, drawn, tree, chunks = self._shown
+        return work.tree_frame(revision, "full", document, drawn, tree, chunks, {})[0]
+
+    def _quick(self, number, watch, revision: int, document: Document, basis: work.Basis | None):
+        drawn, tree, chunks = work.hurried(self.bench, document, basis, watch)
+        self.textures.remember(chunks.materials)
+        frame, digests = work.tree_frame(revision, "quick", document, drawn, tree, chunks, {}, basis)
+        return frame, digests, drawn.settled
+
+    def _glance(self, number, watch, revision: int, document: Document, known: dict[str, str]):
+        drawn = work.drawn_tree(self.glance_bench, document, watch)
+        tree = work.leafy_tree(self.glance_bench, document, drawn, watch)
+        chunks = chunks_of(tree, key=root_key(document.seed))
+        self.textures.remember(chunks.materials)
+        return work.tree_frame(revision, "glance", document, drawn, tree, chunks, {})[0]
+
+    def _ghost(self, number, watch, revision: int, document: Document, stroke, hold, basis):
+        from sketchtree.studio.making.ghosts import ghost
+
+        return ghost(self.bench, revision, document, stroke, hold, basis)
+
+    def _alternatives(self, number, watch, revision: int, document: Document):
+        from sketchtree.studio.making.others import alternatives
+
+        return alternatives(self.templates, revision, document, watch)
+
+    def _find(self, number, watch, limb: int):
+        from sketchtree.errors import OptionError
+        from sketchtree.studio.making.found import found_limb
+
+        if self._shown is None:
+            raise OptionError("The tree is not ready yet.", remedy="Wait until it is, then pick the branch again.")
+        return found_limb(self._shown[2], self._shown[3].skeleton, limb)
+
+    def _read(self, number, watch, data: bytes, name: str):
+        from sketchtree.studio.making.documents import document_of
+
+        return document_of(data, name)
+
+    def _model(self, document: Document, watch, tree_options):
+        from sketchtree.pipeline import complete, draw_out
+
+        key = root_key(document.seed)
+        drawn = draw_out(document.sketch, self.templates, key=key, options=document.reading, edits=document.edits, settled=document.settled, watch=watch)
+        return complete(drawn, self.templates, key=key, options=tree_options, watch=watch)
+
+    def _export(self, number, watch, document: Document, name: str, options: dict):
+        from sketchtree.export.files import check_extension, check_program
+        from sketchtree.tree_output import WHOLE, Made, check_files, write_output
+
+        files = FileOptions(**{key: value for key, value in options.items() if key in {field.name for field in dataclasses.fields(FileOptions)}})
+        made_of = {key: options[key] for key in ("wood", "solid") if options.get(key)}
+        tree = dataclasses.replace(document.tree, **made_of)
+        with tempfile.TemporaryDirectory() as folder:
+            path = Path(folder) / name
+            check_extension(path, WHOLE)
+            check_program(path)
+            check_files(path, files, instead="Choose .glb.")
+            model = self._model(document, watch, tree)
+            written = options_as_dict(document.reading, document.tree, files)
+            with watch("export"):
+                write_output(model, path, Made(document.seed, written), files, underlay=document.underlay)
+            return {str(one.relative_to(folder)): one.read_bytes() for one in sorted(Path(folder).rglob("*")) if one.is_file()}
+
+    def _project(self, number, watch, document: Document):
+        files = self._export(number, watch, document, "project.sketchtree", {})
+        return files["project.sketchtree"]
+
+    def _texture(self, number, watch, key: str, kind: str):
+        return self.textures.png(key, kind)
+
+    def _picture(self, number, watch, what: str, name: str):
+        if what == "example":
+            from sketchtree.studio.making.gallery import example_picture
+
+            return example_picture(name)
+        return thumbnail(what, name, self.templates)
+
+    def _catalogue(self, number, watch):
+        from sketchtree.studio.making.gallery import catalogue
+
+        return catalogue(self.templates)
+
+
+def _basis(drawn, tree, chunks: Chunks, digests: dict[str, str]) -> work.Basis:
+    return work.Basis(
+        drawn.similarity.scale, drawn.similarity.translate, tuple(digests), drawn.settled, tree.skeleton.segment_count, len(tree.leaves), chunks.triangles
+    )

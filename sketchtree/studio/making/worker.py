@@ -1,0 +1,82 @@
+"""One process that makes trees: jobs come in, outcomes go out.
+
+A job is (number, kind, arguments), an outcome (number, what, value): "event" (an event or a frame, with what is settled), "done" (the answer), "trouble" (a SketchTreeError),
+"stopped", "fault" (a fault of ours, as text). Of kinds in `NEWEST` only the newest job matters: an older one that waits is dropped, one that runs ends at its next step.
+The pipe is private to the two processes.
+"""
+
+import os
+import queue
+import signal
+import threading
+import traceback
+from multiprocessing.connection import Connection
+from pathlib import Path
+
+from sketchtree.errors import SketchTreeError
+
+NEWEST = ("full", "quick", "ghost", "glance", "alternatives")
+
+
+class Desk:
+    """The worker's side of the pipe."""
+
+    def __init__(self, pipe: Connection):
+        self.pipe, self.jobs = pipe, queue.SimpleQueue()
+        self.newest: dict[str, int] = {}
+        self.ended = -1  # jobs up to this number are to stop
+        threading.Thread(target=self._listen, daemon=True).start()
+
+    def _listen(self) -> None:
+        try:
+            while True:
+                number, kind, arguments = self.pipe.recv()
+                if kind == "stop":
+                    self.ended = number
+                    continue
+                self.newest[kind] = number
+                self.jobs.put((number, kind, arguments))
+        except (EOFError, OSError):
+            os._exit(0)  # the server is gone
+
+    def stopped(self, number: int, kind: str) -> bool:
+        """Is the job not wanted any more?"""
+        return kind in NEWEST and (number <= self.ended or number < self.newest[kind])
+
+    def say(self, number: int, what: str, value: object = None) -> None:
+        """An outcome."""
+        try:
+            self.pipe.send((number, what, value))
+        except (BrokenPipeError, OSError):
+            os._exit(0)
+
+
+def main(pipe: Connection, database: str | None, warm: bool) -> None:
+    """Work until the pipe closes."""
+    signal.signal(signal.SIGINT, signal.SIG_IGN)
+    desk = Desk(pipe)
+    from sketchtree.studio.making.jobs import Jobs
+
+    jobs = Jobs(None if database is None else Path(database), desk)
+    if warm:
+        threading.Thread(target=jobs.warm_up, daemon=True).start()
+    while True:
+        number, kind, arguments = desk.jobs.get()
+        if desk.stopped(number, kind):
+            desk.say(number, "stopped")
+            continue
+        _do(jobs, desk, number, kind, arguments)
+
+
+def _do(jobs, desk: Desk, number: int, kind: str, arguments: tuple) -> None:
+    from sketchtree.studio.making.work import Stopped
+
+    try:
+        desk.say(number, "done", jobs.do(number, kind, arguments))
+    except Stopped:
+        desk.say(number, "stopped")
+    except SketchTreeError as error:
+        stroke = getattr(error, "stroke", None)
+        desk.say(number, "trouble", (error.message, error.remedy, None if stroke is None else str(stroke)))
+    except Exception:  # noqa: BLE001 - whatever it is, the studio lives on and says so
+        desk.say(number, "fault", traceback.format_exc())
