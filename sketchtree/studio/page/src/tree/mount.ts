@@ -38,6 +38,7 @@ export interface TreeViews {
   turntable: () => Promise<Blob>; // a film, or an archive of pictures
 }
 
+const THINNED = 0.3; // of the leaves, while the view moves and no graphics card draws it
 const SEEN_THROUGH = 0.3; // of the leaves, while wood is chosen or its doubt shown
 
 export function mountTree(root: HTMLElement, store: Store): TreeViews {
@@ -61,10 +62,11 @@ function fill(view: View, store: Store): TreeViews {
   const figure = new Figure(stage.scene);
   const ink = new Ink(stage.scene);
   const ghosts = new Ghosts(stage.scene);
-  const lighting: Lighting = { sky: new Sky(), marks: new Marks(), doubt: { value: 0 }, leafShare: { value: 1 } };
-  const textures = new Textures((key, kind) => store.address(`./texture/${key}/${kind}.png`), Math.min(8, stage.renderer.capabilities.getMaxAnisotropy()));
-  const scenery = new Scenery(lighting, textures, () => stage.shadows());
+  const lighting: Lighting = { sky: new Sky(), marks: new Marks(), doubt: { value: 0 }, sunByGrid: { value: stage.pace.software ? 1 : 0 }, leafShare: { value: 1 } };
+  const textures = new Textures((key, kind) => store.address(`./texture/${key}/${kind}.png`), stage.pace.software ? 1 : Math.min(8, stage.renderer.capabilities.getMaxAnisotropy()));
+  const scenery = new Scenery(lighting, textures, stage.pace.software, () => stage.shadows());
   stage.scene.add(scenery.group);
+  if (stage.pace.software) stage.whileMoving = (moving) => scenery.thin(moving ? THINNED : 1);
   const chosen = new Chosen(view, scenery, lighting.marks, store);
   const handles = new Handles(view, chosen, store, new Guide(view, stage.scene));
   const toolbar = new Toolbar(view, chosen, store);
@@ -173,7 +175,7 @@ function followPage(view: View, store: Store, ink: Ink): void {
   store.on("strokes", strokes);
   store.on("tree", () => { if (drawnAt !== `${plane().scale} ${plane().root.join(" ")}`) strokes(); });
   view.overPage = () => (store.ui.layout === "over" && store.known.tree ? { page: pageCamera, plane: plane(), azimuth: view.eye.azimuth } : null);
-  view.stage.beforeDraw.push(() => { ink.seen(view.eye.azimuth); return false; });
+  view.stage.beforeDraw.push(() => { ink.seen(view.eye.azimuth, view.stage.wide, view.stage.high); return false; });
   pageCamera.on(() => { if (store.ui.layout === "over") view.stage.draw(true); });
   store.on(["turn", "layout"], () => {
     const turned = { ...view.eye, azimuth: store.ui.turn, elevation: Math.min(view.eye.elevation, 12) };

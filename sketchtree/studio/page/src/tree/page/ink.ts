@@ -1,28 +1,27 @@
 // How does the drawing lie on the tree? Its strokes as thin lines on the plane of the page each was drawn on, fading as that page is seen from its edge.
 
-import { Group, type Scene } from "three";
-import { LineMaterial } from "three/addons/lines/LineMaterial.js";
-import { LineSegments2 } from "three/addons/lines/LineSegments2.js";
-import { LineSegmentsGeometry } from "three/addons/lines/LineSegmentsGeometry.js";
+import { Group, Vector2, type BufferGeometry, type Mesh, type Scene, type ShaderMaterial } from "three";
 import type { Stroke } from "../../messages";
+import { thinLines } from "./line";
 import { onPage, type PagePlane } from "./plane";
 
 const COLOURS: Record<"light" | "dark", Record<Stroke["kind"], string>> = {
   light: { branch: "#23251f", crown: "#3f7d55", obstacle: "#6d6a86" },
   dark: { branch: "#f2f0ea", crown: "#8fce9f", obstacle: "#b1add0" },
 };
-const STRENGTH = 0.75;
+const STRENGTH = 0.55;
 
 interface Sheet {
   view: number; // degrees
   kind: Stroke["kind"];
-  lines: LineSegments2;
+  lines: Mesh<BufferGeometry, ShaderMaterial>;
 }
 
 export class Ink {
   private readonly group = new Group();
   private sheets: Sheet[] = [];
   private theme: "light" | "dark" = "light";
+  private readonly size = { value: new Vector2(1, 1) };
 
   constructor(scene: Scene) {
     scene.add(this.group);
@@ -38,8 +37,7 @@ export class Ink {
       segments(stroke, plane, sheets.get(name)!.points);
     }
     this.sheets = [...sheets.values()].filter((sheet) => sheet.points.length).map(({ view, kind, points }) => {
-      const material = new LineMaterial({ linewidth: kind === "branch" ? 1.6 : 1.3, transparent: true, depthWrite: false, depthTest: false, toneMapped: false });
-      const lines = new LineSegments2(new LineSegmentsGeometry().setPositions(points), material);
+      const lines = thinLines(points, kind === "branch" ? 1.6 : 1.3, this.size);
       lines.renderOrder = 5;
       this.group.add(lines);
       return { view, kind, lines };
@@ -49,14 +47,15 @@ export class Ink {
 
   wear(theme: "light" | "dark"): void {
     this.theme = theme;
-    for (const { kind, lines } of this.sheets) lines.material.color.set(COLOURS[theme][kind]);
+    for (const { kind, lines } of this.sheets) lines.material.uniforms.uColour!.value.set(COLOURS[theme][kind]);
   }
 
-  /** Seen from this azimuth (degrees): a page from its edge is all but gone. */
-  seen(azimuth: number): void {
+  /** Seen from this azimuth (degrees), in a view of this size (CSS pixels): a page from its edge is all but gone. */
+  seen(azimuth: number, wide: number, high: number): void {
+    this.size.value.set(wide, high);
     for (const { view, lines } of this.sheets) {
       const facing = Math.abs(Math.cos(((azimuth - view) * Math.PI) / 180));
-      lines.material.opacity = STRENGTH * (0.12 + 0.88 * facing * facing);
+      lines.material.uniforms.uOpacity!.value = STRENGTH * (0.12 + 0.88 * facing * facing);
     }
   }
 

@@ -1,9 +1,11 @@
 // What of the plant stands in the scene? A mesh a material of wood, a mesh a card of leaves; made anew from what frames brought.
 
-import { BufferAttribute, BufferGeometry, Box3, Group, InstancedBufferAttribute, InstancedBufferGeometry, Mesh, MeshStandardMaterial, Sphere, Vector3, type Texture } from "three";
+import { BufferAttribute, BufferGeometry, Box3, Group, InstancedBufferAttribute, InstancedBufferGeometry, Mesh, MeshStandardMaterial, Sphere, type Texture } from "three";
 import type { Material } from "../../messages";
+import { baked, type BakedLeaves } from "./bake";
 import { merged, type Merged, type MergedLeaves, type MergedWood } from "./merge";
-import type { Plant } from "./plant";
+import type { CardShape, Plant } from "./plant";
+import { SUN } from "../stage/weather";
 import { shadeOf } from "./shade";
 import { leafMaterial, leafShadow, woodMaterial, type Lighting } from "./surface";
 import type { MapKind, Textures } from "./textures";
@@ -20,13 +22,13 @@ export class Scenery {
   now: Merged = { wood: [], leaves: [], limbs: [], number: new Map() };
   private readonly worn = new Map<string, Worn>();
 
-  constructor(private readonly lighting: Lighting, private readonly textures: Textures, private readonly changed: () => void) {}
+  constructor(private readonly lighting: Lighting, private readonly textures: Textures, private readonly software: boolean, private readonly changed: () => void) {}
 
   /** Show this plant, where it was another. */
   show(plant: Plant): void {
     this.now = merged(plant);
     this.lighting.marks.renumber(this.now.limbs, this.now.number);
-    this.lighting.sky.take(shadeOf(this.now.leaves));
+    this.lighting.sky.take(shadeOf(this.now.leaves, SUN.toArray()));
     for (const mesh of this.meshes) mesh.geometry.dispose();
     this.group.clear();
     this.box.makeEmpty();
@@ -42,6 +44,14 @@ export class Scenery {
     this.changed();
   }
 
+  /** Draw this share of the leaves, where they are baked: while it moves on a slow machine. */
+  thin(share: number): void {
+    for (const { geometry } of this.meshes) {
+      const { corners } = geometry.userData;
+      if (corners) geometry.setDrawRange(0, share >= 1 ? Infinity : corners * Math.floor((share * geometry.index!.count) / corners));
+    }
+  }
+
   get meshes(): Mesh<BufferGeometry, MeshStandardMaterial>[] {
     return this.group.children as Mesh<BufferGeometry, MeshStandardMaterial>[];
   }
@@ -51,7 +61,8 @@ export class Scenery {
   }
 
   private add(mesh: Mesh): void {
-    mesh.castShadow = mesh.receiveShadow = true;
+    mesh.castShadow = true;
+    mesh.receiveShadow = !this.software;
     mesh.matrixAutoUpdate = false;
     mesh.geometry.boundingBox ??= new Box3();
     this.box.union(mesh.geometry.boundingBox);
@@ -74,16 +85,7 @@ export class Scenery {
 
   private leafMesh(leaves: MergedLeaves, plant: Plant): Mesh {
     const card = plant.cards.get(leaves.card)!;
-    const geometry = new InstancedBufferGeometry();
-    geometry.setAttribute("position", new BufferAttribute(card.position, 3));
-    geometry.setAttribute("normal", new BufferAttribute(card.normal, 3));
-    geometry.setAttribute("uv", new BufferAttribute(card.uv, 2));
-    geometry.setIndex(new BufferAttribute(card.index, 1));
-    geometry.setAttribute("aPlace", new InstancedBufferAttribute(leaves.place, 3));
-    geometry.setAttribute("aTurn", new InstancedBufferAttribute(leaves.turn, 4, true));
-    geometry.setAttribute("aScale", new InstancedBufferAttribute(leaves.scale, 3));
-    geometry.setAttribute("aTint", new InstancedBufferAttribute(leaves.tint, 3, true));
-    geometry.instanceCount = leaves.count;
+    const geometry = this.software ? bakedGeometry(baked(leaves, card)) : placedGeometry(leaves, card);
     geometry.boundingBox = new Box3().setFromArray(leaves.place).expandByScalar(Math.max(...leaves.scale.subarray(0, 3)));
     const worn = this.surface(plant.materials.get(card.material)!, "leaf");
     const mesh = new Mesh(geometry, worn.surface);
@@ -97,8 +99,8 @@ export class Scenery {
     const had = this.worn.get(name);
     if (had?.of === said) return had;
     const passing: { value: Texture | null } = { value: null };
-    const surface = what === "wood" ? woodMaterial(of, this.lighting) : leafMaterial(of, this.lighting, passing);
-    const shadow = what === "leaf" ? leafShadow(of) : null;
+    const surface = what === "wood" ? woodMaterial(of, this.lighting) : leafMaterial(of, this.lighting, passing, this.software);
+    const shadow = what === "leaf" ? leafShadow(of, this.software) : null;
     surface.customProgramCacheKey = () => what;
     shadow && (shadow.customProgramCacheKey = () => "leaf shadow");
     const worn = { of: said, surface, shadow };
@@ -114,15 +116,37 @@ export class Scenery {
       roughness: (map) => { surface.roughnessMap = map; surface.roughness = 1; },
       translucency: (map) => { passing.value = map; },
     };
-    for (const kind of of.maps as MapKind[])
-      this.textures.get(of.key, kind, of.cutoff).then(
-        (map) => { put[kind]?.(map); surface.needsUpdate = true; this.changed(); },
-        () => {}, // the plain colour stays
-      );
+    surface.visible = false; // until its maps are there: cards without them are squares
+    const worth = this.software && shadow ? ["color", "translucency"] : of.maps; // a leaf's veins are not worth their time there
+    const coming = (of.maps as MapKind[]).filter((kind) => worth.includes(kind)).map((kind) => this.textures.get(of.key, kind, of.cutoff).then((map) => put[kind]?.(map)));
+    void Promise.allSettled(coming).then(() => { // of what the program has not, the plain colour stays
+      surface.visible = surface.needsUpdate = true;
+      this.changed();
+    });
   }
 }
 
-/** The middle of a box. */
-export function middle(box: Box3): Vector3 {
-  return box.getCenter(new Vector3());
+function placedGeometry(leaves: MergedLeaves, card: CardShape): InstancedBufferGeometry {
+  const geometry = new InstancedBufferGeometry();
+  geometry.setAttribute("position", new BufferAttribute(card.position, 3));
+  geometry.setAttribute("normal", new BufferAttribute(card.normal, 3));
+  geometry.setAttribute("uv", new BufferAttribute(card.uv, 2));
+  geometry.setIndex(new BufferAttribute(card.index, 1));
+  geometry.setAttribute("aPlace", new InstancedBufferAttribute(leaves.place, 3));
+  geometry.setAttribute("aTurn", new InstancedBufferAttribute(leaves.turn, 4, true));
+  geometry.setAttribute("aScale", new InstancedBufferAttribute(leaves.scale, 3));
+  geometry.setAttribute("aTint", new InstancedBufferAttribute(leaves.tint, 3, true));
+  geometry.instanceCount = leaves.count;
+  return geometry;
+}
+
+function bakedGeometry(leaves: BakedLeaves): BufferGeometry {
+  const geometry = new BufferGeometry();
+  geometry.setAttribute("position", new BufferAttribute(leaves.position, 3));
+  geometry.setAttribute("normal", new BufferAttribute(leaves.normal, 4, true));
+  geometry.setAttribute("uv", new BufferAttribute(leaves.uv, 2));
+  geometry.setAttribute("aTint", new BufferAttribute(leaves.tint, 4, true));
+  geometry.setIndex(new BufferAttribute(leaves.index, 1));
+  geometry.userData.corners = leaves.corners;
+  return geometry;
 }

@@ -2,7 +2,8 @@
 //
 //     light left = mean over directions of exp(−k Σ leaf area per area along the way)        k: `SPREAD`, leaves hang at all angles
 //
-// The grid becomes a small 3D texture; leaves and wood ask it where they are. No vertex needs a column of its own for it.
+// The grid becomes a small 3D texture; leaves and wood ask it where they are. No vertex needs a column of its own for it. Its second channel is what is left of
+// the sun's light, for machines on which a shadow of every leaf takes too long.
 
 import type { MergedLeaves } from "./merge";
 
@@ -10,7 +11,7 @@ export interface Shade {
   low: [number, number, number]; // corner of the grid, metres
   size: [number, number, number]; // metres
   cells: [number, number, number];
-  light: Uint8Array<ArrayBuffer>; // of 255, x fastest
+  light: Uint8Array<ArrayBuffer>; // of 255, x fastest: sky, sun, sky, sun …
 }
 
 const SIDE = 28; // cells along the longest side
@@ -19,8 +20,8 @@ const FILLED = 0.45; // share of a card's square that is leaf
 const WAYS: [number, number, number][] = [[0, 1, 0], [1, 1, 0], [-1, 1, 0], [0, 1, 1], [0, 1, -1], [1, 0, 0], [-1, 0, 0], [0, 0, 1], [0, 0, -1], [0, -1, 0]];
 const WEIGHTS = [3, 2, 2, 2, 2, 1, 1, 1, 1, 0.6]; // the sky is brightest overhead, the ground gives a little back
 
-/** Null without leaves: nothing shades. */
-export function shadeOf(leaves: MergedLeaves[]): Shade | null {
+/** Null without leaves: nothing shades. `sun`: the unit way towards it. */
+export function shadeOf(leaves: MergedLeaves[], sun: readonly [number, number, number]): Shade | null {
   const box = boxOf(leaves);
   if (!box) return null;
   const [low, high] = box;
@@ -31,7 +32,10 @@ export function shadeOf(leaves: MergedLeaves[]): Shade | null {
   const sum = new Float32Array(density.length);
   const whole = WEIGHTS.reduce((a, b) => a + b);
   WAYS.forEach((way, k) => sweep(density, cells, way, WEIGHTS[k]! / whole, sum));
-  return { low: corner, size: cells.map((count) => count * cell) as [number, number, number], cells, light: Uint8Array.from(sum, (v) => Math.round(255 * Math.min(1, v))) };
+  const light = new Uint8Array(2 * sum.length);
+  for (let k = 0; k < sum.length; k++) light[2 * k] = Math.round(255 * Math.min(1, sum[k]!));
+  towards(density, cells, sun, light);
+  return { low: corner, size: cells.map((count) => count * cell) as [number, number, number], cells, light };
 }
 
 function boxOf(leaves: MergedLeaves[]): [[number, number, number], [number, number, number]] | null {
@@ -75,4 +79,18 @@ function sweep(density: Float32Array, [nx, ny, nz]: [number, number, number], [d
         depth[at] = outside ? 0 : depth[before]! + density[before]! * long;
         sum[at]! += weight * Math.exp(-depth[at]! - 0.5 * density[at]! * long);
       }
+}
+
+/** What is left of the light from `way` in each cell, of 255, into every second place. Steps of one cell from the cell to the light. */
+function towards(density: Float32Array, [nx, ny, nz]: [number, number, number], way: readonly [number, number, number], light: Uint8Array): void {
+  for (let at = 0; at < density.length; at++) {
+    let [x, y, z] = [(at % nx) + 0.5, (Math.floor(at / nx) % ny) + 0.5, Math.floor(at / (nx * ny)) + 0.5];
+    let depth = 0.4 * density[at]!;
+    for (;;) {
+      [x, y, z] = [x + way[0], y + way[1], z + way[2]];
+      if (x < 0 || y < 0 || z < 0 || x >= nx || y >= ny || z >= nz) break;
+      depth += density[Math.floor(x) + nx * (Math.floor(y) + ny * Math.floor(z))]!;
+    }
+    light[2 * at + 1] = Math.round(255 * Math.exp(-depth));
+  }
 }

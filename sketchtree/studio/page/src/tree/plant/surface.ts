@@ -1,11 +1,11 @@
 // How does light fall on wood and leaves? three's physical material, with four things of ours written into its shader:
 //
-//     sky      what the crown leaves of the sky's light at this place (`shade.ts`), on all indirect light
+//     sky      what the crown leaves of the sky's light at this place (`shade.ts`), on all indirect light; of the sun's too where shadows cost too much
 //     passed   light from behind that a leaf lets through, in the colour of its translucency map
 //     marks    a colour over chosen limbs (`marks.ts`), or over how doubtful they are
 //     leaves   one card at many places, each with its quaternion, scale and tint; cheaper than a matrix each
 
-import { Color, Data3DTexture, DoubleSide, FrontSide, LinearFilter, MeshDepthMaterial, MeshStandardMaterial, RedFormat, ShaderChunk, Vector3, type Texture } from "three";
+import { Color, Data3DTexture, DoubleSide, FrontSide, LinearFilter, MeshDepthMaterial, MeshStandardMaterial, RGFormat, ShaderChunk, Vector3, type Texture } from "three";
 import type { Material } from "../../messages";
 import { MARK_OF, type Marks } from "./marks";
 import type { Shade } from "./shade";
@@ -13,13 +13,13 @@ import type { Shade } from "./shade";
 type Shader = Parameters<MeshStandardMaterial["onBeforeCompile"]>[0];
 
 export class Sky {
-  readonly texture = { value: cube([1, 1, 1], new Uint8Array([255])) };
+  readonly texture = { value: cube([1, 1, 1], new Uint8Array([255, 255])) };
   readonly low = { value: new Vector3() };
   readonly size = { value: new Vector3(1, 1, 1) };
 
   take(shade: Shade | null): void {
     this.texture.value.dispose();
-    this.texture.value = shade ? cube(shade.cells, shade.light) : cube([1, 1, 1], new Uint8Array([255]));
+    this.texture.value = shade ? cube(shade.cells, shade.light) : cube([1, 1, 1], new Uint8Array([255, 255]));
     this.low.value.set(...(shade?.low ?? [0, 0, 0]));
     this.size.value.set(...(shade?.size ?? [1, 1, 1]));
   }
@@ -27,7 +27,7 @@ export class Sky {
 
 function cube([x, y, z]: [number, number, number], light: Uint8Array<ArrayBuffer>): Data3DTexture {
   const texture = new Data3DTexture(light, x, y, z);
-  texture.format = RedFormat;
+  texture.format = RGFormat;
   texture.unpackAlignment = 1;
   texture.minFilter = texture.magFilter = LinearFilter;
   texture.needsUpdate = true;
@@ -38,18 +38,21 @@ export interface Lighting {
   sky: Sky;
   marks: Marks;
   doubt: { value: number }; // 1: limbs wear the colour of how sure their depth is
+  sunByGrid: { value: number }; // 1: how much sun is left comes from the grid, not from a shadow map
   leafShare: { value: number }; // how much of each leaf is there: less while wood is chosen or looked at
 }
 
+const DARKEST = 0.2; // of the sky's light, in the deepest crown: leaves hand it on to each other
 const PLACED = `
 attribute vec3 aPlace; attribute vec4 aTurn; attribute vec3 aScale; attribute vec3 aTint;
 vec3 turned(vec3 p) { vec4 q = normalize(aTurn); return p + 2.0 * cross(q.xyz, cross(q.xyz, p) + q.w * p); }
 `;
 const PLACED_NORMAL = "vec3 objectNormal = normalize(turned(normal / aScale));";
 const PLACED_POINT = "vec3 transformed = aPlace + turned(aScale * position);";
-const SKY = "uniform sampler3D uSky; uniform vec3 uSkyLow; uniform vec3 uSkySize; varying float vSky;\n";
-const SKY_AT = "vSky = texture(uSky, (transformed - uSkyLow) / uSkySize).r;";
-const SKY_FALLS = "#include <aomap_fragment>\nreflectedLight.indirectDiffuse *= vSky; reflectedLight.indirectSpecular *= vSky;";
+const SKY = "uniform sampler3D uSky; uniform vec3 uSkyLow; uniform vec3 uSkySize; uniform float uSunByGrid; varying vec2 vSky;\n";
+const SKY_IN = "varying vec2 vSky;\n";
+const SKY_AT = `vSky = mix(vec2(${DARKEST}, 1.0 - uSunByGrid), vec2(1.0), texture(uSky, (transformed - uSkyLow) / uSkySize).rg);`;
+const SKY_FALLS = "#include <aomap_fragment>\nreflectedLight.indirectDiffuse *= vSky.x; reflectedLight.directDiffuse *= vSky.y; reflectedLight.directSpecular *= vSky.y;";
 
 /** The material of a part that is drawn once: wood. Its mesh has the attributes `limb` and `doubt` (rgb, 1 a vertex). */
 export function woodMaterial(of: Material, lighting: Lighting): MeshStandardMaterial {
@@ -60,7 +63,7 @@ export function woodMaterial(of: Material, lighting: Lighting): MeshStandardMate
     shader.uniforms.uDoubt = lighting.doubt;
     shader.vertexShader = `attribute float limb; attribute vec3 doubt; uniform sampler2D uMarks; varying vec4 vMark; varying vec3 vDoubt;\n${MARK_OF}\n${SKY}`
       + shader.vertexShader.replace("#include <begin_vertex>", `#include <begin_vertex>\n${SKY_AT} vMark = markOf(limb); vDoubt = doubt;`);
-    shader.fragmentShader = `uniform float uDoubt; varying vec4 vMark; varying vec3 vDoubt; ${SKY.replace("uniform sampler3D uSky; ", "")}`
+    shader.fragmentShader = `uniform float uDoubt; varying vec4 vMark; varying vec3 vDoubt; ${SKY_IN}`
       + shader.fragmentShader.replace("#include <aomap_fragment>", SKY_FALLS)
         .replace("#include <map_fragment>", "#include <map_fragment>\ndiffuseColor.rgb = mix(diffuseColor.rgb, vDoubt, uDoubt);")
         .replace("#include <opaque_fragment>", "outgoingLight = mix(outgoingLight, vMark.rgb * (0.35 + outgoingLight), vMark.a);\n#include <opaque_fragment>");
@@ -68,20 +71,20 @@ export function woodMaterial(of: Material, lighting: Lighting): MeshStandardMate
   return material;
 }
 
-/** The material of a card that is drawn at many places. */
-export function leafMaterial(of: Material, lighting: Lighting, passing: { value: Texture | null }): MeshStandardMaterial {
+/** The material of a card that is drawn at many places, or `baked` into one mesh. */
+export function leafMaterial(of: Material, lighting: Lighting, passing: { value: Texture | null }, isBaked: boolean): MeshStandardMaterial {
   const material = standard(of);
-  material.alphaToCoverage = of.cutoff !== null;
+  material.alphaToCoverage = of.cutoff !== null && !isBaked; // where leaves are baked there are no samples to cover
   material.onBeforeCompile = (shader) => {
     share(shader, lighting);
     shader.uniforms.uPassing = passing;
     shader.uniforms.uPasses = { value: of.translucency };
     shader.uniforms.uLeafShare = lighting.leafShare;
-    shader.vertexShader = `varying vec3 vTint; ${PLACED}\n${SKY}` + shader.vertexShader
-      .replace("#include <beginnormal_vertex>", PLACED_NORMAL)
-      .replace("#include <begin_vertex>", `${PLACED_POINT} vTint = aTint; ${SKY_AT}`);
+    shader.vertexShader = `varying vec3 vTint; ${isBaked ? "attribute vec3 aTint;" : PLACED}\n${SKY}` + shader.vertexShader
+      .replace("#include <beginnormal_vertex>", isBaked ? "#include <beginnormal_vertex>" : PLACED_NORMAL)
+      .replace("#include <begin_vertex>", `${isBaked ? "#include <begin_vertex>" : PLACED_POINT}\nvTint = aTint; ${SKY_AT}`);
     shader.fragmentShader = `varying vec3 vTint; uniform float uPasses; uniform float uLeafShare; uniform sampler2D uPassing; vec3 passed;
-float speckle(vec2 p) { return fract(52.9829189 * fract(dot(p, vec2(0.06711056, 0.00583715)))); } ${SKY.replace("uniform sampler3D uSky; ", "")}`
+float speckle(vec2 p) { return fract(52.9829189 * fract(dot(p, vec2(0.06711056, 0.00583715)))); } ${SKY_IN}`
       + shader.fragmentShader
         .replace("#include <lights_physical_pars_fragment>", passingLight(ShaderChunk.lights_physical_pars_fragment))
         .replace("#include <aomap_fragment>", SKY_FALLS)
@@ -97,8 +100,9 @@ passed = vec3(0.0);
 }
 
 /** The shadow of such a card: its drawing, not its corners. */
-export function leafShadow(of: Material): MeshDepthMaterial {
+export function leafShadow(of: Material, isBaked: boolean): MeshDepthMaterial {
   const material = new MeshDepthMaterial({ side: DoubleSide, alphaTest: of.cutoff ?? 0 });
+  if (isBaked) return material;
   material.onBeforeCompile = (shader) => {
     shader.vertexShader = PLACED + shader.vertexShader.replace("#include <begin_vertex>", PLACED_POINT);
   };
@@ -112,8 +116,8 @@ function standard(of: Material): MeshStandardMaterial {
   });
 }
 
-function share(shader: Shader, { sky }: Lighting): void {
-  Object.assign(shader.uniforms, { uSky: sky.texture, uSkyLow: sky.low, uSkySize: sky.size });
+function share(shader: Shader, { sky, sunByGrid }: Lighting): void {
+  Object.assign(shader.uniforms, { uSky: sky.texture, uSkyLow: sky.low, uSkySize: sky.size, uSunByGrid: sunByGrid });
 }
 
 /** three's direct light, and after it what comes through from the other side. */

@@ -1,6 +1,6 @@
 // What draws the scene, and when? Only when something changed. While it moves and the machine is slow, with fewer pixels; sharp again as soon as it rests.
 
-import { AgXToneMapping, PCFShadowMap, Scene, SRGBColorSpace, WebGLRenderer, type Camera } from "three";
+import { NeutralToneMapping, PCFShadowMap, Scene, SRGBColorSpace, WebGLRenderer, type Camera } from "three";
 import { Pace } from "./pace";
 
 const REST = 160; // milliseconds after the last motion until the sharp picture
@@ -13,6 +13,7 @@ export class Stage {
   camera: (wide: number, high: number) => Camera = () => { throw new Error("no camera"); };
   beforeDraw: Array<(now: number) => boolean> = []; // moves what moves; true: it goes on
   afterDraw: Array<() => void> = []; // what is laid over the view follows
+  whileMoving: (moving: boolean) => void = () => {}; // what is to be simpler then
   wide = 1;
   high = 1;
   private asked = 0;
@@ -20,11 +21,11 @@ export class Stage {
   private sharpener = 0;
 
   constructor(private readonly root: HTMLElement) {
-    this.renderer = new WebGLRenderer({ antialias: true, alpha: true, powerPreference: "high-performance", preserveDrawingBuffer: false });
+    this.pace = new Pace(isSoftware());
+    this.renderer = new WebGLRenderer({ antialias: !this.pace.software, alpha: false, powerPreference: "high-performance" });
     this.canvas = this.renderer.domElement;
-    this.pace = new Pace(isSoftware(this.renderer));
     this.renderer.outputColorSpace = SRGBColorSpace;
-    this.renderer.toneMapping = AgXToneMapping;
+    this.renderer.toneMapping = NeutralToneMapping;
     this.renderer.shadowMap.enabled = true;
     this.renderer.shadowMap.type = PCFShadowMap;
     this.renderer.shadowMap.autoUpdate = false; // shadows move only when the tree does
@@ -64,6 +65,7 @@ export class Stage {
     const moving = performance.now() - this.movedAt < REST;
     const ratio = this.pace.ratio(moving, devicePixelRatio);
     if (Math.abs(ratio - this.renderer.getPixelRatio()) > 0.01) this.renderer.setPixelRatio(ratio);
+    this.whileMoving(moving);
     this.drawNow();
     this.afterDraw.forEach((follow) => follow());
     this.pace.drew(performance.now(), moving);
@@ -73,8 +75,11 @@ export class Stage {
   }
 }
 
-function isSoftware(renderer: WebGLRenderer): boolean {
-  const gl = renderer.getContext();
-  const about = gl.getExtension("WEBGL_debug_renderer_info");
-  return /swiftshader|llvmpipe|software|basic render/i.test(String(gl.getParameter(about ? about.UNMASKED_RENDERER_WEBGL : gl.RENDERER)));
+/** Is there no graphics card? Asked of a context of its own, for the answer decides how the real one is made. */
+function isSoftware(): boolean {
+  const gl = document.createElement("canvas").getContext("webgl2");
+  const about = gl?.getExtension("WEBGL_debug_renderer_info");
+  const name = gl ? String(gl.getParameter(about ? about.UNMASKED_RENDERER_WEBGL : gl.RENDERER)) : "";
+  gl?.getExtension("WEBGL_lose_context")?.loseContext();
+  return /swiftshader|llvmpipe|software|basic render/i.test(name);
 }

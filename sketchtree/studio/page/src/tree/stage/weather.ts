@@ -13,8 +13,8 @@ export interface Look {
 }
 
 export const LOOKS: Record<"light" | "dark", Look> = {
-  light: { zenith: "#a9c3da", horizon: "#eceee9", ground: "#dad8d0", shadow: "#4d4f4c", sky: 1.9, sun: 4.1, warmth: "#fff3df" },
-  dark: { zenith: "#1a2733", horizon: "#3a4246", ground: "#363b3c", shadow: "#0f1213", sky: 1.55, sun: 3.3, warmth: "#fff0d8" },
+  light: { zenith: "#a9c3da", horizon: "#eceee9", ground: "#dad8d0", shadow: "#4d4f4c", sky: 3.2, sun: 6.6, warmth: "#fff4e4" },
+  dark: { zenith: "#1a2733", horizon: "#3a4246", ground: "#363b3c", shadow: "#0f1213", sky: 2.4, sun: 5.4, warmth: "#fff0d8" },
 };
 
 /** Towards the sun: over the left shoulder of who looks from the front. */
@@ -29,7 +29,7 @@ export class Weather {
     const side = software ? 1024 : 2048;
     this.sun.castShadow = true;
     this.sun.shadow.mapSize.set(side, side);
-    this.sun.shadow.radius = 2.2;
+    this.sun.shadow.radius = 3.5;
     this.dome = new Mesh(new SphereGeometry(1, 24, 16), domeMaterial());
     this.dome.frustumCulled = false;
     this.dome.renderOrder = -10;
@@ -77,7 +77,7 @@ function domeMaterial(): ShaderMaterial {
       vWay = position; vec4 at = projectionMatrix * mat4(mat3(modelViewMatrix)) * vec4(position, 1.0);
       vWay = isOrthographic ? vec3(0.0, 0.25 + 0.2 * at.y, 0.0) : position; gl_Position = isOrthographic ? vec4(position.xy * 4.0, 0.5, 1.0) : at.xyww; }`,
     fragmentShader: `uniform vec3 uZenith; uniform vec3 uHorizon; varying vec3 vWay; void main() {
-      float up = max(normalize(vWay).y, 0.0); gl_FragColor = vec4(mix(uHorizon, uZenith, 1.0 - pow(1.0 - up, 2.4)), 1.0);
+      float up = max(normalize(vWay).y, 0.0); gl_FragColor = vec4(mix(uHorizon, uZenith, 1.0 - pow(1.0 - up, 5.0)), 1.0);
       #include <colorspace_fragment>
     }`,
   });
