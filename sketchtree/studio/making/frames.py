@@ -30,9 +30,16 @@ class Arrays:
 
     def frame(self, head: messages.Tree | messages.Ghost) -> bytes:
         """The bytes of the frame; the head's `arrays` are these."""
-        text = msgspec.json.encode(msgspec.structs.replace(head, arrays=self.heads))
+        text = msgspec.json.encode(msgspec.structs.replace(head, arrays=self.heads), enc_hook=_plain)
         padding = b"\0" * (-(4 + len(text)) % _ALIGN)
         return b"".join([struct.pack("<I", len(text)), text, padding, *self._parts])
+
+
+def _plain(value: object) -> object:
+    """A number of numpy's as one of Python's."""
+    if isinstance(value, np.generic):
+        return value.item()
+    raise NotImplementedError(type(value))
 
 
 def opened(frame: bytes) -> tuple[messages.Tree | messages.Ghost, dict[str, np.ndarray]]:
