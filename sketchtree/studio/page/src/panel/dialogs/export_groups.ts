@@ -8,13 +8,11 @@ export interface FormatGroup {
 }
 
 const GROUPS: [string, [string, string][]][] = [
-  ["Scenes: Blender, Unreal, Unity, Godot, three.js", [
-    [".glb", "One file with everything in it"], [".gltf", "JSON with textures beside it"], [".usd", "Houdini, Maya, Omniverse"], [".usda", "USD as text"], [".usdc", "USD, compact"],
-    [".usdz", "iPhone and iPad"],
-  ]],
-  ["Meshes", [[".obj", "Read by everything"], [".ply", "With colours"], [".stl", "3D printing"], [".3mf", "3D printing, wood only"]]],
-  ["Branches as data", [[".swc", "A line a segment"], [".mtg", "OpenAlea"], [".json", "Columns"], [".h5", "Columns, for Python"]]],
-  ["Pictures", [[".png", "A rendered picture"]]],
+  ["Scenes", [[".glb", "Blender, Unity, Godot, web"], [".gltf", "to be edited"], [".usd", "Houdini, Maya, Unreal"], [".usda", "to be read"], [".usdc", "compact"], [".usdz", "iPhone, iPad"]]],
+  ["Meshes", [[".obj", "read by everything"], [".ply", "with colours"], [".stl", "no textures"], [".3mf", "wood only"]]],
+  ["Branches as data", [[".swc", "a line a point"], [".mtg", "OpenAlea"], [".json", "columns"], [".h5", "for Python"]]],
+  ["Studio", [[".sketchtree", "to go on with"]]],
+  ["Pictures", [[".png", "rendered"]]],
 ];
 
 export function groups(formats: readonly Choice[]): FormatGroup[] {

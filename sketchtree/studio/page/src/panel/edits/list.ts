@@ -15,7 +15,7 @@ export function editsList(store: Store, mark: (text: string) => void): HTMLEleme
   const empty = element("p", { class: "hint" }, NOTHING);
   const fill = (): void => {
     const { edits, limbs, strokes } = store.known;
-    const order = [...strokes.keys()];
+    const order = edits.length > 0 ? [...strokes.keys()] : [];
     list.replaceChildren(...edits.map((edit) => entry(store, edit, editWords(edit, limbs, order))));
     empty.hidden = edits.length > 0;
     list.hidden = edits.length === 0;

@@ -28,7 +28,7 @@ export function hintCard(store: Store): Hint {
     root.hidden = before === 0; // the empty page says it itself
   };
   root.hidden = true;
-  store.on(["strokes", "undo"], () => {
+  store.on(["welcome", "strokes", "undo"], () => {
     const { strokes, undo, welcome } = store.known;
     if (!welcome || strokes.size === 0) {
       root.hidden = true;

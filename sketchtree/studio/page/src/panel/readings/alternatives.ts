@@ -1,60 +1,112 @@
 // Which other trees may the drawing show? A strip of them with their odds; a click takes one.
 
+import type { Alternatives, Reading } from "../../messages";
 import { block, button } from "../../parts/button";
 import { element } from "../../parts/element";
 import type { Store } from "../../store";
 import { percent } from "../figures";
 import { roving } from "../roving";
+import { Fresh } from "./fresh";
 import { sketchlet } from "./sketchlet";
 
+const ELSEWHERE = new Set(["mirror", "settle", "reading"]); // steps, by their labels, that put limbs at other depths
+const WORDS = {
+  asked: "This takes a few seconds.",
+  never: "The drawing may show other trees as well: seen from the side they differ.",
+  stale: "The drawing has changed since.",
+  alone: "Nothing else is likely: the drawing shows this one tree.",
+  there: "Above from the front, below from the top. What differs from the likeliest is in colour.",
+};
+
 export function alternatives(store: Store): HTMLElement {
-  const list = element("div", { class: "readings", role: "group", aria: { label: "Other readings of the drawing" }, testId: "alternatives" });
-  const words = element("p", { class: "hint" });
-  const walk = roving(list, () => [...list.querySelectorAll<HTMLElement>("button")]);
-  let asked = false;
-  let drawings: (() => void)[] = [];
-  const look = button({
-    label: "Show other readings", icon: "eye", testId: "readings",
+  const strip = new ReadingStrip(store);
+  return element("div", { class: "alternatives" }, strip.words, strip.list, strip.look);
+}
+
+class ReadingStrip {
+  readonly list = element("div", { class: "readings", role: "group", aria: { label: "Other readings of the drawing" }, testId: "alternatives" });
+  readonly words = element("p", { class: "hint", role: "status" });
+  readonly look = button({
+    label: "Show other readings", icon: "eye", testId: "readings", onPress: () => this.ask(),
     hint: "A drawing is flat: how far a branch comes towards you is a guess. This shows the likeliest guesses.",
-    onPress: () => {
-      asked = true;
-      store.send({ type: "readings" });
-      tell();
-    },
   });
-  const tell = (): void => {
-    const { alternatives: known, revision, strokes } = store.known;
-    const stale = known !== null && known.revision !== revision;
-    list.classList.toggle("stale", stale);
-    block(look, asked ? "looking" : strokes.size === 0 ? "draw something first" : null);
-    look.querySelector("span")!.textContent = asked ? "Looking …" : known ? "Look again" : "Show other readings";
-    look.hidden = known !== null && !stale && !asked;
-    words.textContent = asked ? "This takes a few seconds." : !known ? "The drawing may show other trees as well: seen from the side they differ."
-      : stale ? "The drawing has changed since." : known.readings.length < 2 ? "Nothing else is likely: the drawing shows this one tree."
-      : "Front above, seen from the top below. The first is the tree you see.";
-  };
-  const fill = (): void => {
-    asked = false;
-    const known = store.known.alternatives;
-    const made = (known?.readings ?? []).map((reading, index) => {
-      const { root, draw } = sketchlet(reading);
-      const odds = percent(reading.odds);
-      const title = index === 0 ? `The tree you see: ${odds} likely` : `Take this one: ${odds} likely`;
-      const pick = element("button", { class: "reading", title, aria: { label: title, pressed: String(index === 0) }, testId: `alternative-${index}` }, root, element("span", {}, odds));
-      pick.type = "button";
-      pick.addEventListener("click", () => { if (known && !list.classList.contains("stale")) store.send({ type: "pick", reading: index, revision: known.revision }); });
-      return { pick, draw };
+  private readonly walk = roving(this.list, () => this.buttons());
+  private readonly fresh = new Fresh();
+  private asked = false;
+  private drawings: (() => void)[] = [];
+  private picked: number | null = 0; // which of them is the tree one sees
+  private taking: number | null = null; // a pick is on its way
+
+  constructor(private readonly store: Store) {
+    store.on("alternatives", () => this.fill());
+    store.on("theme", () => requestAnimationFrame(() => this.drawings.forEach((draw) => draw())));
+    store.on("trouble", () => { this.asked = false; this.taking = null; this.tell(); });
+    store.on("changed", () => this.follow());
+    store.on("strokes", () => this.tell());
+    this.tell();
+  }
+
+  private ask(): void {
+    this.asked = true;
+    this.fresh.keep(this.store.known);
+    this.store.send({ type: "readings" });
+    this.tell();
+  }
+
+  /** What there is to say, and whether looking again is worth it. */
+  private tell(): void {
+    const { alternatives: known, strokes } = this.store.known;
+    const stale = known !== null && !this.fresh.holds(this.store.known);
+    this.list.classList.toggle("stale", stale);
+    this.buttons().forEach((one) => one.toggleAttribute("disabled", stale));
+    block(this.look, this.asked ? "looking" : strokes.size === 0 ? "draw something first" : null);
+    this.look.querySelector("span")!.textContent = this.asked ? "Looking …" : known ? "Look again" : "Show other readings";
+    this.look.hidden = known !== null && !stale && !this.asked;
+    this.words.textContent = this.asked ? WORDS.asked : !known ? WORDS.never : stale ? WORDS.stale : known.readings.length < 2 ? WORDS.alone : WORDS.there;
+  }
+
+  private fill(): void {
+    const known = this.store.known.alternatives;
+    if (!known) return;
+    if (!this.asked) this.fresh.keep(this.store.known); // another page asked
+    this.asked = false;
+    this.picked = 0;
+    const made = known.readings.map((reading, index) => this.reading(known, reading, index));
+    this.drawings = made.map((one) => one.draw);
+    this.list.replaceChildren(...made.map((one) => one.root));
+    this.drawings.forEach((draw) => draw());
+    this.mark();
+    this.tell();
+  }
+
+  private reading(known: Alternatives, reading: Reading, index: number): { root: HTMLElement; draw: () => void } {
+    const { root: canvas, draw } = sketchlet(reading, known.readings[0]!);
+    const odds = percent(reading.odds);
+    const root = element("button", { class: "reading", title: `Take this tree: ${odds} likely`, aria: { label: `Reading ${index + 1}: ${odds} likely` }, testId: `alternative-${index}` }, canvas, element("span", {}, odds));
+    root.type = "button";
+    root.addEventListener("click", () => {
+      this.taking = index;
+      this.store.send({ type: "pick", reading: index, revision: known.revision });
     });
-    drawings = made.map((one) => one.draw);
-    list.replaceChildren(...made.map((one) => one.pick));
-    drawings.forEach((draw) => draw());
-    walk.keep();
-    tell();
-  };
-  store.on("alternatives", fill);
-  store.on("theme", () => requestAnimationFrame(() => drawings.forEach((draw) => draw())));
-  store.on("trouble", () => { asked = false; tell(); });
-  store.on(["revision", "strokes"], tell);
-  tell();
-  return element("div", { class: "alternatives" }, words, list, look);
+    return { root, draw };
+  }
+
+  /** A step was taken: by a pick the tree is that reading; any other that changes depths makes it none of them. */
+  private follow(): void {
+    const { undo, redo } = this.store.known;
+    if (this.taking !== null) this.picked = this.taking;
+    else if (redo !== null || ELSEWHERE.has(undo ?? "")) this.picked = null; // after a step back, nobody knows which it was
+    this.taking = null;
+    this.mark();
+    this.tell();
+  }
+
+  private mark(): void {
+    this.buttons().forEach((one, index) => one.setAttribute("aria-pressed", String(index === this.picked)));
+    this.walk.keep();
+  }
+
+  private buttons(): HTMLElement[] {
+    return [...this.list.querySelectorAll<HTMLElement>("button")];
+  }
 }
