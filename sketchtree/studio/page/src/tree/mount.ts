@@ -62,7 +62,7 @@ function fill(view: View, store: Store): TreeViews {
   const figure = new Figure(stage.scene);
   const ink = new Ink(stage.scene);
   const ghosts = new Ghosts(stage.scene);
-  const lighting: Lighting = { sky: new Sky(), marks: new Marks(), doubt: { value: 0 }, sunByGrid: { value: stage.pace.software ? 1 : 0 }, leafShare: { value: 1 } };
+  const lighting: Lighting = { sky: new Sky(), marks: new Marks(), doubt: { value: 0 }, sunByGrid: stage.pace.software, leafShare: { value: 1 } };
   const textures = new Textures((key, kind) => store.address(`./texture/${key}/${kind}.png`), stage.pace.software ? 1 : Math.min(8, stage.renderer.capabilities.getMaxAnisotropy()));
   const scenery = new Scenery(lighting, textures, stage.pace.software, () => stage.shadows());
   stage.scene.add(scenery.group);

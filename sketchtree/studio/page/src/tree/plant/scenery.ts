@@ -62,7 +62,7 @@ export class Scenery {
 
   private add(mesh: Mesh): void {
     mesh.castShadow = true;
-    mesh.receiveShadow = !this.software;
+    mesh.receiveShadow = !this.software && mesh.userData.wood === true;
     mesh.matrixAutoUpdate = false;
     mesh.geometry.boundingBox ??= new Box3();
     this.box.union(mesh.geometry.boundingBox);

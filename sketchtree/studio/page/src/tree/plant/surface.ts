@@ -38,7 +38,7 @@ export interface Lighting {
   sky: Sky;
   marks: Marks;
   doubt: { value: number }; // 1: limbs wear the colour of how sure their depth is
-  sunByGrid: { value: number }; // 1: how much sun is left comes from the grid, not from a shadow map
+  sunByGrid: boolean; // wood learns from the grid how much sun is left, not from a shadow map; leaves always do: softer than a shadow of each on each
   leafShare: { value: number }; // how much of each leaf is there: less while wood is chosen or looked at
 }
 
@@ -58,7 +58,7 @@ const SKY_FALLS = "#include <aomap_fragment>\nreflectedLight.indirectDiffuse *= 
 export function woodMaterial(of: Material, lighting: Lighting): MeshStandardMaterial {
   const material = standard(of);
   material.onBeforeCompile = (shader) => {
-    share(shader, lighting);
+    share(shader, lighting, lighting.sunByGrid);
     shader.uniforms.uMarks = lighting.marks.uniform;
     shader.uniforms.uDoubt = lighting.doubt;
     shader.vertexShader = `attribute float limb; attribute vec3 doubt; uniform sampler2D uMarks; varying vec4 vMark; varying vec3 vDoubt;\n${MARK_OF}\n${SKY}`
@@ -76,7 +76,7 @@ export function leafMaterial(of: Material, lighting: Lighting, passing: { value:
   const material = standard(of);
   material.alphaToCoverage = of.cutoff !== null && !isBaked; // where leaves are baked there are no samples to cover
   material.onBeforeCompile = (shader) => {
-    share(shader, lighting);
+    share(shader, lighting, true);
     shader.uniforms.uPassing = passing;
     shader.uniforms.uPasses = { value: of.translucency };
     shader.uniforms.uLeafShare = lighting.leafShare;
@@ -116,8 +116,8 @@ function standard(of: Material): MeshStandardMaterial {
   });
 }
 
-function share(shader: Shader, { sky, sunByGrid }: Lighting): void {
-  Object.assign(shader.uniforms, { uSky: sky.texture, uSkyLow: sky.low, uSkySize: sky.size, uSunByGrid: sunByGrid });
+function share(shader: Shader, { sky }: Lighting, sunByGrid: boolean): void {
+  Object.assign(shader.uniforms, { uSky: sky.texture, uSkyLow: sky.low, uSkySize: sky.size, uSunByGrid: { value: sunByGrid ? 1 : 0 } });
 }
 
 /** three's direct light, and after it what comes through from the other side. */

@@ -22,6 +22,7 @@ export async function pictureOf(view: View, tidy: Tidy, { transparent = false }:
   const { renderer, canvas } = view.stage;
   const ratio = renderer.getPixelRatio();
   renderer.setPixelRatio(SIZE);
+  view.stage.whileMoving(false); // all of it, even if it moved just now
   try {
     if (!transparent) {
       view.stage.drawNow();

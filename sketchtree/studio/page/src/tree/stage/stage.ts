@@ -4,6 +4,7 @@ import { NeutralToneMapping, PCFShadowMap, Scene, SRGBColorSpace, WebGLRenderer,
 import { Pace } from "./pace";
 
 const REST = 160; // milliseconds after the last motion until the sharp picture
+const REST_SLOW = 420; // where that picture takes a while
 
 export class Stage {
   readonly scene = new Scene();
@@ -17,7 +18,7 @@ export class Stage {
   wide = 1;
   high = 1;
   private asked = 0;
-  private movedAt = -Infinity;
+  private inMotion = false; // asked for by something that moves
   private sharpener = 0;
 
   constructor(private readonly root: HTMLElement) {
@@ -36,7 +37,7 @@ export class Stage {
 
   /** Draw soon. `moving`: more will follow, so quick is better than sharp. */
   draw(moving = false): void {
-    if (moving) this.movedAt = performance.now();
+    this.inMotion ||= moving;
     this.asked ||= requestAnimationFrame((now) => this.frame(now));
   }
 
@@ -61,8 +62,8 @@ export class Stage {
   private frame(now: number): void {
     this.asked = 0;
     const goesOn = this.beforeDraw.map((move) => move(now)).some(Boolean);
-    if (goesOn) this.movedAt = performance.now();
-    const moving = performance.now() - this.movedAt < REST;
+    const moving = this.inMotion || goesOn;
+    this.inMotion = goesOn;
     const ratio = this.pace.ratio(moving, devicePixelRatio);
     if (Math.abs(ratio - this.renderer.getPixelRatio()) > 0.01) this.renderer.setPixelRatio(ratio);
     this.whileMoving(moving);
@@ -71,7 +72,7 @@ export class Stage {
     this.pace.drew(performance.now(), moving);
     clearTimeout(this.sharpener);
     if (goesOn) this.draw(true);
-    else if (moving) this.sharpener = window.setTimeout(() => this.draw(), REST + 20);
+    else if (moving) this.sharpener = window.setTimeout(() => this.draw(), this.pace.software ? REST_SLOW : REST);
   }
 }
 

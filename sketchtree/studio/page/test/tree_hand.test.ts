@@ -1,0 +1,110 @@
+// What does a hand on the tree do?
+
+import { expect, test } from "vitest";
+import { axes, between, framed, metres, panned, place, shortest, turned, zoomed, type Eye, type Point } from "../src/tree/eye/eye";
+import { bent, ends, grips, placeAt, pulled } from "../src/tree/hand/drag";
+import { pick, runsOf, type Ray } from "../src/tree/hand/pick";
+import { depthOf, onPage } from "../src/tree/page/plane";
+import type { MergedWood } from "../src/tree/plant/merge";
+import { unmixed } from "../src/tree/show/capture";
+import { crc32, zipped } from "../src/tree/show/zip";
+
+const EYE: Eye = { azimuth: 0, elevation: 0, distance: 10, target: [0, 5, 0] };
+const near = (a: readonly number[], b: readonly number[]): void => a.forEach((v, k) => expect(v).toBeCloseTo(b[k]!, 6));
+
+test("azimuth 0 looks from the front, 90 from the tree's right", () => {
+  near(place(EYE), [0, 5, 10]);
+  near(place({ ...EYE, azimuth: 90 }), [10, 5, 0]);
+  near(axes({ ...EYE, azimuth: 90 }).right, [0, 0, -1]);
+});
+
+test("no turn goes over the top or under the ground", () => {
+  expect(turned(EYE, 0, 500).elevation).toBe(89.5);
+  expect(turned(EYE, 0, -500).elevation).toBe(-20);
+});
+
+test("what is under the pointer stays there while one comes nearer", () => {
+  const [x, y, high] = [120, -80, 600];
+  const under = (eye: Eye): Point => [eye.target[0] + x * metres(eye, high), eye.target[1] - y * metres(eye, high), 0];
+  near(under(zoomed(EYE, 1.7, x, y, high)), under(EYE));
+});
+
+test("the scene follows the hand that moves it", () => {
+  near(panned(EYE, 100, 0, 600).target, [-100 * metres(EYE, 600), 5, 0]);
+});
+
+test("a framed eye sees every corner of the box", () => {
+  const eye = framed({ ...EYE, azimuth: 30, elevation: 20 }, [-3, 0, -2], [4, 9, 5], 1.2);
+  expect(eye.target).toEqual([0.5, 4.5, 1.5]);
+  expect(eye.distance).toBeGreaterThan(9);
+});
+
+test("a flight turns the short way round", () => {
+  expect(shortest(350)).toBe(-10);
+  expect(between({ ...EYE, azimuth: 350 }, { ...EYE, azimuth: 10 }, 0.5).azimuth).toBe(360);
+});
+
+test("a page at 90 degrees lies where one looks at it from the tree's right", () => {
+  const plane = { scale: 0.5, root: [100, 200] };
+  near(onPage(plane, 0, 104, 190, 1), [2, 5, 1]);
+  near(onPage(plane, 90, 104, 190, 1), [1, 5, -2]);
+  expect(depthOf(90, onPage(plane, 90, 104, 190, 1))).toBeCloseTo(1);
+});
+
+test("a handle seen from its side follows the pointer, seen from its end comes nearer as it is pulled down", () => {
+  const side = (at: Point): readonly [number, number] => [40 * at[2], -40 * at[1]]; // looking along x: depth runs across
+  const end = (at: Point): readonly [number, number] => [40 * at[0], -40 * at[1]]; // looking along z: depth is not seen
+  expect(pulled([0, 0, 0], [0, 0, 1], 80, 5, side, 40)).toBeCloseTo(2);
+  expect(pulled([0, 0, 0], [0, 0, 1], 80, 20, end, 40)).toBeCloseTo(0.5);
+});
+
+test("a limb bends from its foot, which stays, and moves out of its page only", () => {
+  const path = [0, 0, 0, 1, 1, 0, 2, 2, 0];
+  expect([...bent(path, [0, 0.5, 1], 0.5, [0, 0, 1], 3)]).toEqual([0, 0, 0, 1, 1, 3, 2, 2, 3]);
+});
+
+test("a place at a share of a limb lies between its points", () => {
+  near(placeAt([0, 0, 0, 2, 0, 0, 2, 4, 0], [0, 0.5, 1], 0.75), [2, 2, 0]);
+});
+
+test("grips are where a limb is held, at its tip, and between where there is room", () => {
+  expect(grips([])).toEqual([0.25, 0.5, 0.75, 1]);
+  expect(grips([0.52])).toEqual([0.25, 0.52, 0.75, 1]);
+});
+
+test("the foot of a limb nobody drew is its thicker end", () => {
+  const ring = (y: number, radius: number): Point[] => [0, 1, 2, 3].map((k) => [radius * Math.cos((k * Math.PI) / 2), y, radius * Math.sin((k * Math.PI) / 2)]);
+  const [foot, tip] = ends([...ring(5, 0.02), ...ring(2.5, 0.1), ...ring(0, 0.2)]);
+  expect([foot[1], tip[1]]).toEqual([0, 5]);
+});
+
+const WOOD: MergedWood[] = [{
+  material: "bark", normal: new Int8Array(), uv: new Float32Array(),
+  position: Float32Array.of(-1, 0, 0, 1, 0, 0, 0, 2, 0, /* behind it */ -1, 0, -3, 1, 0, -3, 0, 2, -3, /* beside */ 4, 0, 0, 4.01, 0, 0, 4, 2, 0),
+  limb: Float32Array.of(0, 0, 0, 1, 1, 1, 2, 2, 2), index: Uint32Array.of(0, 1, 2, 3, 4, 5, 6, 7, 8),
+}];
+const ray = (x: number, y: number): Ray => ({ from: [x, y, 10], way: [0, 0, -1], start: 0.1, spread: 0 });
+
+test("the nearest limb under the pointer is picked, and a thin one from close by", () => {
+  const runs = runsOf(WOOD);
+  expect(runs.map((run) => run.limb)).toEqual([0, 1, 2]);
+  expect(pick(WOOD, runs, ray(0, 0.5))).toMatchObject({ limb: 0, far: 10 });
+  expect(pick(WOOD, runs, ray(4.05, 0.02))?.limb).toBe(2);
+  expect(pick(WOOD, runs, ray(9, 9))).toBeNull();
+});
+
+test("what is seen on black and on white tells colour and alpha apart", () => {
+  const [black, white] = [Uint8ClampedArray.of(100, 50, 0, 255, 0, 0, 0, 255), Uint8ClampedArray.of(227, 177, 127, 255, 255, 255, 255, 255)];
+  unmixed(black, white);
+  expect([...black]).toEqual([199, 100, 0, 128, 0, 0, 0, 0]);
+});
+
+test("an archive has its files, their sums and its end", async () => {
+  expect(crc32(new TextEncoder().encode("123456789"))).toBe(0xcbf43926);
+  const bytes = new Uint8Array(await zipped([{ name: "a.png", data: Uint8Array.of(1, 2, 3) }]).arrayBuffer());
+  const view = new DataView(bytes.buffer);
+  expect(view.getUint32(0, true)).toBe(0x04034b50);
+  expect(view.getUint32(30 + 5 + 3, true)).toBe(0x02014b50);
+  expect(view.getUint32(bytes.length - 22, true)).toBe(0x06054b50);
+  expect(view.getUint16(bytes.length - 22 + 10, true)).toBe(1);
+});
