@@ -131,6 +131,7 @@ class Desk:
     def leave(self, page: Page) -> None:
         """A page is gone."""
         self._pages.discard(page)
+        page.outbox.close()
         if page.sender is not None:
             page.sender.cancel()
 

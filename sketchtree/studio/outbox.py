@@ -1,7 +1,8 @@
 """What waits to be sent to one page? A page that reads slowly gets the newest of each kind, never a growing heap.
 
 `Changed` messages each say what is different, so none may be left out: where too many wait, one with everything takes their place. A `Tree` frame holds
-only what is new; where one gives way to a newer one, the page gets the whole tree instead of both.
+only what is new; where one gives way to a newer one, the page gets the whole tree instead of both. That is asked for aside, so that nothing else waits for
+it; frames that come meanwhile are sent after it, unless they are older.
 """
 
 import asyncio
@@ -9,13 +10,14 @@ from collections.abc import Awaitable, Callable, Hashable
 
 import msgspec
 
+from sketchtree.errors import SketchTreeError
 from sketchtree.studio import messages
 
 MOST = 4096  # `Changed` messages that wait, and
 MOST_BYTES = 8_000_000  # bytes of them
 _TROUBLES = 16
 
-_WHOLE, _TREE, _GLANCE = "whole", "tree", "glance"
+_WHOLE, _ALL, _TREE, _GLANCE = "whole", "all", "tree", "glance"  # the whole drawing, the whole tree, what is new of the tree, a glance
 _STALE = None  # in the place of a frame: the page needs the whole tree
 
 
@@ -24,6 +26,7 @@ class _Head(msgspec.Struct):
 
     type: str
     phase: str = ""
+    revision: int = 0
 
 
 class Outbox:
@@ -37,6 +40,7 @@ class Outbox:
         self._told = 0  # revision of the last whole message
         self._troubles = 0
         self._some = asyncio.Event()
+        self._asking: asyncio.Task | None = None  # for the whole tree
 
     def __len__(self) -> int:
         return len(self._waiting) + len(self._changes)
@@ -67,32 +71,48 @@ class Outbox:
         self._newest(_TREE, _STALE)
         self._some.set()
 
+    def close(self) -> None:
+        """The page is gone."""
+        if self._asking is not None:
+            self._asking.cancel()
+
     async def next(self) -> bytes | str:
         """What is to be sent now; waits until there is something."""
         while True:
             await self._some.wait()
-            said = await self._taken()
+            said = self._taken()
             if said is not None:
                 return said
 
-    async def _taken(self) -> bytes | str | None:
+    def _taken(self) -> bytes | str | None:
         if _WHOLE in self._waiting:
             return self._taken_whole()
         if self._changes:
             since, said = self._changes.pop(0)
             self._size -= len(said)
             return said if since >= self._told else None
-        if not self._waiting:
+        key = next((key for key in self._waiting if key != _TREE or self._asking is None), None)
+        if key is None:
             self._some.clear()
             return None
-        key = next(iter(self._waiting))
-        said = self._waiting[key]
-        if key != _TREE or said is not _STALE:
-            del self._waiting[key]
-            return said
-        frame = await self._frame()
-        self._waiting.pop(_TREE, None)  # whatever came meanwhile is in it
-        return frame
+        said = self._waiting.pop(key)
+        if key == _TREE and said is _STALE:
+            self._asking = asyncio.get_running_loop().create_task(self._ask())
+        return said
+
+    async def _ask(self) -> None:
+        """The whole tree goes before what came while it was asked for; what is older than it goes."""
+        try:
+            frame = await self._frame()
+        except SketchTreeError:
+            frame = None
+        came = self._waiting.pop(_TREE, b"")
+        if frame is not None:
+            self._newest(_ALL, frame)
+        if came is _STALE or came and (frame is None or head_of(came).revision > head_of(frame).revision):
+            self._newest(_TREE, came)
+        self._asking = None
+        self._some.set()
 
     def _taken_whole(self) -> str:
         del self._waiting[_WHOLE]
@@ -120,7 +140,7 @@ class Outbox:
             self._newest(_GLANCE, frame)
         else:
             self._waiting.pop(_GLANCE, None)
-            self._newest(_TREE, _STALE if _TREE in self._waiting else frame)
+            self._newest(_TREE, _STALE if _TREE in self._waiting else frame)  # pages that wait for the whole tree wait for it once more
 
     def _newest(self, key: Hashable, said) -> None:
         self._waiting.pop(key, None)

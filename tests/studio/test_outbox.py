@@ -3,8 +3,10 @@
 import asyncio
 import json
 
+import pytest
 from fake_engine import frame
 
+from sketchtree.errors import SketchTreeError
 from sketchtree.studio import messages
 from sketchtree.studio.outbox import MOST, Outbox
 
@@ -105,18 +107,47 @@ def test_one_tree_frame_that_waits_is_sent_as_it_is():
     assert all_of(outbox) == [frame(1)] and store.frames == 0
 
 
-def test_frames_that_come_while_the_whole_tree_is_fetched_are_in_it():
+@pytest.mark.parametrize(("came", "then"), [((5,), [6]), ((6,), [6]), ((7,), [6, 7]), ((7, 8), [6, 9])])
+def test_frames_that_come_while_the_whole_tree_is_asked_for_follow_it_unless_they_are_older(came, then):
     async def test():
-        outbox, store = _outbox()
+        revisions = iter((6, 9))
+        gate = asyncio.Event()
 
         async def slow():
-            outbox.put(frame(5))
-            return frame(6)
+            await gate.wait()
+            return frame(next(revisions))
 
-        outbox._frame = slow
+        outbox = Outbox(Store().whole, slow)
+        outbox.everything()
+        assert json.loads(await outbox.next())["since"] == 0
+        asking = asyncio.ensure_future(outbox.next())
+        await asyncio.sleep(0)
+        for revision in came:
+            outbox.put(frame(revision))
+        outbox.put(messages.Working(state="idle", revision=1))
+        assert json.loads(await asking)["type"] == "working"  # nothing else waits for the tree
+        gate.set()
+        assert [await outbox.next() for _ in then] == [frame(revision) for revision in then] and len(outbox) == 0
+
+    asyncio.run(test())
+
+
+def test_where_the_whole_tree_cannot_be_had_what_is_new_of_it_is_sent():
+    async def test():
+        gate = asyncio.Event()
+
+        async def broken():
+            await gate.wait()
+            raise SketchTreeError("It ended.", remedy="Wait.")
+
+        outbox = Outbox(Store().whole, broken)
         outbox.everything()
         await outbox.next()
-        assert await outbox.next() == frame(6) and len(outbox) == 0
+        asking = asyncio.ensure_future(outbox.next())
+        await asyncio.sleep(0)
+        outbox.put(frame(1))
+        gate.set()
+        assert await asking == frame(1)
 
     asyncio.run(test())
 
