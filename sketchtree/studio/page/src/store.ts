@@ -80,11 +80,17 @@ export class Store {
     return () => all.forEach((topic) => this.listeners.get(topic)?.delete(listener));
   }
 
-  /** Tell the listeners, each once. */
+  /** Tell the listeners, each once; one that fails keeps none of the others from hearing it. */
   tell(...topics: Topic[]): void {
     const called = new Set<Listener>();
     for (const topic of topics) for (const listener of this.listeners.get(topic) ?? []) called.add(listener);
-    called.forEach((listener) => listener());
+    for (const listener of called) {
+      try {
+        listener();
+      } catch (error) {
+        reportError(error);
+      }
+    }
   }
 
   /** Something of this page's own is different. */
