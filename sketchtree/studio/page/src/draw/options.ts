@@ -1,5 +1,6 @@
 // What can be set on the tool in hand? A small bar at the page's foot: the pen's width and steadiness, what the eraser takes, what a drag does.
 
+import { button } from "../parts/button";
 import { choice } from "../parts/choice";
 import { element } from "../parts/element";
 import { slider, type Slider } from "../parts/slider";
@@ -24,7 +25,7 @@ export function mountOptions(desk: Desk): HTMLElement {
     const draws = tool === "branch" || tool === "crown" || tool === "obstacle";
     hint.textContent = selectedStrokes.length > 1 ? "Drag moves them" : selectedStrokes.length === 1 ? "Drag reshapes · Alt moves" : "Click or encircle lines";
     const parts: HTMLElement[] = draws ? [pen] : tool === "erase" ? [eraser.root] : tool === "select" ? [hint] : [];
-    if (store.known.underlay && (tool === "select" || draws)) parts.push(underlay);
+    if (store.known.underlay && (tool === "select" || draws)) parts.splice(tool === "select" ? 0 : 1, 1, underlay); // it says more than the hint
     root.hidden = parts.length === 0;
     if (!sameParts(root, parts)) root.replaceChildren(...parts);
     if (tool !== "select" && desk.movesUnderlay) desk.movesUnderlay = false;
@@ -69,12 +70,13 @@ function underlayOptions(desk: Desk): HTMLElement {
     },
   });
   opacity.input.addEventListener("change", () => { if (store.known.underlay) store.send({ type: "setunderlay", underlay: store.known.underlay }); });
-  const moves = toggle({ label: "Move it", on: false, hint: "Drag the picture, or its lower right corner, with the select tool", onSwitch: (on) => {
+  const moves = toggle({ label: "Move", on: false, hint: "Drag the picture, or its lower right corner, with the select tool", onSwitch: (on) => {
     desk.movesUnderlay = on;
     if (on) store.set("tool", "select");
     desk.repaint();
   } });
   store.on("underlay", () => { if (store.known.underlay) opacity.set(store.known.underlay.opacity); });
   store.on("tool", () => moves.set(desk.movesUnderlay && store.ui.tool === "select"));
-  return element("div", { class: "page-pen" }, opacity.root, moves.root);
+  const away = button({ label: "Take the picture away", icon: "trash", iconOnly: true, look: "quiet", testId: "underlay-away", onPress: () => store.send({ type: "setunderlay", underlay: null }) });
+  return element("div", { class: "page-picture" }, opacity.root, moves.root, away);
 }
