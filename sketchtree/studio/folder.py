@@ -84,7 +84,7 @@ class Folder:
 
 def is_name(name: str) -> bool:
     """Can a file be called so, here and on other systems, and is it not hidden?"""
-    if not name or name[0] == "." or name[-1] in ". " or len(name.encode("utf-8", "surrogateescape")) > 240:
+    if not name or name[0] == "." or name[-1] in ". " or len(name.encode("utf-8", "surrogatepass")) > 240:
         return False
     if any(letter in '/\\:*?"<>|' or ord(letter) < 32 or ord(letter) == 127 or 0xD800 <= ord(letter) < 0xE000 for letter in name):
         return False
