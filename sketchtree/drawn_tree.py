@@ -10,6 +10,7 @@ from pathlib import Path
 import numpy as np
 from jaxtyping import Array, Float, Key
 
+from sketchtree.axes import NULL
 from sketchtree.choose import choose_template
 from sketchtree.drawing import read_drawing, read_hand_work
 from sketchtree.editing.attached import Hanging, attach_turned, is_turned, sd_of_rows
@@ -17,7 +18,7 @@ from sketchtree.editing.edits import Edits
 from sketchtree.editing.limbs import LimbLines
 from sketchtree.editing.rows import Drawing
 from sketchtree.editing.settle import Settling, settle
-from sketchtree.editing.settled import Settled
+from sketchtree.editing.settled import Depths, Settled
 from sketchtree.errors import InferenceError
 from sketchtree.geometry.radii import PipeRadii
 from sketchtree.keys import stage_key
@@ -26,7 +27,7 @@ from sketchtree.mrf.infer import Fit
 from sketchtree.mrf.lift import lift
 from sketchtree.mrf.methods import solver_named
 from sketchtree.mrf.prior import Prior
-from sketchtree.mrf.solver import RESULTS
+from sketchtree.mrf.solver import RESULTS, AbstractSolver
 from sketchtree.options import ReadingOptions
 from sketchtree.page import drawn_radius, page_to_world
 from sketchtree.parameters import GENERIC, Habit, TreeParameters
@@ -34,7 +35,7 @@ from sketchtree.roots import root_depth
 from sketchtree.similarity import Similarity
 from sketchtree.sketch.graph import SketchGraph
 from sketchtree.sketch.strokes import Sketch
-from sketchtree.skeleton import Kind, TreeSkeleton
+from sketchtree.skeleton import TreeSkeleton
 from sketchtree.templates.exemplar import Exemplar
 from sketchtree.templates.matching.match import Match
 from sketchtree.templates.store.database import Database
@@ -96,48 +97,101 @@ def draw_out(
         by_hand = read_hand_work(sketch) if edits is None or settled is None else None  # of a project file
         edits, settled = by_hand.edits if edits is None else edits, by_hand.settled if settled is None else settled
         sketch, graph = read_drawing(sketch, options, watch)
-        above = graph.above_ground()
+    asked = _Asked(options, stage_key(key, "infer"), edits, settled, quick)
     with watch("match"):
         templates = templates if templates is not None or options.template == "none" else Database.open()
-        wanted = settled.template if quick and settled.template and options.template == "auto" else options.template
-        matches, exemplar = choose_template(above, templates, wanted, before=settled.template, rank=not quick)
-        habit = exemplar.habit if exemplar else Habit()
-        prior = Prior(exemplar.theta, exemplar.limbs) if exemplar else Prior(GENERIC)
+        matches, exemplar = _template(graph, templates, asked)
     with watch("infer"):
-        factors = factor_graph(above)
-        solver = solver_named(options.method, theta=options.theta, planar=options.planar)
-        solver = solver.with_samples(options.samples, factors) if options.samples else solver
-        asked = f"{options.method} {options.theta} {options.planar} {exemplar.name if exemplar else 'none'}"
-        open_all = bool(len(settled)) and settled.asked != asked
-        infer_key = stage_key(key, "infer")
-        settling = settle(
-            above, factors, prior, solver, edits=edits, settled=settled, key=infer_key, quick=quick, alternatives=options.alternatives, open_all=open_all
-        )
-        fit = settling.fit
-        if fit.result == RESULTS.not_finite:
-            raise InferenceError(f"The depths could not be inferred by `{options.method}`.", remedy=str(RESULTS[fit.result]))
-        similarity = similarity or page_to_world(above, options.height or habit.height)
-        width = np.full(len(graph), np.nan)
-        width[~graph.root] = drawn_radius(sketch, above, similarity, habit)
-        limbs = _settled_limbs(above, fit)
-        fit = _with_roots(fit, graph)
-        tree = lift(graph, fit.depth, Similarity(1.0, (0.0, 0.0, 0.0)), depth_sd=fit.depth_sd)
-        hanging = Hanging(graph, prior, solver, edits, settled, float(above.xy[np.flatnonzero(above.is_base)[0], 0]), infer_key, quick)
-        strokes = {number: stroke for number, stroke in enumerate(sketch.strokes) if is_turned(stroke)}
-        touched, remarks, radius = settling.touched, settling.warnings, width
-        if strokes or edits.adopted:
-            attached = attach_turned(Drawing(tree, np.arange(len(graph))), strokes, hanging)
-            drawing, known = attached.drawing, attached.drawing.source >= 0
-            fit = _of_rows(fit, drawing, sd_of_rows(drawing, fit.depth_sd, attached.settled))
-            graph, tree = drawing.graph(graph, graph.stroke_ids), drawing.tree
-            radius = np.where(known, width[drawing.source], np.nan)
-            limbs, touched, remarks = limbs | attached.settled, touched | attached.touched, (*remarks, *attached.warnings)
-        skeleton = _in_world(tree, similarity, fit.depth_sd)
-        skeleton = PipeRadii(habit, radius)(skeleton, key=stage_key(key, "radii"))
+        return _in_space(sketch, graph, matches, exemplar, asked, similarity, stage_key(key, "radii"))
+
+
+@dataclass(frozen=True, eq=False)
+class _Asked:
+    """How the drawn branches are wanted."""
+
+    options: ReadingOptions
+    key: Key[Array, ""]  # of the stage
+    edits: Edits
+    settled: Settled
+    quick: bool
+
+    def of_depths(self, exemplar: Exemplar | None) -> str:
+        """All that bears on depths beside the drawing: with others, every limb is solved again."""
+        return f"{self.options.method} {self.options.theta} {self.options.planar} {exemplar.name if exemplar else 'none'}"
+
+
+def _template(graph: SketchGraph, templates: Database | None, asked: _Asked) -> tuple[list[Match], Exemplar | None]:
+    """All templates ranked, and the one to use. In a hurry the one in use stays."""
+    hurried = asked.quick and asked.settled.template and asked.options.template == "auto"
+    wanted = asked.settled.template if hurried else asked.options.template
+    return choose_template(graph.above_ground(), templates, wanted, before=asked.settled.template, rank=not asked.quick)
+
+
+def _in_space(sketch, graph: SketchGraph, matches, exemplar, asked: _Asked, similarity: Similarity | None, radii_key) -> DrawnTree:
+    """Depths, what hangs on turned pages and what was adopted, and the scale: a skeleton."""
+    above, options = graph.above_ground(), asked.options
+    habit = exemplar.habit if exemplar else Habit()
+    prior = Prior(exemplar.theta, exemplar.limbs) if exemplar else Prior(GENERIC)
+    solver, settling = _settled(above, prior, asked, exemplar)
+    similarity = similarity or page_to_world(above, options.height or habit.height)
+    radius = np.full(len(graph), np.nan)
+    radius[~graph.root] = drawn_radius(sketch, above, similarity, habit)
+    front = _Front(graph, _with_roots(settling.fit, graph), radius, _settled_limbs(above, settling.fit), settling.touched, settling.warnings)
+    axis = float(above.xy[np.flatnonzero(above.is_base)[0], 0])
+    hanging = Hanging(graph, prior, solver, asked.edits, asked.settled, axis, asked.key, asked.quick)
+    front, tree = _with_attached(front, sketch, hanging)
+    skeleton = PipeRadii(habit, front.radius)(_in_world(tree, similarity, front.fit.depth_sd), key=radii_key)
+    now = _as_settled(front, asked, exemplar, axis)
     held = options.theta == "fixed"
-    now = _as_settled(limbs, settled, fit, exemplar, asked, hanging.axis)
-    theta = fit.theta_before if held else now.theta
-    return DrawnTree(graph, matches, exemplar, fit, similarity, skeleton, radius, habit, held, theta, sketch, edits, now, touched, remarks)
+    theta = front.fit.theta_before if held else now.theta
+    return DrawnTree(
+        front.graph, matches, exemplar, front.fit, similarity, skeleton, front.radius, habit, held, theta, sketch, asked.edits, now, front.touched, front.remarks
+    )
+
+
+def _settled(above: SketchGraph, prior: Prior, asked: _Asked, exemplar: Exemplar | None) -> tuple[AbstractSolver, Settling]:
+    """(what solves, the depths of the front page). Raises InferenceError."""
+    options, factors = asked.options, factor_graph(above)
+    solver = solver_named(options.method, theta=options.theta, planar=options.planar)
+    solver = solver.with_samples(options.samples, factors) if options.samples else solver
+    open_all = bool(len(asked.settled)) and asked.settled.asked != asked.of_depths(exemplar)
+    settling = settle(
+        above, factors, prior, solver, edits=asked.edits, settled=asked.settled, key=asked.key, quick=asked.quick, alternatives=options.alternatives, open_all=open_all
+    )
+    if settling.fit.result == RESULTS.not_finite:
+        raise InferenceError(f"The depths could not be inferred by `{options.method}`.", remedy=str(RESULTS[settling.fit.result]))
+    return solver, settling
+
+
+@dataclass(frozen=True, eq=False)
+class _Front:
+    """What is known of the drawn limbs, row by row of the graph, and limb by limb."""
+
+    graph: SketchGraph
+    fit: Fit
+    radius: Float[np.ndarray, " segment"]  # metres
+    limbs: dict[int, Depths]
+    touched: frozenset[int]
+    remarks: tuple[str, ...]
+
+
+def _with_attached(front: _Front, sketch: Sketch, hanging: Hanging) -> tuple[_Front, TreeSkeleton]:
+    """(the same with the strokes of turned pages and with adopted limbs, its tree in sketch units)."""
+    tree = lift(front.graph, front.fit.depth, Similarity(1.0, (0.0, 0.0, 0.0)), depth_sd=front.fit.depth_sd)
+    strokes = {number: stroke for number, stroke in enumerate(sketch.strokes) if is_turned(stroke)}
+    if not strokes and not hanging.edits.adopted:
+        return front, tree
+    attached = attach_turned(Drawing(tree, np.arange(len(front.graph))), strokes, hanging)
+    drawing, known = attached.drawing, attached.drawing.source != NULL
+    whole = _Front(
+        drawing.graph(front.graph, front.graph.stroke_ids),
+        _of_rows(front.fit, drawing, sd_of_rows(drawing, front.fit.depth_sd, attached.settled)),
+        np.where(known, front.radius[drawing.source], np.nan),
+        front.limbs | attached.settled,
+        front.touched | attached.touched,
+        (*front.remarks, *attached.warnings),
+    )
+    return whole, drawing.tree
 
 
 def _settled_limbs(graph: SketchGraph, fit: Fit) -> dict:
@@ -145,11 +199,12 @@ def _settled_limbs(graph: SketchGraph, fit: Fit) -> dict:
     return {line.limb: line.depths(graph, fit.depth, fit.depth_sd, graph.stroke_ids) for line in lines.lines}
 
 
-def _as_settled(limbs: dict, before: Settled, fit: Fit, exemplar: Exemplar | None, asked: str, axis: float) -> Settled:
+def _as_settled(front: _Front, asked: _Asked, exemplar: Exemplar | None, axis: float) -> Settled:
     """What is settled now. Θ stays what it was while the drawing is about as large and the question the same: one stroke more leaves what grew elsewhere alone."""
-    same = before.theta is not None and before.asked == asked and abs(len(limbs) - before.counted) <= _ANOTHER * before.counted
-    theta, counted = (before.theta, before.counted) if same else (fit.theta, len(limbs))
-    return Settled(limbs, exemplar.name if exemplar else None, asked, theta, counted, axis)
+    before, bears, count = asked.settled, asked.of_depths(exemplar), len(front.limbs)
+    same = before.theta is not None and before.asked == bears and abs(count - before.counted) <= _ANOTHER * before.counted
+    theta, counted = (before.theta, before.counted) if same else (front.fit.theta, count)
+    return Settled(front.limbs, exemplar.name if exemplar else None, bears, theta, counted, axis)
 
 
 def _with_roots(fit: Fit, graph: SketchGraph) -> Fit:
@@ -164,7 +219,7 @@ def _with_roots(fit: Fit, graph: SketchGraph) -> Fit:
 
 def _of_rows(fit: Fit, drawing: Drawing, sd) -> Fit:
     """The fit with a row for every row of a drawing that has more; its posterior and other readings are those of the front page and are left out."""
-    place = np.flatnonzero(drawing.source >= 0)
+    place = np.flatnonzero(drawing.source != NULL)
     row = np.zeros(drawing.source.max() + 1, np.int64)
     row[drawing.source[place]] = place
     return dataclasses.replace(fit, depth=np.array(drawing.tree.tip[:, 2]), depth_sd=sd, posterior=None, alternatives=(), wanted=0, overlaps=row[fit.overlaps])

@@ -28,7 +28,7 @@ from sketchtree.mrf.prior import Prior
 from sketchtree.mrf.sampling.locks import STEEPEST
 from sketchtree.sketch.graph import SketchGraph
 from sketchtree.sketch.strokes import Stroke, StrokeKind
-from sketchtree.skeleton import TreeSkeleton
+from sketchtree.skeleton import Kind
 from sketchtree.traverse import sum_from_root
 
 _BEND = 0.012  # of the height: a node where a stroke bends more
@@ -135,7 +135,7 @@ def _solved(drawing: Drawing, limb: int, foot: int, view: float, hanging: Hangin
     """(depth at the foot and at every node of the limb, its sd), on its own page, all else held as well as that page allows."""
     ids = hanging.graph.stroke_ids
     turned = on_other_page(drawing.tree, lambda point: on_page(point, view, hanging.axis))
-    turned = _only_above(turned)
+    turned = turned.select(turned.kind != Kind.ROOT)
     graph = Drawing(turned, drawing.source[: len(turned)]).graph(hanging.graph, ids).replace(crown=())
     factors = factor_graph(graph)
     free = factors.limb_id == limb
@@ -150,12 +150,6 @@ def _solved(drawing: Drawing, limb: int, foot: int, view: float, hanging: Hangin
     at = turned.tip[foot, 2]
     sd = fit.depth_sd[mine] if np.isfinite(fit.depth_sd[mine]).all() else np.zeros(len(mine))
     return np.r_[at, at + fit.depth[mine] - fit.depth[k]], np.r_[0.0, sd]
-
-
-def _only_above(tree: TreeSkeleton) -> TreeSkeleton:
-    from sketchtree.skeleton import Kind
-
-    return tree.select(tree.kind != Kind.ROOT)
 
 
 def _reachable(factors, depth):
@@ -191,11 +185,6 @@ def _with_adopted(drawing: Drawing, adopted: Adopted, settled: dict[int, Depths]
     along = np.r_[0.0, np.cumsum(np.linalg.norm(np.diff(points[:, :2], axis=0), axis=1))]
     share = along / max(along[-1], 1e-300)
     return drawing, Depths(share, points[:, 2], np.zeros(len(points)), _course(points[:, :2], along), adopted.parent, ())
-
-
-def settled_of(limbs: dict[int, Depths], settled: Settled, **fields) -> Settled:
-    """What is settled now: of the limbs given, and nothing of those that are gone."""
-    return dataclasses.replace(settled, limbs=limbs, **fields)
 
 
 def sd_of_rows(drawing: Drawing, sd: Float[np.ndarray, " graph_row"], attached: dict[int, Depths]) -> Float[np.ndarray, " segment"]:
