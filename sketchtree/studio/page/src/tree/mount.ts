@@ -39,7 +39,7 @@ export interface TreeViews {
 }
 
 const THINNED = 0.3; // of the leaves, while the view moves and no graphics card draws it
-const SEEN_THROUGH = 0.3; // of the leaves, while wood is chosen or its doubt shown
+const SEEN_THROUGH = 0.2; // of the leaves, while wood is chosen or its doubt shown
 
 export function mountTree(root: HTMLElement, store: Store): TreeViews {
   const about = "Tree in 3D. Arrows turn, plus and minus come nearer. Tab walks through the limbs, Enter takes a limb's handle, Escape lets go.";
@@ -66,7 +66,7 @@ function fill(view: View, store: Store): TreeViews {
   const textures = new Textures((key, kind) => store.address(`./texture/${key}/${kind}.png`), stage.pace.software ? 1 : Math.min(8, stage.renderer.capabilities.getMaxAnisotropy()));
   const scenery = new Scenery(lighting, textures, stage.pace.software, () => stage.shadows());
   stage.scene.add(scenery.group);
-  if (stage.pace.software) stage.whileMoving = (moving) => scenery.thin(moving ? THINNED : 1);
+  if (stage.pace.software) stage.whileMoving = (moving) => scenery.thin(Math.min(moving ? THINNED : 1, lighting.leafShare.value));
   const chosen = new Chosen(view, scenery, lighting.marks, store);
   const handles = new Handles(view, chosen, store, new Guide(view, stage.scene));
   const toolbar = new Toolbar(view, chosen, store);
@@ -120,6 +120,7 @@ function followFrames(view: View, store: Store, { scenery, chosen, weather, grou
       if (first) view.look(view.whole());
     }
     if (store.ui.uncertainty) scenery.doubt(doubtColours(scenery.now, store.known.limbs));
+    ghosts.show([], 0); // what was to come is there
     chosen.renew();
     view.stage.shadows();
   });

@@ -8,6 +8,8 @@ import { placeAt } from "./drag";
 import type { Chosen } from "./chosen";
 import type { View } from "../view";
 
+const CLEAR = 26; // pixels between it and the limb, so that no handle is under it
+
 export class Toolbar {
   private readonly bar: HTMLElement;
   private readonly lock: HTMLButtonElement;
@@ -67,11 +69,13 @@ export class Toolbar {
   private follow(): void {
     const one = this.bar.hidden ? null : this.chosen.now;
     if (!one) return;
-    const [x, y] = this.view.project(placeAt(one.path, one.share, 0.75));
+    const seen = [0, 0.25, 0.5, 0.75, 1].map((share) => this.view.project(placeAt(one.path, one.share, share)));
     const [wide, high] = [this.bar.offsetWidth, this.bar.offsetHeight];
-    const left = Math.min(Math.max(8, x - wide / 2), this.view.stage.wide - wide - 8);
-    const above = y - high - 34;
-    const top = Math.min(Math.max(8, above < 8 ? y + 34 : above), this.view.stage.high - high - 56);
+    const middle = (Math.min(...seen.map(([x]) => x)) + Math.max(...seen.map(([x]) => x))) / 2;
+    const left = Math.min(Math.max(8, middle - wide / 2), this.view.stage.wide - wide - 8);
+    const above = Math.min(...seen.map(([, y]) => y)) - high - CLEAR;
+    const below = Math.max(...seen.map(([, y]) => y)) + CLEAR;
+    const top = Math.min(Math.max(8, above < 8 ? below : above), this.view.stage.high - high - 60);
     this.bar.style.transform = `translate(${left.toFixed(0)}px, ${top.toFixed(0)}px)`;
   }
 }

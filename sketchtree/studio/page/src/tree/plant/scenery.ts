@@ -44,7 +44,7 @@ export class Scenery {
     this.changed();
   }
 
-  /** Draw this share of the leaves, where they are baked: while it moves on a slow machine. */
+  /** Draw this share of the leaves, where they are baked; elsewhere the shader leaves them out. Their shadow is always that of all. */
   thin(share: number): void {
     for (const { geometry } of this.meshes) {
       const { corners } = geometry.userData;
@@ -90,6 +90,9 @@ export class Scenery {
     const worn = this.surface(plant.materials.get(card.material)!, "leaf");
     const mesh = new Mesh(geometry, worn.surface);
     mesh.customDepthMaterial = worn.shadow ?? undefined;
+    let shown = Infinity;
+    mesh.onBeforeShadow = () => { shown = geometry.drawRange.count; geometry.setDrawRange(0, Infinity); };
+    mesh.onAfterShadow = () => geometry.setDrawRange(0, shown);
     return mesh;
   }
 

@@ -39,7 +39,7 @@ export interface Lighting {
   marks: Marks;
   doubt: { value: number }; // 1: limbs wear the colour of how sure their depth is
   sunByGrid: boolean; // wood learns from the grid how much sun is left, not from a shadow map; leaves always do: softer than a shadow of each on each
-  leafShare: { value: number }; // how much of each leaf is there: less while wood is chosen or looked at
+  leafShare: { value: number }; // how many of the leaves are there: fewer while wood is chosen or looked at
 }
 
 const DARKEST = 0.2; // of the sky's light, in the deepest crown: leaves hand it on to each other
@@ -49,6 +49,7 @@ vec3 turned(vec3 p) { vec4 q = normalize(aTurn); return p + 2.0 * cross(q.xyz, c
 `;
 const PLACED_NORMAL = "vec3 objectNormal = normalize(turned(normal / aScale));";
 const PLACED_POINT = "vec3 transformed = aPlace + turned(aScale * position);";
+const THINNED = "if (fract(float(gl_InstanceID) * 0.618034) >= uLeafShare) transformed = aPlace;"; // all its corners at one point: not drawn
 const SKY = "uniform sampler3D uSky; uniform vec3 uSkyLow; uniform vec3 uSkySize; uniform float uSunByGrid; varying vec2 vSky;\n";
 const SKY_IN = "varying vec2 vSky;\n";
 const SKY_AT = `vSky = mix(vec2(${DARKEST}, 1.0 - uSunByGrid), vec2(1.0), texture(uSky, (transformed - uSkyLow) / uSkySize).rg);`;
@@ -80,15 +81,13 @@ export function leafMaterial(of: Material, lighting: Lighting, passing: { value:
     shader.uniforms.uPassing = passing;
     shader.uniforms.uPasses = { value: of.translucency };
     shader.uniforms.uLeafShare = lighting.leafShare;
-    shader.vertexShader = `varying vec3 vTint; ${isBaked ? "attribute vec3 aTint;" : PLACED}\n${SKY}` + shader.vertexShader
+    shader.vertexShader = `varying vec3 vTint; ${isBaked ? "attribute vec3 aTint;" : `uniform float uLeafShare; ${PLACED}`}\n${SKY}` + shader.vertexShader
       .replace("#include <beginnormal_vertex>", isBaked ? "#include <beginnormal_vertex>" : PLACED_NORMAL)
-      .replace("#include <begin_vertex>", `${isBaked ? "#include <begin_vertex>" : PLACED_POINT}\nvTint = aTint; ${SKY_AT}`);
-    shader.fragmentShader = `varying vec3 vTint; uniform float uPasses; uniform float uLeafShare; uniform sampler2D uPassing; vec3 passed;
-float speckle(vec2 p) { return fract(52.9829189 * fract(dot(p, vec2(0.06711056, 0.00583715)))); } ${SKY_IN}`
+      .replace("#include <begin_vertex>", `${isBaked ? "#include <begin_vertex>" : PLACED_POINT + THINNED}\nvTint = aTint; ${SKY_AT}`);
+    shader.fragmentShader = `varying vec3 vTint; uniform float uPasses; uniform sampler2D uPassing; vec3 passed; ${SKY_IN}`
       + shader.fragmentShader
         .replace("#include <lights_physical_pars_fragment>", passingLight(ShaderChunk.lights_physical_pars_fragment))
         .replace("#include <aomap_fragment>", SKY_FALLS)
-        .replace("#include <alphatest_fragment>", "#include <alphatest_fragment>\nif (uLeafShare < 1.0 && speckle(gl_FragCoord.xy) > uLeafShare) discard;")
         .replace("#include <map_fragment>", `#include <map_fragment>\ndiffuseColor.rgb *= vTint;
 #ifdef USE_MAP
 passed = uPasses * vTint * texture2D(uPassing, vMapUv).rgb;

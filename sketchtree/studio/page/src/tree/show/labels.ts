@@ -18,7 +18,7 @@ export class Labels {
   constructor(private readonly view: View, private readonly figure: Figure, private readonly store: Store) {
     view.root.append(this.layer);
     view.stage.afterDraw.push(() => this.follow());
-    store.on(["limbs", "figure", "tree"], () => this.renew());
+    store.on(["limbs", "figure", "tree", "selected"], () => this.renew());
   }
 
   renew(): void {
@@ -30,7 +30,7 @@ export class Labels {
       this.put("tree-height", `${TALL} m`, () => [x, TALL, z]);
       this.put("tree-height whole", `${tree.height.toFixed(tree.height < 10 ? 1 : 0)} m`, () => [0, tree.height, 0]);
     }
-    for (const limb of limbs.filter((one) => one.locked || one.held.length).slice(0, MOST)) {
+    for (const limb of limbs.filter((one) => (one.locked || one.held.length) && one.id !== this.store.ui.selected).slice(0, MOST)) { // the chosen one has its handles there
       const label = this.put("tree-lock", "", () => markAt(limb));
       label.append(icon(limb.locked ? "lock" : "pin"));
     }
