@@ -47,10 +47,14 @@ class Hand:
         theirs.close()
         threading.Thread(target=self._listen, args=(self._pipe,), daemon=True).start()
 
-    def ask(self, kind: str, *arguments: object) -> tuple[int, asyncio.Future]:
-        """(the job's number, its answer to be). None is answered to a job that was stopped."""
+    def ready(self) -> None:
+        """Start the process, unless it runs."""
         if self._process is None or not self._process.is_alive():
             self.begin()
+
+    def ask(self, kind: str, *arguments: object) -> tuple[int, asyncio.Future]:
+        """(the job's number, its answer to be). None is answered to a job that was stopped."""
+        self.ready()
         self._number += 1
         answer = self._loop.create_future()
         self._waiting[self._number] = answer
@@ -131,6 +135,7 @@ class Crew:
         self._loop = asyncio.get_running_loop()
         for role in _ROLES:
             self._hands[role] = Hand(role, self._database, self._event if role == "full" else lambda number, value: None)
+        for role in ("side", "full"):  # the quick one begins when there is a tree to hurry after
             self._hands[role].begin()
 
     async def stop(self) -> None:
@@ -165,6 +170,7 @@ class Crew:
             return
         frame, digests, basis = found
         self._known, self._basis = digests, basis
+        self._hands["quick"].ready()
         self.on_outcome(Outcome(revision, frame, settled=basis.settled))
         self._say(messages.Working(state="idle", revision=revision))
 

@@ -1,15 +1,14 @@
-"""What can a worker be asked for? Each kind of job is a method."""
+"""What can a worker be asked for? Each kind of job is a method; what it needs is imported when it is asked for the first time."""
 
 import dataclasses
 import tempfile
+from functools import cached_property
 from pathlib import Path
 
 from sketchtree.editing.document import Document
-from sketchtree.keys import root_key
 from sketchtree.options import FileOptions, options_as_dict
-from sketchtree.studio.making import work
-from sketchtree.studio.making.chunks import Chunks, chunks_of
 from sketchtree.studio.making.textures import Textures, thumbnail
+from sketchtree.studio.making.watching import watching
 from sketchtree.templates.store.database import Database
 
 
@@ -18,17 +17,28 @@ class Jobs:
 
     def __init__(self, database: Path | None, desk):
         self.templates = Database.open(database)
-        self.bench, self.glance_bench = work.Bench(self.templates), work.Bench(self.templates)
         self.textures = Textures()
         self.desk = desk
         self._shown: tuple | None = None  # revision, document, drawn, tree, chunks of the last full tree
 
     def do(self, number: int, kind: str, arguments: tuple) -> object:
         """The answer to one job."""
-        watch = work.watching(
-            lambda stage, done: self.desk.say(number, "event", ("working", stage, done)), lambda: self.desk.stopped(number, kind)
-        )
+        watch = watching(lambda stage, done: self.desk.say(number, "event", ("working", stage, done)), lambda: self.desk.stopped(number, kind))
         return getattr(self, f"_{kind}")(number, watch, *arguments)
+
+    @cached_property
+    def bench(self):
+        """Where the tree is made."""
+        from sketchtree.studio.making.work import Bench
+
+        return Bench(self.templates)
+
+    @cached_property
+    def glance_bench(self):
+        """Where one is made that is not kept."""
+        from sketchtree.studio.making.work import Bench
+
+        return Bench(self.templates)
 
     def warm_up(self) -> None:
         """Compile what every drawing needs, before it is asked for."""
@@ -37,6 +47,9 @@ class Jobs:
         warm_up()
 
     def _full(self, number, watch, revision: int, document: Document, known: dict[str, str]):
+        from sketchtree.keys import root_key
+        from sketchtree.studio.making import work
+        from sketchtree.studio.making.chunks import chunks_of
         from sketchtree.studio.making.remarks import how_like, how_read
 
         drawn = work.drawn_tree(self.bench, document, watch)
@@ -54,16 +67,24 @@ class Jobs:
     def _frame(self, number, watch):
         if self._shown is None:
             return None
+        from sketchtree.studio.making import work
+
         revision, document, drawn, tree, chunks = self._shown
         return work.tree_frame(revision, "full", document, drawn, tree, chunks, {})[0]
 
-    def _quick(self, number, watch, revision: int, document: Document, basis: work.Basis | None):
+    def _quick(self, number, watch, revision: int, document: Document, basis):
+        from sketchtree.studio.making import work
+
         drawn, tree, chunks = work.hurried(self.bench, document, basis, watch)
         self.textures.remember(chunks.materials)
         frame, digests = work.tree_frame(revision, "quick", document, drawn, tree, chunks, {}, basis)
         return frame, digests, drawn.settled
 
     def _glance(self, number, watch, revision: int, document: Document, known: dict[str, str]):
+        from sketchtree.keys import root_key
+        from sketchtree.studio.making import work
+        from sketchtree.studio.making.chunks import chunks_of
+
         drawn = work.drawn_tree(self.glance_bench, document, watch)
         tree = work.leafy_tree(self.glance_bench, document, drawn, watch)
         chunks = chunks_of(tree, key=root_key(document.seed))
@@ -94,6 +115,7 @@ class Jobs:
         return document_of(data, name)
 
     def _model(self, document: Document, watch, tree_options):
+        from sketchtree.keys import root_key
         from sketchtree.pipeline import complete, draw_out
 
         key = root_key(document.seed)
@@ -138,7 +160,9 @@ class Jobs:
         return catalogue(self.templates)
 
 
-def _basis(drawn, tree, chunks: Chunks, digests: dict[str, str]) -> work.Basis:
-    return work.Basis(
+def _basis(drawn, tree, chunks, digests: dict[str, str]):
+    from sketchtree.studio.making.work import Basis
+
+    return Basis(
         drawn.similarity.scale, drawn.similarity.translate, tuple(digests), drawn.settled, tree.skeleton.segment_count, len(tree.leaves), chunks.triangles
     )

@@ -6,7 +6,6 @@ What was worked out for the last document is used again as far as it still holds
 import dataclasses
 import hashlib
 import pickle
-from collections.abc import Callable
 from dataclasses import dataclass
 
 import numpy as np
@@ -25,14 +24,11 @@ from sketchtree.studio import messages
 from sketchtree.studio.making.chunks import Chunks, chunks_of, owners
 from sketchtree.studio.making.frames import Arrays
 from sketchtree.studio.making.limb_table import limb_table
+from sketchtree.studio.making.watching import Stopped
 from sketchtree.templates.store.database import Database
 from sketchtree.watch import Watch
 
 _GROWING = ("generations", "fill", "max_segments", "density", "light", "obstacle")
-
-
-class Stopped(Exception):
-    """A newer document came, or there is nothing to hurry about."""
 
 
 _MOST = 16  # limbs that are hurried; more of them come with the full tree, which takes hardly longer
@@ -183,21 +179,3 @@ def _moved(drawn: DrawnTree, before: Settled) -> frozenset[int]:
 def _light(options):
     """The same options without what takes long."""
     return dataclasses.replace(options, fill=False, light=0.0)
-
-
-def watching(tell: Callable[[str, float], None], stopped: Callable[[], bool]) -> Watch:
-    """A watch that tells which stage runs, and ends the job when a newer one came."""
-    now = {"stage": ""}
-
-    def stage(name: str) -> None:
-        if stopped():
-            raise Stopped
-        now["stage"] = name
-        tell(name, 0.0)
-
-    def part(done: float) -> None:
-        if stopped():
-            raise Stopped
-        tell(now["stage"], done)
-
-    return Watch(stage, part)

@@ -69,7 +69,7 @@ def main(pipe: Connection, database: str | None, warm: bool) -> None:
 
 
 def _do(jobs, desk: Desk, number: int, kind: str, arguments: tuple) -> None:
-    from sketchtree.studio.making.work import Stopped
+    from sketchtree.studio.making.watching import Stopped
 
     try:
         desk.say(number, "done", jobs.do(number, kind, arguments))
