@@ -32,6 +32,7 @@ _GROWING = ("generations", "fill", "max_segments", "density", "light", "obstacle
 
 
 _MOST = 16  # limbs that are hurried; more of them come with the full tree, which takes hardly longer
+_SAME = 0.003  # of the height: a limb that moved less stays as it is shown until the full tree comes
 
 
 @dataclass(frozen=True)
@@ -165,7 +166,7 @@ def hurried(bench: Bench, document: Document, basis: Basis | None, watch: Watch)
 
 def _moved(drawn: DrawnTree, before: Settled) -> frozenset[int]:
     """Limbs that are new, or not where they were."""
-    near = 1e-4 * max(drawn.graph.height, 1e-300)
+    near = _SAME * max(drawn.graph.height, 1e-300)
 
     def same(limb: int, now: Depths) -> bool:
         was = before.limbs.get(limb)
