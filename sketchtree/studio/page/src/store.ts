@@ -4,7 +4,9 @@
 //
 // `known` mirrors what the program said last; `ui` is this page's own and is never sent.
 
-import type { Alternatives, Changed, Edit, Event, Ghost, Limb, Matches, Options, Read, Request, Stroke, Strokes, Tree, Trouble, Underlay, Welcome, Working } from "./messages";
+import type {
+  Alternatives, Changed, Edit, Event, Ghost, Limb, Matches, Options, Read, Request, Stroke, Strokes, Tree, Trouble, Underlay, Welcome, Working,
+} from "./messages";
 import { Echo } from "./link/echo";
 
 export type Tool = "branch" | "crown" | "obstacle" | "erase" | "select" | "pan";
@@ -63,7 +65,7 @@ export class Store {
   frame: { head: Tree; arrays: Arrays } | null = null; // the frame just come; listeners of "frame" take it at once
   ghost: { head: Ghost; arrays: Arrays } | null = null;
   send: (request: Request) => void = () => {}; // set by link/
-  address: (path: string) => string = (path) => path; // where a picture of the program is ("/texture/…", "/underlay/…"); link/ may know better: a notebook has no server
+  address: (path: string) => string = (path) => path; // of a picture of the program ("/texture/…", "/underlay/…"); a notebook has no server, and others
 
   pending: Strokes[] = []; // sent and not confirmed yet; link/ keeps it
   private readonly echo = new Echo(); // what the program has, and what is on its way
@@ -125,7 +127,12 @@ export class Store {
       case "matches": known.matches = event; this.tell("matches"); break;
       case "alternatives": known.alternatives = event; this.tell("alternatives"); break;
       case "read": known.read = event; this.tell("read"); break;
-      case "saved": if (known.welcome) known.welcome = { ...known.welcome, files: event.files }; known.name = event.name; known.saved = true; this.tell("saved", "name", "welcome"); break;
+      case "saved":
+        if (known.welcome) known.welcome = { ...known.welcome, files: event.files };
+        known.name = event.name;
+        known.saved = true;
+        this.tell("saved", "name", "welcome");
+        break;
       case "tree":
         known.tree = event;
         if (event.limbs) this.limbs(event.limbs);

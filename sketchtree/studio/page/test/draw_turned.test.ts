@@ -7,7 +7,9 @@ import { projected } from "../src/draw/turned";
 import { sideName } from "../src/draw/view_corner";
 import type { Limb } from "../src/messages";
 
-const limb: Limb = { id: "1", strokes: [], parent: null, order: 0, locked: false, held: [], share: [0, 1], path: [0, 0, 0, 1, 2, 3], sd: [0, 0], view_deg: 0, was: null };
+const limb: Limb = {
+  id: "1", strokes: [], parent: null, order: 0, locked: false, held: [], share: [0, 1], path: [0, 0, 0, 1, 2, 3], sd: [0, 0], view_deg: 0, was: null,
+};
 const tree = { scale: 0.5, root: [10, 100] };
 
 describe("a turned page", () => {

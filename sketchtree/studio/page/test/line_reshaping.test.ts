@@ -3,7 +3,9 @@ import { isCaught, isInside, nearest } from "../src/draw/line/nearness";
 import { moved, pulled } from "../src/draw/line/reshaping";
 import type { Stroke } from "../src/messages";
 
-const straight: Stroke = { id: "a", kind: "branch", xy: Array.from({ length: 11 }, (_, k) => [10 * k, 0]).flat(), pressure: null, time: null, width: null, closed: false, view_deg: 0 };
+const straight: Stroke = {
+  id: "a", kind: "branch", xy: Array.from({ length: 11 }, (_, k) => [10 * k, 0]).flat(), pressure: null, time: null, width: null, closed: false, view_deg: 0,
+};
 const square: Stroke = { ...straight, id: "c", kind: "crown", xy: [0, 0, 100, 0, 100, 100, 0, 100], closed: true };
 
 describe("reshaping", () => {

@@ -7,7 +7,8 @@ const curve = (count: number, place: (share: number) => [number, number]): Sampl
   return { x, y, pressure: 0.5, time: k * 4 };
 });
 
-const farthest = (line: Sample[], kept: Sample[]): number => Math.max(...line.map((sample) => Math.min(...kept.slice(1).map((to, k) => distanceToSpan(sample, kept[k]!, to)))));
+const away = (sample: Sample, kept: Sample[]): number => Math.min(...kept.slice(1).map((to, k) => distanceToSpan(sample, kept[k]!, to)));
+const farthest = (line: Sample[], kept: Sample[]): number => Math.max(...line.map((sample) => away(sample, kept)));
 
 const bow = curve(600, (share) => [400 * share, 150 * Math.sin(2 * Math.PI * share)]);
 

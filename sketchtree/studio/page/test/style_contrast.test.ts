@@ -28,7 +28,9 @@ for (const selector of ['[data-theme="light"]', '[data-theme="dark"]']) {
     const colours = theme(selector);
     const between = (a: string, b: string): number => contrast(colours.get(a)!, colours.get(b)!);
 
-    for (const text of TEXTS) for (const ground of GROUNDS) test(`${text} can be read on ${ground} (4.5)`, () => expect(between(text, ground)).toBeGreaterThanOrEqual(4.5));
+    for (const text of TEXTS) for (const ground of GROUNDS) {
+      test(`${text} can be read on ${ground} (4.5)`, () => expect(between(text, ground)).toBeGreaterThanOrEqual(4.5));
+    }
     test("text on what is chosen can be read (4.5)", () => {
       expect(between("--accent", "--accent-soft")).toBeGreaterThanOrEqual(4.5);
       expect(between("--ink", "--accent-soft")).toBeGreaterThanOrEqual(4.5);

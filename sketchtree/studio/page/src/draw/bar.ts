@@ -21,7 +21,9 @@ export function mountBar(root: HTMLElement, store: Store): void {
   for (const one of [gallery, out]) one.classList.add("bar-word");
   root.append(
     element("span", { class: "mark", aria: { hidden: "true" } }, icon("branch")),
-    quiet("New page", "new", "Ctrl+Alt+N", "new", () => newPage(store)), quiet("Open", "open", "Ctrl+O", "open", () => openDialog("open")), quiet("Save", "save", "Ctrl+S", "save", () => openDialog("save")),
+    quiet("New page", "new", "Ctrl+Alt+N", "new", () => newPage(store)),
+    quiet("Open", "open", "Ctrl+O", "open", () => openDialog("open")),
+    quiet("Save", "save", "Ctrl+S", "save", () => openDialog("save")),
     element("span", { class: "bar-gap", role: "separator" }), undo, redo, title(store), element("span", { class: "bar-space" }),
     gallery, layoutButton(store), themeButton(store), quiet("Keys and gestures", "help", "?", "help", () => sheet.open()), drawerButton(), out,
   );
@@ -48,7 +50,8 @@ function newPage(store: Store): void {
 /** The drawing's name, and a dot while its file is behind. */
 function title(store: Store): HTMLElement {
   const name = element("span", { class: "name" });
-  const root = element("span", { class: "title", title: "Name of the project" }, name, element("span", { class: "unsaved", title: "Not saved to a file yet. It is kept safe all the same.", role: "img", aria: { label: "not saved" } }));
+  const unsaved = element("span", { class: "unsaved", title: "Not saved to a file yet. It is kept safe all the same.", role: "img", aria: { label: "not saved" } });
+  const root = element("span", { class: "title", title: "Name of the project" }, name, unsaved);
   const show = (): void => {
     name.textContent = (store.known.name ?? "Untitled").replace(/\.sketchtree$/, "");
     root.classList.toggle("saved", store.known.saved);
@@ -60,7 +63,8 @@ function title(store: Store): HTMLElement {
 }
 
 function layoutButton(store: Store): HTMLButtonElement {
-  const made = button({ label: "The page over the tree", icon: "over", iconOnly: true, look: "quiet", testId: "layout", onPress: () => store.set("layout", store.ui.layout === "over" ? "beside" : "over") });
+  const other = (): void => store.set("layout", store.ui.layout === "over" ? "beside" : "over");
+  const made = button({ label: "The page over the tree", icon: "over", iconOnly: true, look: "quiet", testId: "layout", onPress: other });
   const show = (): void => {
     document.body.dataset.layout = store.ui.layout;
     press(made, store.ui.layout === "over");
@@ -82,7 +86,8 @@ function themeButton(store: Store): HTMLButtonElement {
 
 /** On a narrow screen the settings are a drawer. */
 function drawerButton(): HTMLButtonElement {
-  const made = button({ label: "Settings", icon: "settings", iconOnly: true, look: "quiet", testId: "drawer", onPress: () => set(document.body.dataset.side !== "open") });
+  const other = (): void => set(document.body.dataset.side !== "open");
+  const made = button({ label: "Settings", icon: "settings", iconOnly: true, look: "quiet", testId: "drawer", onPress: other });
   made.classList.add("bar-drawer");
   const set = (open: boolean): void => {
     document.body.dataset.side = open ? "open" : "shut";

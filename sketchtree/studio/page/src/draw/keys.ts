@@ -50,7 +50,7 @@ export const SHORTCUTS: Shortcut[] = [
   { keys: ["Delete", "Backspace"], shown: "Delete", does: "Delete what is selected", group: "Edit", act: deleteSelected },
   { keys: ["f"], shown: "F", does: "Flip the branch to the other side", group: "Edit", act: ({ store }) => flip(store) },
   { keys: ["l"], shown: "L", does: "Lock the branch as it is, or free it", group: "Edit", act: ({ store }) => lock(store) },
-  { keys: ["Mod+a"], shown: "Ctrl A", does: "Select every line of this page", group: "Edit", act: ({ store }) => { store.set("tool", "select"); store.set("selectedStrokes", here(store).map((stroke) => stroke.id)); } },
+  { keys: ["Mod+a"], shown: "Ctrl A", does: "Select every line of this page", group: "Edit", act: ({ store }) => selectAll(store) },
   { keys: ["Alt+ArrowLeft"], shown: "Alt ← ↑ → ↓", does: "Move what is selected a little", group: "Edit", act: nudge(-1, 0) },
   { keys: ["Alt+ArrowRight"], shown: "", does: "", group: "Edit", act: nudge(1, 0) },
   { keys: ["Alt+ArrowUp"], shown: "", does: "", group: "Edit", act: nudge(0, -1) },
@@ -82,6 +82,11 @@ function deleteSelected({ store }: Desk): void {
   else if (store.ui.selected !== null) store.send({ type: "delete", limb: store.ui.selected });
 }
 
+function selectAll(store: Store): void {
+  store.set("tool", "select");
+  store.set("selectedStrokes", here(store).map((stroke) => stroke.id));
+}
+
 /** The name of a key with what is held, as in the table. */
 export function pressed(event: Pick<KeyboardEvent, "key" | "ctrlKey" | "metaKey" | "altKey" | "shiftKey">): string {
   const key = event.key.length === 1 ? event.key.toLowerCase() : event.key;
@@ -93,7 +98,8 @@ export function pressed(event: Pick<KeyboardEvent, "key" | "ctrlKey" | "metaKey"
 export function isForOther(event: Event): boolean {
   const on = event.composedPath()[0];
   if (!(on instanceof HTMLElement)) return false;
-  return on.isContentEditable || on.matches("input:not([type=range]):not([type=checkbox]), textarea, select") || on.closest("dialog[open], [popover]:popover-open") !== null;
+  const types = on.isContentEditable || on.matches("input:not([type=range]):not([type=checkbox]), textarea, select");
+  return types || on.closest("dialog[open], [popover]:popover-open") !== null;
 }
 
 export function listenKeys(root: HTMLElement, desk: Desk, pen: Pen): void {

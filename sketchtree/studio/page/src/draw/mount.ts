@@ -21,9 +21,11 @@ import { pairSelections } from "./selection";
 import { mountTip } from "./tip";
 import { mountViewCorner } from "./view_corner";
 
+const ABOUT = "Drawing page. Draw with a pen, mouse or finger; press ? for the keys.";
+
 export function mountDraw(root: HTMLElement, store: Store): void {
   const below = element("canvas", { class: "page-layer", aria: { hidden: "true" } });
-  const top = element("canvas", { class: "page-layer", testId: "page-canvas", tabindex: 0, role: "application", aria: { label: "Drawing page. Draw with a pen, mouse or finger; press ? for the keys." } });
+  const top = element("canvas", { class: "page-layer", testId: "page-canvas", tabindex: 0, role: "application", aria: { label: ABOUT } });
   let palette = readPalette(root);
   const picture = new Image();
   const desk: Desk = {
@@ -35,7 +37,10 @@ export function mountDraw(root: HTMLElement, store: Store): void {
     onPaintLive: () => paintLive(surface.live, surface.ratio(), desk, palette),
     onSize: (width, height) => camera.resize(width, height),
   });
-  const tools = { branch: drawing(desk, "branch"), crown: drawing(desk, "crown"), obstacle: drawing(desk, "obstacle"), erase: erasing(desk), select: selecting(desk), pan: panning(desk) } satisfies Record<Store["ui"]["tool"], Tool>;
+  const tools = {
+    branch: drawing(desk, "branch"), crown: drawing(desk, "crown"), obstacle: drawing(desk, "obstacle"),
+    erase: erasing(desk), select: selecting(desk), pan: panning(desk),
+  } satisfies Record<Store["ui"]["tool"], Tool>;
   const pen = new Pen(top, desk, { current: () => tools[store.ui.tool], eraser: tools.erase, panning: tools.pan });
 
   camera.on(desk.repaint);

@@ -15,7 +15,8 @@ export function mountOptions(desk: Desk): HTMLElement {
   const root = element("div", { class: "page-options", role: "group", aria: { label: "Options of the tool" } });
   const pen = penOptions(desk);
   const eraser = choice<Eraser>({
-    label: "What the eraser takes", value: desk.erases, options: [{ value: "whole", label: "Whole lines", testId: "erase-whole" }, { value: "part", label: "Parts", testId: "erase-part" }],
+    label: "What the eraser takes", value: desk.erases,
+    options: [{ value: "whole", label: "Whole lines", testId: "erase-whole" }, { value: "part", label: "Parts", testId: "erase-part" }],
     onPick: (value) => { desk.erases = value; },
   });
   const hint = element("p", { class: "hint" }, "");
@@ -26,6 +27,7 @@ export function mountOptions(desk: Desk): HTMLElement {
     hint.textContent = selectedStrokes.length > 1 ? "Drag moves them" : selectedStrokes.length === 1 ? "Drag reshapes · Alt moves" : "Click or encircle lines";
     const parts: HTMLElement[] = draws ? [pen] : tool === "erase" ? [eraser.root] : tool === "select" ? [hint] : [];
     if (store.known.underlay && (tool === "select" || draws)) parts.splice(tool === "select" ? 0 : 1, 1, underlay); // it says more than the hint
+    underlay.classList.toggle("brief", draws);
     root.hidden = parts.length === 0;
     if (!sameParts(root, parts)) root.replaceChildren(...parts);
     if (tool !== "select" && desk.movesUnderlay) desk.movesUnderlay = false;
@@ -77,6 +79,7 @@ function underlayOptions(desk: Desk): HTMLElement {
   } });
   store.on("underlay", () => { if (store.known.underlay) opacity.set(store.known.underlay.opacity); });
   store.on("tool", () => moves.set(desk.movesUnderlay && store.ui.tool === "select"));
-  const away = button({ label: "Take the picture away", icon: "trash", iconOnly: true, look: "quiet", testId: "underlay-away", onPress: () => store.send({ type: "setunderlay", underlay: null }) });
+  const clear = (): void => store.send({ type: "setunderlay", underlay: null });
+  const away = button({ label: "Take the picture away", icon: "trash", iconOnly: true, look: "quiet", testId: "underlay-away", onPress: clear });
   return element("div", { class: "page-picture" }, opacity.root, moves.root, away);
 }

@@ -5,12 +5,15 @@ import { element } from "../parts/element";
 import { SHORTCUTS, type Shortcut } from "./keys";
 
 const FILE: Pick<Shortcut, "shown" | "does">[] = [
-  { shown: "Ctrl S", does: "Save" }, { shown: "Ctrl O", does: "Open" }, { shown: "Ctrl Alt N", does: "New page" }, { shown: "Ctrl E", does: "Export" }, { shown: "?", does: "This sheet" },
+  { shown: "Ctrl S", does: "Save" }, { shown: "Ctrl O", does: "Open" }, { shown: "Ctrl Alt N", does: "New page" },
+  { shown: "Ctrl E", does: "Export" }, { shown: "?", does: "This sheet" },
 ];
 
 const PEN: Pick<Shortcut, "shown" | "does">[] = [
-  { shown: "Wheel", does: "Closer and farther" }, { shown: "Space + drag", does: "Move the page" }, { shown: "Right drag", does: "Turn the page about the tree" },
-  { shown: "Two fingers", does: "Move and zoom the page" }, { shown: "Alt + erase", does: "Cut out a part" }, { shown: "Shift + click", does: "Select one more" },
+  { shown: "Wheel", does: "Closer and farther" }, { shown: "Space + drag", does: "Move the page" },
+  { shown: "Right drag", does: "Turn the page about the tree" },
+  { shown: "Two fingers", does: "Move and zoom the page" }, { shown: "Alt + erase", does: "Cut out a part" },
+  { shown: "Shift + click", does: "Select one more" },
 ];
 
 export function makeSheet(): Dialog {

@@ -29,8 +29,13 @@ export function mountTools(root: HTMLElement, store: Store): void {
 }
 
 function branchButtons(store: Store): HTMLButtonElement[] {
-  const flips = button({ label: "Flip", icon: "flip", iconOnly: true, look: "quiet", hint: "Flip the branch to the other side of the page", key: "F", testId: "tool-flip", onPress: () => flip(store) });
-  const locks = button({ label: "Lock", icon: "lock", iconOnly: true, look: "quiet", hint: "Lock the branch as it is, or free it", key: "L", testId: "tool-lock", onPress: () => lock(store) });
+  const quiet = { iconOnly: true, look: "quiet" } as const;
+  const flips = button({
+    ...quiet, label: "Flip", icon: "flip", hint: "Flip the branch to the other side of the page", key: "F", testId: "tool-flip", onPress: () => flip(store),
+  });
+  const locks = button({
+    ...quiet, label: "Lock", icon: "lock", hint: "Lock the branch as it is, or free it", key: "L", testId: "tool-lock", onPress: () => lock(store),
+  });
   const show = (): void => {
     const limb = selectedLimb(store);
     const reason = limb ? null : store.ui.selectedStrokes.length ? "its branch is not known yet" : "select a branch first";

@@ -1,6 +1,6 @@
 // Where on a turned page are the tree's limbs? The page is a plane through the root, turned about the vertical; limbs are seen on it from straight ahead.
 //
-//     X = X₀ + (x cos φ − z sin φ) / s      Y = Y₀ − y / s      φ azimuth of the page; s metres a page unit; (X₀, Y₀) the root on the page, Y down
+//     X = X₀ + (x cos φ − z sin φ) / s    Y = Y₀ − y / s    φ azimuth of the page; s metres a page unit; (X₀, Y₀) the root on the page, Y down
 
 import type { Limb, Tree } from "../messages";
 

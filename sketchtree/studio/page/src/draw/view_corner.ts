@@ -2,6 +2,7 @@
 
 import { block, button } from "../parts/button";
 import { element } from "../parts/element";
+import type { IconName } from "../style/icons";
 import { type Desk, isSamePage, wrapped } from "./desk";
 import { showAll } from "./following";
 
@@ -18,7 +19,8 @@ export function mountViewCorner(desk: Desk): HTMLElement {
   const { store, camera } = desk;
   const turn = (by: number) => (): void => store.set("turn", wrapped(Math.round((store.ui.turn + by) / TURN) * TURN));
   const closer = (factor: number) => (): void => camera.zoom(factor, camera.width / 2, camera.height / 2);
-  const small = (label: string, icon: Parameters<typeof button>[0]["icon"], key: string, onPress: () => void): HTMLButtonElement => button({ label, icon, iconOnly: true, look: "quiet", key, onPress });
+  const small = (label: string, icon: IconName, key: string, onPress: () => void): HTMLButtonElement =>
+    button({ label, icon, iconOnly: true, look: "quiet", key, onPress });
   const front = button({ label: "Front", look: "quiet", hint: "Back to the front", key: "Home", testId: "page-side", onPress: () => store.set("turn", 0) });
   front.classList.add("page-side");
   const size = button({ label: "100 %", look: "quiet", hint: "Show the whole drawing", key: "0", testId: "page-zoom", onPress: () => showAll(desk) });
@@ -35,6 +37,7 @@ export function mountViewCorner(desk: Desk): HTMLElement {
   const [farther, nearer] = [small("Farther", "minus", "-", closer(1 / CLOSER)), small("Closer", "plus", "+", closer(CLOSER))];
   for (const one of [farther, nearer]) one.classList.add("page-step"); // where there is room
   return element("div", { class: "page-corner" },
-    element("div", { class: "page-group", role: "group", aria: { label: "Side of the tree that the page faces" } }, small("Turn the page left", "left", "ArrowLeft", turn(-TURN)), front, small("Turn the page right", "right", "ArrowRight", turn(TURN))),
+    element("div", { class: "page-group", role: "group", aria: { label: "Side of the tree that the page faces" } },
+      small("Turn the page left", "left", "ArrowLeft", turn(-TURN)), front, small("Turn the page right", "right", "ArrowRight", turn(TURN))),
     element("div", { class: "page-group", role: "group", aria: { label: "Closer or farther" } }, farther, size, nearer));
 }

@@ -35,7 +35,8 @@ export function slider(look: SliderLook): Slider {
   value.htmlFor.add(id);
   const head = element("div", { class: "slider-head" }, label, value);
   if (look.reset) {
-    const back = element("button", { class: "button quiet only tiny", title: look.reset.label, aria: { label: `${look.label}: ${look.reset.label}` } }, icon("reset"));
+    const words = `${look.label}: ${look.reset.label}`;
+    const back = element("button", { class: "button quiet only tiny", title: look.reset.label, aria: { label: words } }, icon("reset"));
     back.type = "button";
     back.addEventListener("click", look.reset.onReset);
     head.append(back);

@@ -16,7 +16,8 @@ export interface Toggle {
 }
 
 export function toggle(look: ToggleLook): Toggle {
-  const knob = element("button", { class: "switch", role: "switch", title: look.hint, aria: { label: look.label }, testId: look.testId }, element("span", { class: "switch-knob" }));
+  const attributes = { class: "switch", role: "switch", title: look.hint, aria: { label: look.label }, testId: look.testId };
+  const knob = element("button", attributes, element("span", { class: "switch-knob" }));
   knob.type = "button";
   const set = (on: boolean): void => knob.setAttribute("aria-checked", String(on));
   const flip = (): void => {

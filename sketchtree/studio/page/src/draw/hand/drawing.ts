@@ -1,4 +1,4 @@
-// Drawing a line: branch, crown or obstacle. The hand is steadied while it draws, what it does is shown now and then in 3D, and at pen-up the line is one stroke.
+// Drawing a line: branch, crown or obstacle. The hand is steadied, what it does is shown in 3D now and then, and at pen-up the line is one stroke.
 
 import type { Stroke } from "../../messages";
 import type { Desk } from "../desk";

@@ -19,7 +19,7 @@ export interface PenTools {
 }
 
 export class Pen {
-  private held: { pointer: number; tool: Tool; since: number; type: string } | null = null;
+  private held: { pointer: number; tool: Tool; since: number; type: string; last: Touch } | null = null;
   private readonly fingers: Fingers;
   private readonly turning: Tool;
   private space = false;
@@ -69,8 +69,9 @@ export class Pen {
   private hold(event: PointerEvent, tool: Tool): void {
     event.preventDefault();
     capture(this.canvas, event.pointerId);
-    this.held = { pointer: event.pointerId, tool, since: event.timeStamp, type: event.pointerType };
-    tool.down(this.touch(event));
+    const at = this.touch(event);
+    this.held = { pointer: event.pointerId, tool, since: event.timeStamp, type: event.pointerType, last: at };
+    tool.down(at);
     this.showCursor();
   }
 
@@ -91,7 +92,7 @@ export class Pen {
 
   private toolFor(event: PointerEvent): Tool {
     if (event.button === 1 || this.space) return this.tools.panning;
-    if (event.button === 2) return this.turning;
+    if (event.button === 2) return event.pointerType === "pen" ? this.tools.panning : this.turning; // a pen's side button
     if (event.buttons & ERASER_BUTTON) return this.tools.eraser;
     return this.tools.current();
   }
@@ -109,6 +110,7 @@ export class Pen {
     if (event.pointerType === "mouse" && event.buttons === 0) return this.up(event); // it was let go outside the window
     const told = event.getCoalescedEvents?.() ?? [];
     const fresh = (told.length ? told : [event]).map((one) => this.touch(one));
+    this.held.last = fresh[fresh.length - 1]!;
     this.held.tool.move(fresh, (event.getPredictedEvents?.() ?? []).map((one) => this.touch(one)));
   }
 
@@ -125,8 +127,11 @@ export class Pen {
   private lost(event: PointerEvent): void {
     this.fingers.up(event.pointerId);
     if (event.pointerId !== this.held?.pointer) return;
-    if (event.pointerType === "touch") this.cancel();
-    else this.up(event);
+    if (event.pointerType === "touch") return this.cancel();
+    const { tool, last } = this.held; // where such an event says it is means nothing
+    this.held = null;
+    tool.up(last);
+    this.showCursor();
   }
 
   private at(event: PointerEvent): [number, number] {

@@ -27,7 +27,8 @@ export function stabilise(raw: readonly Sample[], strength: number, pixel: numbe
     vx = SPEED_MEMORY * vx + fresh * (now.x - before.x);
     vy = SPEED_MEMORY * vy + fresh * (now.y - before.y);
     const share = 1 - Math.exp(-2 * Math.PI * (rest + GROWTH * Math.hypot(vx, vy)) * seconds);
-    steady.push({ x: last.x + share * (now.x - last.x), y: last.y + share * (now.y - last.y), pressure: last.pressure + share * (now.pressure - last.pressure), time: now.time });
+    const towards = (from: number, to: number): number => from + share * (to - from);
+    steady.push({ x: towards(last.x, now.x), y: towards(last.y, now.y), pressure: towards(last.pressure, now.pressure), time: now.time });
   }
   return lifted ? leadOn(steady, raw[raw.length - 1]!) : steady;
 }

@@ -90,6 +90,7 @@ function paintGuides(on: CanvasRenderingContext2D, desk: Desk, palette: Palette)
   if (!tree) return;
   for (const limb of limbs) {
     if (limb.strokes.length && isSamePage(limb.view_deg, store.ui.turn)) continue; // its ink is here
+    if (store.ui.layout === "over" && limb.id !== store.ui.selected) continue; // the tree itself is below
     paintGuide(on, camera, palette, limb, projected(limb, tree, store.ui.turn), limb.id === store.ui.selected);
   }
 }

@@ -51,7 +51,10 @@ export function paintGround(on: CanvasRenderingContext2D, camera: PageCamera, pa
   on.stroke();
 }
 
-export function paintUnderlay(on: CanvasRenderingContext2D, camera: PageCamera, palette: Palette, underlay: Underlay, picture: HTMLImageElement, moves: boolean): void {
+/** `moves`: it can be moved now, and shows where to take hold of it. */
+export function paintUnderlay(
+  on: CanvasRenderingContext2D, camera: PageCamera, palette: Palette, underlay: Underlay, picture: HTMLImageElement, moves: boolean,
+): void {
   const [x, y] = camera.toScreen(underlay.x, underlay.y);
   const [width, height] = [underlay.width * camera.scale, underlay.height * camera.scale];
   on.globalAlpha = underlay.opacity;

@@ -5,6 +5,8 @@ export interface Surface {
   live: CanvasRenderingContext2D;
   top: HTMLCanvasElement; // takes the pointer
   ratio: () => number; // screen pixels a CSS pixel
+  repaint: () => void; // with the next frame
+  repaintLive: () => void;
 }
 
 export interface SurfaceEvents {
@@ -15,9 +17,9 @@ export interface SurfaceEvents {
 
 const MOST_PIXELS = 3; // no screen needs more
 
-export function makeSurface(root: HTMLElement, below: HTMLCanvasElement, top: HTMLCanvasElement, events: SurfaceEvents): Surface & { repaint: () => void; repaintLive: () => void } {
+export function makeSurface(root: HTMLElement, below: HTMLCanvasElement, top: HTMLCanvasElement, events: SurfaceEvents): Surface {
   root.append(below, top);
-  const surface = { drawing: below.getContext("2d")!, live: top.getContext("2d")!, top, ratio: () => Math.min(MOST_PIXELS, devicePixelRatio || 1) };
+  const ratio = (): number => Math.min(MOST_PIXELS, devicePixelRatio || 1);
   let due: "nothing" | "live" | "all" = "nothing";
   const ask = (what: "live" | "all"): void => {
     if (due === "nothing") requestAnimationFrame(paint);
@@ -31,15 +33,14 @@ export function makeSurface(root: HTMLElement, below: HTMLCanvasElement, top: HT
   };
   const size = (): void => {
     const box = root.getBoundingClientRect();
-    const ratio = surface.ratio();
     for (const canvas of [below, top]) {
-      canvas.width = Math.max(1, Math.round(box.width * ratio));
-      canvas.height = Math.max(1, Math.round(box.height * ratio));
+      canvas.width = Math.max(1, Math.round(box.width * ratio()));
+      canvas.height = Math.max(1, Math.round(box.height * ratio()));
     }
     events.onSize(Math.max(1, box.width), Math.max(1, box.height));
     events.onPaint(); // at once: a canvas that was given a size is empty
     events.onPaintLive();
   };
   new ResizeObserver(size).observe(root);
-  return { ...surface, repaint: () => ask("all"), repaintLive: () => ask("live") };
+  return { drawing: below.getContext("2d")!, live: top.getContext("2d")!, top, ratio, repaint: () => ask("all"), repaintLive: () => ask("live") };
 }
