@@ -110,7 +110,7 @@ function followFrames(view: View, store: Store, { scenery, chosen, weather, grou
   const plants = new Plants();
   store.on("frame", () => {
     if (!store.frame) return;
-    scenery.show(plants.take(store.frame.head, store.frame.arrays));
+    scenery.show(plants.take(store.frame.head, store.frame.arrays), store.frame.head.phase === "quick");
     const first = view.box === null;
     view.box = scenery.box;
     if (!scenery.box.isEmpty()) {
@@ -175,8 +175,12 @@ function followPage(view: View, store: Store, ink: Ink): void {
   };
   store.on("strokes", strokes);
   store.on("tree", () => { if (drawnAt !== `${plane().scale} ${plane().root.join(" ")}`) strokes(); });
-  view.overPage = () => (store.ui.layout === "over" && store.known.tree ? { page: pageCamera, plane: plane(), azimuth: view.eye.azimuth } : null);
-  view.stage.beforeDraw.push(() => { ink.seen(view.eye.azimuth, view.stage.wide, view.stage.high); return false; });
+  view.overPage = () => (store.ui.layout === "over" && store.known.tree ? { page: pageCamera, plane: plane(), azimuth: view.flight.moving ? view.eye.azimuth : store.ui.turn } : null);
+  view.stage.beforeDraw.push(() => {
+    ink.seen(view.overPage()?.azimuth ?? view.eye.azimuth, view.stage.wide, view.stage.high);
+    ink.without(store.ui.layout === "over" ? store.ui.turn : null); // the page itself shows that sheet
+    return false;
+  });
   pageCamera.on(() => { if (store.ui.layout === "over") view.stage.draw(true); });
   store.on(["turn", "layout"], () => {
     const turned = { ...view.eye, azimuth: store.ui.turn, elevation: Math.min(view.eye.elevation, 12) };

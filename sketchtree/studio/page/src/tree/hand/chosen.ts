@@ -13,7 +13,7 @@ const BORNE: Mark = [255, 170, 60, 90]; // what the chosen one bears
 const POINTED: Mark = [255, 226, 150, 120];
 
 export class Chosen {
-  runs: Run[] = [];
+  private found: Run[] | null = null; // made when somebody first asks: not while the pen is drawing
   private pointed: string | null = null;
   private readonly line: Ghosts;
 
@@ -25,12 +25,16 @@ export class Chosen {
 
   /** Other wood is there. */
   renew(): void {
-    this.runs = runsOf(this.scenery.now.wood);
+    this.found = null;
     this.show();
   }
 
+  private get runs(): Run[] {
+    return (this.found ??= runsOf(this.scenery.now.wood));
+  }
+
   get now(): Reached | null {
-    return reached(this.store.ui.selected, this.store, this.scenery.now, this.runs);
+    return reached(this.store.ui.selected, this.store, this.scenery.now, () => this.runs);
   }
 
   /** The id of the limb under a pixel of the view. */

@@ -13,6 +13,7 @@ import type { Guide } from "./guide";
 import type { Reached } from "./wood_of";
 
 const LIVE = 1000 / 15; // milliseconds between previews
+const ROOM = 26; // pixels between handles, at least
 const STEP = 0.02; // of the tree's height, an arrow key
 
 export class Handles {
@@ -115,10 +116,14 @@ export class Handles {
 
   private follow(): void {
     if (!this.one) return;
-    for (const { share, handle } of this.shown) {
+    let last: readonly [number, number] | null = null; // of those seen, from the tip down: a short limb, or one far away, has room for few
+    for (const { share, handle } of [...this.shown].reverse()) {
       const at = placeAt(this.one.path, this.one.share, share);
-      const [x, y] = this.view.project(this.moving?.share === share ? along(at, this.moving.by, 1) : at);
-      handle.style.transform = `translate(${x.toFixed(1)}px, ${y.toFixed(1)}px) translate(-50%, -50%)`;
+      const here = this.view.project(this.moving?.share === share ? along(at, this.moving.by, 1) : at);
+      const room = last === null || Math.hypot(here[0] - last[0], here[1] - last[1]) > ROOM || handle === document.activeElement;
+      handle.style.visibility = room ? "visible" : "hidden";
+      if (room) last = here;
+      handle.style.transform = `translate(${here[0].toFixed(1)}px, ${here[1].toFixed(1)}px) translate(-50%, -50%)`;
     }
   }
 }

@@ -8,11 +8,6 @@ import type { Merged } from "../plant/merge";
 import { ends } from "./drag";
 import type { Run } from "./pick";
 
-export interface Grip {
-  share: number;
-  held: boolean;
-}
-
 export interface Reached {
   id: string;
   limb: Limb | null; // null: nobody drew it
@@ -23,12 +18,12 @@ export interface Reached {
 }
 
 /** The limb of this id, if it is there. */
-export function reached(id: string | null, store: Store, now: Merged, runs: readonly Run[]): Reached | null {
+export function reached(id: string | null, store: Store, now: Merged, runs: () => readonly Run[]): Reached | null {
   if (id === null) return null;
   const limb = store.known.limbs.find((one) => one.id === id) ?? null;
   if (limb) return { id, limb, path: limb.path, share: limb.share, view: limb.view_deg, out: pageAxes(limb.view_deg)[1] };
   const number = now.number.get(id);
-  const points = number === undefined ? [] : pointsOf(number, now, runs);
+  const points = number === undefined ? [] : pointsOf(number, now, runs());
   if (points.length < 2) return null;
   const [foot, tip] = ends(points);
   return { id, limb: null, path: [...foot, ...tip], share: [0, 1], view: 0, out: pageAxes(0)[1] };

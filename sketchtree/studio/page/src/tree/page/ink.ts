@@ -3,6 +3,7 @@
 import { Group, Vector2, type BufferGeometry, type Mesh, type Scene, type ShaderMaterial } from "three";
 import type { Stroke } from "../../messages";
 import { thinLines } from "./line";
+import { shortest } from "../eye/eye";
 import { onPage, type PagePlane } from "./plane";
 
 const COLOURS: Record<"light" | "dark", Record<Stroke["kind"], string>> = {
@@ -57,6 +58,11 @@ export class Ink {
       const facing = Math.abs(Math.cos(((azimuth - view) * Math.PI) / 180));
       lines.material.uniforms.uOpacity!.value = STRENGTH * (0.12 + 0.88 * facing * facing);
     }
+  }
+
+  /** Leave out the sheet of this page; null: none. */
+  without(view: number | null): void {
+    for (const sheet of this.sheets) sheet.lines.visible = view === null || Math.abs(shortest(sheet.view - view)) > 0.5;
   }
 
   set visible(is: boolean) {

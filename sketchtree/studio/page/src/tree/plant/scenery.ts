@@ -20,15 +20,17 @@ export class Scenery {
   readonly group = new Group();
   readonly box = new Box3();
   now: Merged = { wood: [], leaves: [], limbs: [], number: new Map() };
+  private shaded = false;
   private readonly worn = new Map<string, Worn>();
 
   constructor(private readonly lighting: Lighting, private readonly textures: Textures, private readonly software: boolean, private readonly changed: () => void) {}
 
-  /** Show this plant, where it was another. */
-  show(plant: Plant): void {
+  /** Show this plant, where it was another. `quick`: the crown's shade may stay as it was for the moment. */
+  show(plant: Plant, quick: boolean): void {
     this.now = merged(plant);
     this.lighting.marks.renumber(this.now.limbs, this.now.number);
-    this.lighting.sky.take(shadeOf(this.now.leaves, SUN.toArray()));
+    if (!quick || !this.shaded) this.lighting.sky.take(shadeOf(this.now.leaves, SUN.toArray()));
+    this.shaded = this.now.leaves.length > 0;
     for (const mesh of this.meshes) mesh.geometry.dispose();
     this.group.clear();
     this.box.makeEmpty();

@@ -14,7 +14,7 @@ export interface Shade {
   light: Uint8Array<ArrayBuffer>; // of 255, x fastest: sky, sun, sky, sun …
 }
 
-const SIDE = 28; // cells along the longest side
+const SIDE = 24; // cells along the longest side
 const SPREAD = 0.5;
 const FILLED = 0.45; // share of a card's square that is leaf
 const WAYS: [number, number, number][] = [[0, 1, 0], [1, 1, 0], [-1, 1, 0], [0, 1, 1], [0, 1, -1], [1, 0, 0], [-1, 0, 0], [0, 0, 1], [0, 0, -1], [0, -1, 0]];
@@ -39,13 +39,15 @@ export function shadeOf(leaves: MergedLeaves[], sun: readonly [number, number, n
 }
 
 function boxOf(leaves: MergedLeaves[]): [[number, number, number], [number, number, number]] | null {
-  const [low, high] = [[Infinity, Infinity, Infinity] as [number, number, number], [-Infinity, -Infinity, -Infinity] as [number, number, number]];
+  const low: [number, number, number] = [Infinity, Infinity, Infinity];
+  const high: [number, number, number] = [-Infinity, -Infinity, -Infinity];
   for (const { place } of leaves)
-    for (let k = 0; k < place.length; k++) {
-      const axis = k % 3;
-      if (place[k]! < low[axis]!) low[axis] = place[k]!;
-      if (place[k]! > high[axis]!) high[axis] = place[k]!;
-    }
+    for (let k = 0; k < place.length; k += 3)
+      for (let axis = 0; axis < 3; axis++) {
+        const value = place[k + axis]!;
+        if (value < low[axis]!) low[axis] = value;
+        if (value > high[axis]!) high[axis] = value;
+      }
   return low[0] < Infinity ? [low, high] : null;
 }
 
@@ -67,27 +69,34 @@ function filled(leaves: MergedLeaves[], low: [number, number, number], cell: num
 function sweep(density: Float32Array, [nx, ny, nz]: [number, number, number], [dx, dy, dz]: [number, number, number], weight: number, sum: Float32Array): void {
   const long = Math.hypot(dx, dy, dz);
   const depth = new Float32Array(density.length);
-  const order = (count: number, step: number) => Array.from({ length: count }, (_, k) => (step > 0 ? count - 1 - k : k));
-  const [xs, ys, zs] = [order(nx, dx), order(ny, dy), order(nz, dz)];
-  for (const z of zs)
-    for (const y of ys)
-      for (const x of xs) {
+  const step = dx + nx * (dy + ny * dz); // from a cell to the one the light came through
+  for (let kz = 0; kz < nz; kz++) {
+    const z = dz > 0 ? nz - 1 - kz : kz;
+    for (let ky = 0; ky < ny; ky++) {
+      const y = dy > 0 ? ny - 1 - ky : ky;
+      const edge = z + dz < 0 || z + dz >= nz || y + dy < 0 || y + dy >= ny;
+      for (let kx = 0; kx < nx; kx++) {
+        const x = dx > 0 ? nx - 1 - kx : kx;
         const at = x + nx * (y + ny * z);
-        const [fx, fy, fz] = [x + dx, y + dy, z + dz];
-        const outside = fx < 0 || fy < 0 || fz < 0 || fx >= nx || fy >= ny || fz >= nz;
-        const before = outside ? 0 : fx + nx * (fy + ny * fz);
-        depth[at] = outside ? 0 : depth[before]! + density[before]! * long;
-        sum[at]! += weight * Math.exp(-depth[at]! - 0.5 * density[at]! * long);
+        const before = edge || x + dx < 0 || x + dx >= nx ? 0 : depth[at + step]! + density[at + step]! * long;
+        depth[at] = before;
+        sum[at]! += weight * Math.exp(-before - 0.5 * density[at]! * long);
       }
+    }
+  }
 }
 
 /** What is left of the light from `way` in each cell, of 255, into every second place. Steps of one cell from the cell to the light. */
 function towards(density: Float32Array, [nx, ny, nz]: [number, number, number], way: readonly [number, number, number], light: Uint8Array): void {
   for (let at = 0; at < density.length; at++) {
-    let [x, y, z] = [(at % nx) + 0.5, (Math.floor(at / nx) % ny) + 0.5, Math.floor(at / (nx * ny)) + 0.5];
+    let x = (at % nx) + 0.5;
+    let y = (Math.floor(at / nx) % ny) + 0.5;
+    let z = Math.floor(at / (nx * ny)) + 0.5;
     let depth = 0.4 * density[at]!;
     for (;;) {
-      [x, y, z] = [x + way[0], y + way[1], z + way[2]];
+      x += way[0];
+      y += way[1];
+      z += way[2];
       if (x < 0 || y < 0 || z < 0 || x >= nx || y >= ny || z >= nz) break;
       depth += density[Math.floor(x) + nx * (Math.floor(y) + ny * Math.floor(z))]!;
     }

@@ -1,6 +1,6 @@
 // From which side, and what is shown beside the tree? A row of buttons at the foot of the view.
 
-import { button, press } from "../../parts/button";
+import { block, button, press } from "../../parts/button";
 import { element } from "../../parts/element";
 import type { Store } from "../../store";
 import type { View } from "../view";
@@ -11,8 +11,11 @@ export interface Shown {
 }
 
 export function viewBar(view: View, store: Store, shown: Shown, changed: () => void): HTMLElement {
-  const fly = (azimuth: number, elevation: number) => () => view.fly(view.whole(azimuth, elevation));
-  const side = (label: string, key: string, azimuth: number, elevation: number): HTMLElement =>
+  const fly = (azimuth: number, elevation: number) => () => {
+    if (store.ui.layout === "over") store.set("turn", azimuth); // there the page is turned, and the tree with it
+    else view.fly(view.whole(azimuth, elevation));
+  };
+  const side = (label: string, key: string, azimuth: number, elevation: number): HTMLButtonElement =>
     button({ label, key, look: "quiet", testId: `view-${label.toLowerCase()}`, hint: `See the tree from ${label === "Top" ? "above" : `its ${label.toLowerCase()}`}`, onPress: fly(azimuth, elevation) });
   const figure = button({ label: "Person", icon: "person", iconOnly: true, look: "quiet", testId: "figure", hint: "A person of 1.8 m beside the tree", onPress: () => store.set("figure", !store.ui.figure) });
   const toggle = (what: keyof Shown, label: string, name: "branch" | "gallery", hint: string): HTMLButtonElement => {
@@ -20,11 +23,15 @@ export function viewBar(view: View, store: Store, shown: Shown, changed: () => v
     press(made, shown[what]);
     return made;
   };
-  const follow = (): void => press(figure, store.ui.figure);
-  store.on("figure", follow);
+  const top = side("Top", "3", 0, 89.5);
+  const follow = (): void => {
+    press(figure, store.ui.figure);
+    block(top, store.ui.layout === "over" ? "not while the page lies over the tree" : null);
+  };
+  store.on(["figure", "layout"], follow);
   follow();
   const bar = element("div", { class: "tree-bar", role: "toolbar", "aria-label": "View" },
-    side("Front", "1", 0, 4), side("Side", "2", 90, 4), side("Top", "3", 0, 89.5),
+    side("Front", "1", 0, 4), side("Side", "2", 90, 4), top,
     button({ label: "Whole tree", icon: "fit", iconOnly: true, look: "quiet", key: "Home", testId: "view-whole", onPress: () => view.fly(view.whole()) }),
     element("span", { class: "tree-bar-gap" }),
     toggle("ink", "Drawing", "branch", "The drawing, as it lies on the tree"), toggle("grid", "Metres", "gallery", "Lines a metre apart on the ground"), figure);

@@ -14,7 +14,7 @@ export interface Look {
 
 export const LOOKS: Record<"light" | "dark", Look> = {
   light: { zenith: "#a9c3da", horizon: "#eceee9", ground: "#dad8d0", shadow: "#4d4f4c", sky: 3.2, sun: 6.6, warmth: "#fff4e4" },
-  dark: { zenith: "#1a2733", horizon: "#3a4246", ground: "#363b3c", shadow: "#0f1213", sky: 2.4, sun: 5.4, warmth: "#fff0d8" },
+  dark: { zenith: "#1a2733", horizon: "#3a4246", ground: "#363b3c", shadow: "#0f1213", sky: 3.0, sun: 6.6, warmth: "#fff0d8" },
 };
 
 /** Towards the sun: over the left shoulder of who looks from the front. */
@@ -75,7 +75,8 @@ function domeMaterial(): ShaderMaterial {
     uniforms: { uZenith: { value: new Color() }, uHorizon: { value: new Color() } },
     vertexShader: `varying vec3 vWay; void main() {
       vWay = position; vec4 at = projectionMatrix * mat4(mat3(modelViewMatrix)) * vec4(position, 1.0);
-      vWay = isOrthographic ? vec3(0.0, 0.25 + 0.2 * at.y, 0.0) : position; gl_Position = isOrthographic ? vec4(position.xy * 4.0, 0.5, 1.0) : at.xyww; }`,
+      vWay = position; gl_Position = at.xyww;
+      if (isOrthographic) { gl_Position = vec4(position.xy * 4.0, 0.5, 1.0); vWay = vec3(1.0, 0.05 + 0.05 * position.y * 4.0, 0.0); } }`,
     fragmentShader: `uniform vec3 uZenith; uniform vec3 uHorizon; varying vec3 vWay; void main() {
       float up = max(normalize(vWay).y, 0.0); gl_FragColor = vec4(mix(uHorizon, uZenith, 1.0 - pow(1.0 - up, 5.0)), 1.0);
       #include <colorspace_fragment>
