@@ -6,6 +6,8 @@ import numpy as np
 
 from sketchtree.editing.settled import Depths, Settled
 
+_FIELDS = tuple(field.name for field in fields(Depths))
+
 
 def sharing(new: Settled, old: Settled) -> Settled:
     """The new depths, made of the old ones where nothing is different; `old` itself if nothing is at all."""
@@ -16,11 +18,11 @@ def sharing(new: Settled, old: Settled) -> Settled:
 
 
 def same(one: Depths, other: Depths) -> bool:
-    """Are all their fields equal? Unknown deviations, NaN, equal each other."""
-    return one is other or all(_equal(getattr(one, field.name), getattr(other, field.name)) for field in fields(Depths))
+    """Are all their fields equal, bit by bit? Unknown deviations, NaN, equal each other then."""
+    return one is other or all(_equal(getattr(one, name), getattr(other, name)) for name in _FIELDS)
 
 
 def _equal(one, other) -> bool:
     if isinstance(one, np.ndarray) and isinstance(other, np.ndarray):
-        return one.shape == other.shape and bool(((one == other) | (one != one) & (other != other)).all())
+        return one.shape == other.shape and one.dtype == other.dtype and one.tobytes() == other.tobytes()
     return type(one) is type(other) and one == other
