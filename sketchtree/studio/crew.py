@@ -47,9 +47,14 @@ class Hand:
         theirs.close()
         threading.Thread(target=self._listen, args=(self._pipe,), daemon=True).start()
 
+    @property
+    def runs(self) -> bool:
+        """Whether the process is there."""
+        return self._process is not None and self._process.is_alive()
+
     def ready(self) -> None:
         """Start the process, unless it runs."""
-        if self._process is None or not self._process.is_alive():
+        if not self.runs:
             self.begin()
 
     def ask(self, kind: str, *arguments: object) -> tuple[int, asyncio.Future]:
@@ -66,7 +71,7 @@ class Hand:
 
     def stop(self) -> None:
         """Let what runs end, and drop what waits, of kinds of which the newest wins."""
-        if self._process is not None and self._process.is_alive():
+        if self.runs:
             self._pipe.send((self._number, "stop", ()))
 
     def end(self) -> None:
@@ -147,7 +152,7 @@ class Crew:
 
     def make(self, revision: int, document: Document) -> None:
         """As `Engine.make`."""
-        self._revision = revision
+        self._revision, document = revision, document.replace(underlay=None)  # no tree hangs on the picture, which may be large
         self._hands["full"].stop()
         self._say(messages.Working(state="working", revision=revision, stage="read"))
         self._run(self._make(revision, document))
@@ -156,8 +161,8 @@ class Crew:
         if not document.strokes:
             self._nothing(revision)
             return
-        if self._basis is not None and len(document.settled):
-            document = await self._hurry(revision, document)
+        if self._hands["quick"].runs:
+            await self._hurry(revision, document)
         if revision != self._revision:
             return
         self._full_number, answer = self._hands["full"].ask("full", revision, document, dict(self._known))
@@ -174,20 +179,20 @@ class Crew:
         self.on_outcome(Outcome(revision, frame, settled=basis.settled))
         self._say(messages.Working(state="idle", revision=revision))
 
-    async def _hurry(self, revision: int, document: Document) -> Document:
-        """What was touched, first; returns the document with what that settled, for the full tree to begin with."""
+    async def _hurry(self, revision: int, document: Document) -> None:
+        """What was touched, first."""
         _, answer = self._hands["quick"].ask("quick", revision, document, self._basis)
         try:
             found = await answer
         except SketchTreeError:
-            return document  # the full tree says what is wrong
+            return  # the full tree says what is wrong
         if found is None or revision != self._revision:
-            return document
+            return
         frame, digests, settled = found
         self._known |= digests
-        self._basis = dataclasses.replace(self._basis, owners=tuple(name for name in (*self._basis.owners, *digests)), settled=settled)
+        if self._basis is not None:
+            self._basis = dataclasses.replace(self._basis, owners=tuple(dict.fromkeys((*self._basis.owners, *digests))), settled=settled)
         self.on_outcome(Outcome(revision, frame))
-        return document
 
     def refresh(self) -> None:
         """A page that joins asks for `frame` itself."""
@@ -200,7 +205,7 @@ class Crew:
 
     def ghost(self, revision: int, document: Document, stroke: messages.Stroke | None, hold: messages.Hold | None) -> None:
         """As `Engine.ghost`."""
-        self._run(self._shown(revision, self._hands["quick"].ask("ghost", revision, document, stroke, hold, self._basis)[1]))
+        self._run(self._shown(revision, self._hands["quick"].ask("ghost", revision, document.replace(underlay=None), stroke, hold, self._basis)[1]))
 
     def glance(self, revision: int, document: Document | None) -> None:
         """As `Engine.glance`."""
@@ -212,7 +217,7 @@ class Crew:
             self._run(self._glance(revision, document))
 
     async def _glance(self, revision: int, document: Document) -> None:
-        answer = self._hands["side"].ask("glance", revision, document, {})[1]
+        answer = self._hands["side"].ask("glance", revision, document.replace(underlay=None), {})[1]
         await self._shown(revision, answer, glance=True)
 
     async def _back(self, revision: int) -> None:
@@ -233,7 +238,7 @@ class Crew:
 
     async def alternatives(self, revision: int, document: Document) -> tuple[messages.Alternatives, list[Settled]]:
         """As `Engine.alternatives`."""
-        found = await self._hands["side"].ask("alternatives", revision, document)[1]
+        found = await self._hands["side"].ask("alternatives", revision, document.replace(underlay=None))[1]
         return found if found is not None else (messages.Alternatives(revision=revision, readings=[]), [])
 
     def cancel(self) -> None:

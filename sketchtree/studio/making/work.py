@@ -17,6 +17,7 @@ from sketchtree.editing.document import Document
 from sketchtree.editing.settled import Depths, Settled
 from sketchtree.geometry.radii import PipeRadii
 from sketchtree.keys import root_key
+from sketchtree.options import TreeOptions
 from sketchtree.pipeline import LeafyTree, foliage, grow, weathered
 from sketchtree.propagate.after.cutting import bears
 from sketchtree.similarity import Similarity
@@ -138,7 +139,8 @@ def _material(key: str, one) -> messages.Material:
 
 
 def hurried(bench: Bench, document: Document, basis: Basis | None, watch: Watch) -> tuple[DrawnTree, LeafyTree, Chunks]:
-    """Only what was touched: solved in the shortest run, grown, with leaves; nothing is weathered. What stays is taken as it is."""
+    """Only what was touched: solved in the shortest run, grown, with leaves; nothing is weathered. What stays is taken as it is. Of a tree that the pages have nothing
+    of yet, the bare drawn limbs."""
     key = root_key(document.seed)
     similarity = None if basis is None else Similarity(basis.scale, basis.translate)
     drawn = draw_out(
@@ -148,7 +150,7 @@ def hurried(bench: Bench, document: Document, basis: Basis | None, watch: Watch)
     if len(touched) > _MOST:
         raise Stopped
     with watch("propagate"):
-        grown = grow(drawn, _light(document.tree), key=key)
+        grown = grow(drawn, _light(document.tree, bare=basis is None), key=key)
         radius = np.full(len(grown.skeleton), np.nan)
         radius[grown.drawn_row] = drawn.radius
         whole = PipeRadii(drawn.habit, radius, grown.tip_weight)(grown.skeleton)
@@ -156,6 +158,8 @@ def hurried(bench: Bench, document: Document, basis: Basis | None, watch: Watch)
         part = whole.select(bears(whole.parent, mine) | mine) if touched else whole.select(whole.is_base)
     options = document.tree
     dress = Dress(bark_model(options.bark, drawn.habit), leaf_model(options.leaf, drawn.habit, bench.templates), options.season, drawn.habit)
+    if basis is None:
+        dress = dataclasses.replace(dress, leaf=None)
     with watch("foliage"):
         leaves, flowers = foliage(part, dress, key=key)
     tree = LeafyTree(part, leaves, flowers, dress, ())
@@ -177,6 +181,6 @@ def _moved(drawn: DrawnTree, before: Settled) -> frozenset[int]:
     return frozenset(limb for limb, now in drawn.settled.limbs.items() if not same(limb, now))
 
 
-def _light(options):
+def _light(options: TreeOptions, *, bare: bool) -> TreeOptions:
     """The same options without what takes long."""
-    return dataclasses.replace(options, fill=False, light=0.0)
+    return dataclasses.replace(options, fill=False, light=0.0, generations=0 if bare else options.generations)

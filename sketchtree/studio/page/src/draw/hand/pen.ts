@@ -60,7 +60,10 @@ export class Pen {
   private down(event: PointerEvent): void {
     const { store } = this.desk;
     this.canvas.focus({ preventScroll: true });
-    if (event.pointerType === "pen" && !store.ui.palm) store.set("palm", true);
+    if (event.pointerType === "pen") {
+      store.set("palm", true);
+      if (this.held?.type === "touch") this.cancel(); // the hand that holds the pen came first
+    }
     if (event.pointerType === "touch" && this.takesFinger(event)) return;
     if (this.held) return; // told twice, or another button of the same mouse
     this.hold(event, this.toolFor(event));

@@ -19,7 +19,7 @@ export function height(store: Store): HTMLElement {
   label.htmlFor = id;
   const follow = (): void => {
     const { options, tree } = store.known;
-    field.placeholder = tree ? `${plain(tree.height, 1)} (auto)` : "auto";
+    if (tree?.phase !== "quick") field.placeholder = tree ? `${plain(tree.height, 1)} (auto)` : "auto";
     if (options && document.activeElement !== field) field.value = options.height === null ? "" : plain(options.height, 2);
   };
   field.addEventListener("change", () => {

@@ -57,12 +57,11 @@ class ReadingStrip {
   private tell(): void {
     const { alternatives: known, strokes } = this.store.known;
     const stale = known !== null && !this.fresh.holds(this.store.known);
-    this.list.classList.toggle("stale", stale);
-    this.buttons().forEach((one) => one.toggleAttribute("disabled", stale));
+    this.list.hidden = known === null || stale; // what can't be picked is not shown
     block(this.look, this.asked ? "looking" : strokes.size === 0 ? "draw something first" : null);
-    this.look.querySelector("span")!.textContent = this.asked ? "Looking …" : known ? "Look again" : "Show other readings";
+    this.look.querySelector("span")!.textContent = this.asked ? "Looking …" : known && strokes.size > 0 ? "Look again" : "Show other readings";
     this.look.hidden = known !== null && !stale && !this.asked;
-    this.words.textContent = this.asked ? WORDS.asked : !known ? WORDS.never : stale ? WORDS.stale : known.readings.length < 2 ? WORDS.alone : WORDS.there;
+    this.words.textContent = this.asked ? WORDS.asked : !known || strokes.size === 0 ? WORDS.never : stale ? WORDS.stale : known.readings.length < 2 ? WORDS.alone : WORDS.there;
   }
 
   private fill(): void {

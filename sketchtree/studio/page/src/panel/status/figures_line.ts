@@ -7,6 +7,7 @@ import { figures, type Said } from "./words";
 
 export function figuresLine(store: Store, trip: RoundTrip): HTMLElement {
   const root = element("span", { class: "figures" });
+  let height = 0; // of the newest whole tree: what comes first is only a part of one
   const show = (): void => {
     const { tree, strokes, welcome } = store.known;
     if (tree?.phase === "glance") return;
@@ -14,8 +15,9 @@ export function figuresLine(store: Store, trip: RoundTrip): HTMLElement {
       root.replaceChildren(element("span", {}, strokes.size === 0 ? "Nothing drawn yet" : "No tree yet"));
       return;
     }
+    if (tree.phase === "full" || height === 0) height = tree.height;
     const title = welcome?.templates.find((one) => one.name === tree.template)?.title ?? tree.template;
-    root.replaceChildren(...figures(tree, title, trip.last).map(figure));
+    root.replaceChildren(...figures({ ...tree, height }, title, trip.last).map(figure));
   };
   store.on(["tree", "strokes", "welcome"], show);
   show();
