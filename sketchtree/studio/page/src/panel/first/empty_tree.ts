@@ -6,12 +6,12 @@ import type { Store } from "../../store";
 export function emptyTree(store: Store): HTMLElement {
   const root = element("p", { class: "empty-tree", testId: "empty-tree" });
   const show = (): void => {
-    const { welcome, strokes, tree, working } = store.known;
+    const { welcome, strokes, tree, working, connected } = store.known;
     const nothing = strokes.size === 0;
     root.hidden = !welcome || (!nothing && tree !== null && tree.segments > 0);
-    root.textContent = nothing ? "Your tree will stand here." : working?.state === "error" ? "" : "The tree is growing …";
+    root.textContent = nothing ? "Your tree will stand here." : working?.state === "error" || !connected ? "" : "The tree is growing …";
   };
-  store.on(["welcome", "strokes", "tree", "working"], show);
+  store.on(["welcome", "strokes", "tree", "working", "connected"], show);
   show();
   return root;
 }

@@ -16,9 +16,9 @@ export function work(store: Store): HTMLElement {
   const root = element("span", { class: "work" }, words, bar, stop);
   root.hidden = true;
   let soon: ReturnType<typeof setTimeout> | null = null;
-  store.on("working", () => {
-    const working = store.known.working;
-    if (working?.state === "working") {
+  store.on(["working", "connected"], () => {
+    const { working, connected } = store.known;
+    if (working?.state === "working" && connected) {
       words.textContent = stage(working);
       bar.value = working.done;
       soon ??= setTimeout(() => { root.hidden = false; }, SHORT);
