@@ -59,12 +59,9 @@ class Running:
 
 
 @contextmanager
-def running(folder: Path, file: Path | None = None, port: int = 0):
-    """The server, until the block ends."""
-    page = folder / "built"
-    (page / "assets").mkdir(parents=True, exist_ok=True)
-    (page / "index.html").write_text("<!doctype html><title>page</title>")
-    (page / "assets" / "page-1.js").write_text("export {};")
+def running(folder: Path, file: Path | None = None, port: int = 0, page: Path | None = None):
+    """The server, until the block ends; with `page` of the one that was built, else with one in which there is nothing."""
+    page = page or _empty_page(folder / "built")
     (folder / "secret.js").write_text("secret")
     engine, told, fault, up = FakeEngine(), [], [], threading.Event()
     loop, stop = asyncio.new_event_loop(), asyncio.Event()
@@ -89,3 +86,10 @@ def running(folder: Path, file: Path | None = None, port: int = 0):
     finally:
         loop.call_soon_threadsafe(stop.set)
         thread.join(30)
+
+
+def _empty_page(page: Path) -> Path:
+    (page / "assets").mkdir(parents=True, exist_ok=True)
+    (page / "index.html").write_text("<!doctype html><title>page</title>")
+    (page / "assets" / "page-1.js").write_text("export {};")
+    return page

@@ -7,6 +7,8 @@ import { toast } from "../parts/toast";
 import type { Store } from "../store";
 import { icon } from "../style/icons";
 import { switchTheme } from "../style/theme";
+import { camera } from "./camera";
+import { PEN, showEmpty } from "./following";
 import { isForOther, pressed } from "./keys";
 import { makeSheet } from "./sheet";
 
@@ -44,6 +46,8 @@ function newPage(store: Store): void {
   store.send({ type: "new" });
   store.set("turn", 0);
   store.set("tool", "branch");
+  showEmpty(camera);
+  store.set("width", PEN);
   if (store.known.strokes.size) toast("A new page.", { action: { label: "Back to the drawing", onPress: () => store.send({ type: "undo" }) } });
 }
 

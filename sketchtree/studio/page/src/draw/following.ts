@@ -1,9 +1,10 @@
 // What does the page do by itself? It shows all of a drawing that was opened, keeps what one draws where it is, and lights the stroke that made trouble.
 
+import type { PageCamera } from "./camera";
 import type { Desk } from "./desk";
 import { around } from "./line/nearness";
 
-const PEN = 4; // CSS pixels: width of the pen on a drawing just opened
+export const PEN = 4; // CSS pixels: width of the pen on a drawing just opened
 const EMPTY = { left: 0.5, top: 0.86 }; // where on an empty page the tree's root is to be
 
 export function followDrawing(desk: Desk): void {
@@ -21,7 +22,7 @@ export function followDrawing(desk: Desk): void {
   camera.on(() => {
     if (placed || camera.width < 2) return;
     placed = true;
-    camera.pan(camera.width * EMPTY.left - camera.x, camera.height * EMPTY.top - camera.y);
+    showEmpty(camera);
   });
   store.on("strokes", () => {
     const ids = [...store.known.strokes.keys()];
@@ -42,12 +43,14 @@ export function followDrawing(desk: Desk): void {
 }
 
 /** All of the drawing on screen, or the empty page as it was at first. */
-export function showAll(desk: Desk): void {
-  const { camera, store } = desk;
+export function showAll({ camera, store }: Pick<Desk, "camera" | "store">): void {
   const box = around(store.known.strokes.values());
   if (box) camera.fit(box);
-  else {
-    camera.zoom(1 / camera.scale, 0, 0);
-    camera.pan(camera.width * EMPTY.left - camera.x, camera.height * EMPTY.top - camera.y);
-  }
+  else showEmpty(camera);
+}
+
+/** A page on which nothing is drawn yet: its units are CSS pixels, and the root's place is below the middle. */
+export function showEmpty(camera: PageCamera): void {
+  camera.zoom(1 / camera.scale, 0, 0);
+  camera.pan(camera.width * EMPTY.left - camera.x, camera.height * EMPTY.top - camera.y);
 }
