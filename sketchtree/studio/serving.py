@@ -2,6 +2,7 @@
 
 import asyncio
 import errno
+import logging
 import os
 import socket
 from collections.abc import Callable
@@ -106,6 +107,12 @@ def _aside(session: Session, work) -> None:
     task.add_done_callback(session.desk.tasks.discard)
 
 
+def _tells(record: logging.LogRecord) -> bool:
+    """What a person at the terminal should see: faults, and not that pages were still asking when the program ended."""
+    ended = record.exc_info is not None and isinstance(record.exc_info[1], asyncio.CancelledError)
+    return not ended and "graceful shutdown" not in record.getMessage()
+
+
 async def _run(app: ASGIApp, listening: socket.socket, told: Callable[[], None], stop: asyncio.Event) -> None:
     """Answer requests until a signal comes, or `stop`."""
     config = uvicorn.Config(
@@ -113,6 +120,7 @@ async def _run(app: ASGIApp, listening: socket.socket, told: Callable[[], None],
         ws="websockets-sansio", ws_max_size=MAX_MESSAGE, ws_per_message_deflate=False, ws_ping_interval=None, timeout_graceful_shutdown=_PATIENCE,
     )  # fmt: skip
     server = uvicorn.Server(config)
+    logging.getLogger("uvicorn.error").addFilter(_tells)
     serving = asyncio.get_running_loop().create_task(server.serve(sockets=[listening]))
     while not server.started and not serving.done():
         await asyncio.sleep(0.005)
