@@ -33,10 +33,23 @@ test("the scene follows the hand that moves it", () => {
   near(panned(EYE, 100, 0, 600).target, [-100 * metres(EYE, 600), 5, 0]);
 });
 
-test("a framed eye sees every corner of the box", () => {
-  const eye = framed({ ...EYE, azimuth: 30, elevation: 20 }, [-3, 0, -2], [4, 9, 5], 1.2);
-  expect(eye.target).toEqual([0.5, 4.5, 1.5]);
-  expect(eye.distance).toBeGreaterThan(9);
+test("a framed eye sees the whole height of a tree, and its whole width in a narrow view", () => {
+  const [low, high] = [[-3, 0, -3], [3, 9, 3]] as const;
+  const seen = (eye: Eye, at: Point): [number, number] => {
+    const { right, up, back } = axes(eye);
+    const offset = [0, 1, 2].map((k) => at[k]! - eye.target[k]!) as unknown as Point;
+    const along = (way: Point): number => offset[0] * way[0] + offset[1] * way[1] + offset[2] * way[2];
+    const half = (eye.distance - along(back)) * Math.tan((14 * Math.PI) / 180);
+    return [along(right) / half, along(up) / half];
+  };
+  for (const aspect of [0.4, 1.5]) {
+    const eye = framed({ ...EYE, azimuth: 30, elevation: 8 }, low, high, aspect);
+    for (const at of [[0, 0, 0], [0, 9, 0], [3, 4.5, 0], [-3, 4.5, 0], [0, 4.5, 3]] as const) {
+      const [x, y] = seen(eye, at);
+      expect(Math.abs(x)).toBeLessThan(aspect);
+      expect(Math.abs(y)).toBeLessThan(1);
+    }
+  }
 });
 
 test("a flight turns the short way round", () => {

@@ -12,7 +12,7 @@ export interface Eye {
 export const FIELD = 28; // degrees, vertical
 const LOWEST = -20; // degrees: from below the ground one sees little
 const HIGHEST = 89.5;
-const MARGIN = 1.1;
+const MARGIN = 1.16; // room for the height's label, and for the buttons at the foot
 
 const radians = (degrees: number): number => (degrees * Math.PI) / 180;
 
@@ -49,16 +49,18 @@ export function zoomed(eye: Eye, factor: number, x: number, y: number, high: num
   return { ...panned(eye, -x * moved, -y * moved, high), distance };
 }
 
-/** The nearest eye in the same direction that sees the whole box, with a margin. */
+/** The nearest eye in the same direction that sees all of a tree in this box, with a margin: crowns are round, so their box's corners are empty. */
 export function framed(eye: Eye, low: Point, high: Point, aspect: number): Eye {
   const { right, up, back } = axes(eye);
   const target: Point = [(low[0] + high[0]) / 2, (low[1] + high[1]) / 2, (low[2] + high[2]) / 2];
   const tall = Math.tan(radians(FIELD / 2)) / MARGIN;
   let distance = 0.1;
-  for (let corner = 0; corner < 8; corner++) {
-    const at: Point = [(corner & 1 ? high : low)[0] - target[0], (corner & 2 ? high : low)[1] - target[1], (corner & 4 ? high : low)[2] - target[2]];
-    distance = Math.max(distance, dot(at, back) + Math.max(Math.abs(dot(at, up)) / tall, Math.abs(dot(at, right)) / (tall * aspect)));
-  }
+  for (const [level, wide] of [[-1, 0.5], [0, 1], [1, 0.5]] as const)
+    for (let side = 0; side < 8; side++) {
+      const turn = (side * Math.PI) / 4;
+      const at: Point = [((high[0] - low[0]) / 2) * wide * Math.cos(turn), ((high[1] - low[1]) / 2) * level, ((high[2] - low[2]) / 2) * wide * Math.sin(turn)];
+      distance = Math.max(distance, dot(at, back) + Math.max(Math.abs(dot(at, up)) / tall, Math.abs(dot(at, right)) / (tall * aspect)));
+    }
   return { ...eye, target, distance };
 }
 

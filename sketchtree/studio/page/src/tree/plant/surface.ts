@@ -50,9 +50,10 @@ vec3 turned(vec3 p) { vec4 q = normalize(aTurn); return p + 2.0 * cross(q.xyz, c
 const PLACED_NORMAL = "vec3 objectNormal = normalize(turned(normal / aScale));";
 const PLACED_POINT = "vec3 transformed = aPlace + turned(aScale * position);";
 const THINNED = "if (fract(float(gl_InstanceID) * 0.618034) >= uLeafShare) transformed = aPlace;"; // all its corners at one point: not drawn
-const SKY = "uniform sampler3D uSky; uniform vec3 uSkyLow; uniform vec3 uSkySize; uniform float uSunByGrid; varying vec2 vSky;\n";
+const SKY = "uniform sampler3D uSky; uniform vec3 uSkyLow; uniform vec3 uSkySize; uniform float uSunByGrid; uniform float uLeafShare; varying vec2 vSky;\n";
 const SKY_IN = "varying vec2 vSky;\n";
-const SKY_AT = `vSky = mix(vec2(${DARKEST}, 1.0 - uSunByGrid), vec2(1.0), texture(uSky, (transformed - uSkyLow) / uSkySize).rg);`;
+const SKY_AT = `vSky = mix(vec2(${DARKEST}, 1.0 - uSunByGrid), vec2(1.0), texture(uSky, (transformed - uSkyLow) / uSkySize).rg);
+vSky = mix(vec2(1.0), vSky, 0.25 + 0.75 * uLeafShare);`; // what is hidden shades little
 const SKY_FALLS = "#include <aomap_fragment>\nreflectedLight.indirectDiffuse *= vSky.x; reflectedLight.directDiffuse *= vSky.y; reflectedLight.directSpecular *= vSky.y;";
 
 /** The material of a part that is drawn once: wood. Its mesh has the attributes `limb` and `doubt` (rgb, 1 a vertex). */
@@ -80,8 +81,7 @@ export function leafMaterial(of: Material, lighting: Lighting, passing: { value:
     share(shader, lighting, true);
     shader.uniforms.uPassing = passing;
     shader.uniforms.uPasses = { value: of.translucency };
-    shader.uniforms.uLeafShare = lighting.leafShare;
-    shader.vertexShader = `varying vec3 vTint; ${isBaked ? "attribute vec3 aTint;" : `uniform float uLeafShare; ${PLACED}`}\n${SKY}` + shader.vertexShader
+    shader.vertexShader = `varying vec3 vTint; ${isBaked ? "attribute vec3 aTint;" : PLACED}\n${SKY}` + shader.vertexShader
       .replace("#include <beginnormal_vertex>", isBaked ? "#include <beginnormal_vertex>" : PLACED_NORMAL)
       .replace("#include <begin_vertex>", `${isBaked ? "#include <begin_vertex>" : PLACED_POINT + THINNED}\nvTint = aTint; ${SKY_AT}`);
     shader.fragmentShader = `varying vec3 vTint; uniform float uPasses; uniform sampler2D uPassing; vec3 passed; ${SKY_IN}`
@@ -115,8 +115,8 @@ function standard(of: Material): MeshStandardMaterial {
   });
 }
 
-function share(shader: Shader, { sky }: Lighting, sunByGrid: boolean): void {
-  Object.assign(shader.uniforms, { uSky: sky.texture, uSkyLow: sky.low, uSkySize: sky.size, uSunByGrid: { value: sunByGrid ? 1 : 0 } });
+function share(shader: Shader, { sky, leafShare }: Lighting, sunByGrid: boolean): void {
+  Object.assign(shader.uniforms, { uSky: sky.texture, uSkyLow: sky.low, uSkySize: sky.size, uLeafShare: leafShare, uSunByGrid: { value: sunByGrid ? 1 : 0 } });
 }
 
 /** three's direct light, and after it what comes through from the other side. */
