@@ -71,10 +71,13 @@ class Strip {
       const title = name === "auto" && chosen === "auto" && used !== null ? `Auto: ${this.title(used)}` : this.title(name);
       one.show({ chosen: name === chosen, used: name === used, bar: bars.get(name) ?? null, title });
     }
-    if (chosen !== this.chosen && !this.inHand()) this.cards.get(chosen)?.root.scrollIntoView({ block: "nearest", inline: "nearest" });
+    const other = chosen !== this.chosen;
     this.chosen = chosen;
     if (this.inHand()) this.late = true;
-    else this.order();
+    else {
+      this.order();
+      if (other) this.reveal();
+    }
   }
 
   /** Pointer or focus went elsewhere: the tree as it is, and the order that waited. */
@@ -90,9 +93,17 @@ class Strip {
     this.late = false;
     const names = ["auto", ...rank(welcome.templates, matches?.ranked ?? []).map((one) => one.choice.name), "none"];
     const wanted = names.map((name) => this.cards.get(name)!.root);
-    if (wanted.some((one, index) => this.list.children[index] !== one)) this.list.replaceChildren(...wanted);
+    if (wanted.some((one, index) => this.list.children[index] !== one)) {
+      this.list.replaceChildren(...wanted);
+      this.reveal();
+    }
     if (this.typed) this.find(this.typed);
     else this.walk.keep();
+  }
+
+  /** The chosen one comes into view. */
+  private reveal(): void {
+    this.cards.get(this.chosen)?.root.scrollIntoView({ block: "nearest", inline: "nearest" });
   }
 
   private add(name: string, title: string, picture: string | null, hint: string): void {
