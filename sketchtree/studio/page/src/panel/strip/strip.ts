@@ -95,6 +95,7 @@ class Strip {
     const wanted = names.map((name) => this.cards.get(name)!.root);
     if (wanted.some((one, index) => this.list.children[index] !== one)) {
       this.list.replaceChildren(...wanted);
+      this.list.scrollLeft = 0; // the best are to be seen, and the chosen one
       this.reveal();
     }
     if (this.typed) this.find(this.typed);
