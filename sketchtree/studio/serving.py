@@ -71,9 +71,9 @@ async def serve(engine: Engine, start: Start, page: Path, told: Callable[[str], 
 async def _begin(session: Session, journal: Journal, start: Start) -> None:
     """The first drawing: what an earlier session left, else the file, else an example. Raises SketchTreeError for a file that can't be read."""
     recovered = await asyncio.to_thread(journal.play)
-    saved_as = start.file.name if start.file is not None and start.file.suffix.lower() == PROJECT and start.file.exists() else None
     if recovered is not None:
-        session.begin(journal=journal, recovered=recovered, saved_as=saved_as)
+        is_project = start.file is not None and start.file.suffix.lower() == PROJECT and start.file.exists()
+        session.begin(journal=journal, recovered=recovered, saved_as=start.file.name if is_project else None)
         return
     if start.file is None:
         _aside(session, _example(session, journal, start.seed))
@@ -84,7 +84,7 @@ async def _begin(session: Session, journal: Journal, start: Start) -> None:
     folder = session.desk.files.folder
     session.desk.files.signatures[start.file.name] = folder.signature(start.file.name)
     document = await filing.read(session.desk, await asyncio.to_thread(folder.read, start.file.name), start.file.name)
-    session.begin(_seeded(document, start.seed), journal=journal, saved_as=saved_as)
+    session.begin(_seeded(document, start.seed), journal=journal, saved_as=start.file.name)
 
 
 async def _example(session: Session, journal: Journal, seed: int) -> None:
@@ -94,7 +94,7 @@ async def _example(session: Session, journal: Journal, seed: int) -> None:
     except SketchTreeError as error:
         session.desk.notes.append(trouble_of(error, "file"))
         document = Document()
-    session.begin(_seeded(document, seed), journal=journal)
+    session.begin(_seeded(document, seed), journal=journal, saved_as=examples.FIRST)
 
 
 def _seeded(document: Document, seed: int) -> Document:

@@ -412,10 +412,11 @@ def test_the_first_drawing_is_the_file_or_an_example(tmp_path, shelf):
     with running(tmp_path, drawing) as server, server.page() as page:
         server.hello(page)
         event = told(page, "changed")
-        assert [one["id"] for one in event["put"]] == ["mine.svg-0", "mine.svg-1"] and event["name"] == "mine" and event["undo"] is None
+        assert [one["id"] for one in event["put"]] == ["mine.svg-0", "mine.svg-1"] and event["name"] == "mine" and event["undo"] is None and event["saved"]
     with running(tmp_path) as server, server.page() as page:
         server.hello(page)
-        assert [one["id"] for one in told(page, "changed")["put"]] == ["oak_50.svg-0", "oak_50.svg-1"]
+        event = told(page, "changed")
+        assert [one["id"] for one in event["put"]] == ["oak_50.svg-0", "oak_50.svg-1"] and event["saved"]  # nothing of the user's is in it
     with running(tmp_path, tmp_path / "new.sketchtree") as server, server.page() as page:
         server.hello(page)
         event = told(page, "changed")
