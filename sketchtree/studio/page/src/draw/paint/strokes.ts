@@ -13,6 +13,7 @@ export interface Look {
 export type State = "plain" | "hovered" | "selected" | "wrong" | "faint";
 
 const HALO = 5; // CSS pixels around what is selected
+const HALO_STRENGTH: Partial<Record<State, number>> = { selected: 0.32, hovered: 0.16, wrong: 0.22 };
 const LEAST = 1.1; // CSS pixels: no line is thinner on screen
 
 interface Shape {
@@ -28,9 +29,9 @@ export function paintStroke(on: CanvasRenderingContext2D, stroke: Stroke, look: 
   const shape = shapeOf(stroke, look);
   const { palette, scale } = look;
   on.globalAlpha = state === "faint" ? 0.22 : 1;
-  if (state === "selected" || state === "hovered") {
-    on.strokeStyle = palette.accent;
-    on.globalAlpha = state === "selected" ? 0.32 : 0.16;
+  if (state in HALO_STRENGTH) {
+    on.strokeStyle = state === "wrong" ? palette.wrong : palette.accent;
+    on.globalAlpha = HALO_STRENGTH[state] ?? 0;
     on.lineWidth = shape.width + (2 * HALO) / scale;
     on.stroke(shape.line);
     on.globalAlpha = 1;
