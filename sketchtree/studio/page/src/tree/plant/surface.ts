@@ -56,6 +56,13 @@ const SKY_AT = `vSky = mix(vec2(${DARKEST}, 1.0 - uSunByGrid), vec2(1.0), textur
 vSky = mix(vec2(1.0), vSky, 0.25 + 0.75 * uLeafShare);`; // what is hidden shades little
 const SKY_FALLS = "#include <aomap_fragment>\nreflectedLight.indirectDiffuse *= vSky.x; reflectedLight.directDiffuse *= vSky.y; reflectedLight.directSpecular *= vSky.y;";
 
+/** three's own edge begins at the cut and lies inside the drawing, so that far leaves, all edge, are thinned; this one lies across it. */
+const COVERED = `
+#ifdef USE_ALPHATEST
+  diffuseColor.a = saturate((diffuseColor.a - alphaTest) / clamp(fwidth(diffuseColor.a), 1e-3, 0.3) + 0.5);
+  if (diffuseColor.a == 0.0) discard;
+#endif`;
+
 /** The material of a part that is drawn once: wood. Its mesh has the attributes `limb` and `doubt` (rgb, 1 a vertex). */
 export function woodMaterial(of: Material, lighting: Lighting): MeshStandardMaterial {
   const material = standard(of);
@@ -88,6 +95,7 @@ export function leafMaterial(of: Material, lighting: Lighting, passing: { value:
       + shader.fragmentShader
         .replace("#include <lights_physical_pars_fragment>", passingLight(ShaderChunk.lights_physical_pars_fragment))
         .replace("#include <aomap_fragment>", SKY_FALLS)
+        .replace("#include <alphatest_fragment>", isBaked ? "#include <alphatest_fragment>" : COVERED)
         .replace("#include <map_fragment>", `#include <map_fragment>\ndiffuseColor.rgb *= vTint;
 #ifdef USE_MAP
 passed = uPasses * vTint * texture2D(uPassing, vMapUv).rgb;

@@ -2,7 +2,7 @@
 // trunk's foot, and lines a metre apart when somebody wants to measure.
 
 import { Box3, CircleGeometry, Color, Mesh, ShaderMaterial, UniformsLib, UniformsUtils, Vector2, type Scene } from "three";
-import { LOOKS } from "./weather";
+import { DITHER, LOOKS } from "./weather";
 
 export class Ground {
   private readonly mesh: Mesh<CircleGeometry, ShaderMaterial>;
@@ -82,6 +82,7 @@ function material(): ShaderMaterial {
         color = mix(color, color * (uLine < 1.0 ? 0.62 : 1.7), grid);
         gl_FragColor = vec4(mix(color, uHorizon, smoothstep(0.04, 0.42, far)), 1.0);
         #include <colorspace_fragment>
+        ${DITHER}
       }`,
   });
 }

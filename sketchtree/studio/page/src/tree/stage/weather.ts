@@ -17,6 +17,9 @@ export const LOOKS: Record<"light" | "dark", Look> = {
   dark: { zenith: "#1a2733", horizon: "#3a4246", ground: "#363b3c", shadow: "#0f1213", sky: 3.0, sun: 6.6, warmth: "#fff0d8" },
 };
 
+/** Half a step of noise: without it a soft gradient shows bands. */
+export const DITHER = "gl_FragColor.rgb += (fract(52.98 * fract(dot(gl_FragCoord.xy, vec2(0.0671, 0.00584)))) - 0.5) / 255.0;";
+
 /** Towards the sun: over the left shoulder of who looks from the front. */
 export const SUN = new Vector3(-0.52, 0.74, 0.46).normalize();
 
@@ -80,6 +83,7 @@ function domeMaterial(): ShaderMaterial {
     fragmentShader: `uniform vec3 uZenith; uniform vec3 uHorizon; varying vec3 vWay; void main() {
       float up = max(normalize(vWay).y, 0.0); gl_FragColor = vec4(mix(uHorizon, uZenith, 1.0 - pow(1.0 - up, 5.0)), 1.0);
       #include <colorspace_fragment>
+      ${DITHER}
     }`,
   });
 }
