@@ -2,6 +2,7 @@
 
 from sketchtree.export.files import MESHES, PROJECTS, SKELETONS
 from sketchtree.foliage.models import leaf_names
+from sketchtree.foliage.species.blossoms import BLOSSOMS
 from sketchtree.geometry.bark import bark_names
 from sketchtree.studio import examples, messages
 from sketchtree.studio.making.textures import SEASONS
@@ -19,7 +20,7 @@ def catalogue(templates) -> messages.Welcome:
     return messages.Welcome(
         version=messages.VERSION,
         templates=[_choice(name, "template") for name in templates.names],
-        leaves=[_choice(name, "leaf") for name in leaf_names()],
+        leaves=[_choice(name, "leaf") for name in leaf_names() if name not in BLOSSOMS],
         barks=[_choice(name, "bark") for name in bark_names()],
         seasons=list(SEASONS),
         examples=[messages.Choice(name=name, title=examples.title(name), picture=f"/picture/example/{name}.png") for name in examples.names()],
