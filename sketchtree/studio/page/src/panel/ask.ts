@@ -28,5 +28,6 @@ async function refusal(answer: Response): Promise<Refused> {
 }
 
 function isCause(said: unknown): said is { message: string; remedy: string } {
-  return typeof said === "object" && said !== null && "message" in said && "remedy" in said && typeof said.message === "string" && typeof said.remedy === "string";
+  if (typeof said !== "object" || said === null || !("message" in said) || !("remedy" in said)) return false;
+  return typeof said.message === "string" && typeof said.remedy === "string";
 }

@@ -32,7 +32,8 @@ export function commandLine(options: () => ExportOptions, failed: (error: Refuse
       () => line.focus(), // this browser keeps its clipboard shut: the text is selected, ready for Ctrl+C
     );
   };
-  const copy = button({ label: "Copy command line", icon: "copy", testId: "copy-command", hint: "A command that makes this very tree again", onPress: () => { void fetched(); } });
+  const hint = "A command that makes this very tree again";
+  const copy = button({ label: "Copy command line", icon: "copy", testId: "copy-command", hint, onPress: () => { void fetched(); } });
   return { copy, shown, reset: () => { shown.hidden = true; } };
 }
 

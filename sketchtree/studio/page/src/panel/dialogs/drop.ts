@@ -6,7 +6,8 @@ import { icon } from "../../style/icons";
 import { take } from "./take";
 
 export function mountDrop(): void {
-  const veil = element("div", { class: "veil", aria: { hidden: "true" } }, icon("open"), element("strong", {}, "Drop it anywhere"), element("span", {}, "A drawing or project opens; a picture can be traced over."));
+  const veil = element("div", { class: "veil", aria: { hidden: "true" } },
+    icon("open"), element("strong", {}, "Drop it anywhere"), element("span", {}, "A drawing or project opens; a picture can be traced over."));
   veil.hidden = true;
   document.body.append(veil);
   const isFile = (event: DragEvent): boolean => event.dataTransfer?.types.includes("Files") ?? false;

@@ -28,7 +28,8 @@ export function exportTree(store: Store, views: Views): () => void {
   const command = commandLine(() => fitting(controls.options(), ".glb"), failed);
   const look = { views, started, failed, name: () => (store.known.name ?? "tree").replace(/\.[a-z]+$/i, "") };
   const request = (format: string): ReturnType<FormatLook["request"]> => ({ ...fitting(controls.options(), format), revision: store.known.revision });
-  onList(store, (welcome) => welcome.formats, (all) => fill(formats, all, (format, hint) => formatButton({ format, hint, started, failed, request: () => request(format.name) })));
+  const format = (one: Choice, hint: string): HTMLElement => formatButton({ format: one, hint, started, failed, request: () => request(one.name) });
+  onList(store, (welcome) => welcome.formats, (all) => fill(formats, all, format));
   const empty = element("p", { class: "hint" }, "There is no tree yet: draw a trunk and a few branches first.");
   const how = element("p", { class: "hint how" }, "Press a format on the left: the file is made with these options, and saved.");
   const side = element("section", { class: "export-side" }, element("h3", {}, "Options"), controls.root, how, command.shown);

@@ -20,7 +20,8 @@ export interface FormatLook {
 export function formatButton(look: FormatLook): HTMLButtonElement {
   const extension = look.format.name.replace(/^\./, "");
   const note = element("span", { class: "format-note" }, look.hint);
-  const made = element("button", { class: "format", title: `${look.format.title}: make it and save it`, testId: `export-${extension}` }, element("strong", {}, `.${extension}`), note, element("span", { class: "format-title" }, look.format.title));
+  const words = [element("strong", {}, `.${extension}`), note, element("span", { class: "format-title" }, look.format.title)];
+  const made = element("button", { class: "format", title: `${look.format.title}: make it and save it`, testId: `export-${extension}` }, ...words);
   made.type = "button";
   let working: AbortController | null = null;
   made.addEventListener("click", () => {

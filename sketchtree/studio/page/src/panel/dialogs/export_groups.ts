@@ -8,7 +8,10 @@ export interface FormatGroup {
 }
 
 const GROUPS: [string, [string, string][]][] = [
-  ["Scenes", [[".glb", "Blender, Unity, Godot, web"], [".gltf", "to be edited"], [".usd", "Houdini, Maya, Unreal"], [".usda", "to be read"], [".usdc", "compact"], [".usdz", "iPhone, iPad"]]],
+  ["Scenes", [
+    [".glb", "Blender, Unity, Godot, web"], [".gltf", "to be edited"], [".usd", "Houdini, Maya, Unreal"], [".usda", "to be read"], [".usdc", "compact"],
+    [".usdz", "iPhone, iPad"],
+  ]],
   ["Meshes", [[".obj", "read by everything"], [".ply", "with colours"], [".stl", "no textures"], [".3mf", "wood only"]]],
   ["Branches as data", [[".swc", "a line a point"], [".mtg", "OpenAlea"], [".json", "columns"], [".h5", "for Python"]]],
   ["Studio", [[".sketchtree", "to go on with"]]],

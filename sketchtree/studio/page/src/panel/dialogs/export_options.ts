@@ -1,4 +1,5 @@
-// What of the tree goes into the file, and what goes together with what? The rules are the command line's (`FileOptions`); here they are known before anything fails.
+// What of the tree goes into the file, and what goes together with what? The rules are the command line's (`FileOptions`); here they are known before
+// anything fails.
 
 export interface ExportOptions {
   lod: 0 | 1 | 2 | 3;

@@ -31,7 +31,10 @@ export function openFile(store: Store): () => void {
   const fill = (): void => {
     const welcome = store.known.welcome;
     const files = welcome?.files ?? [];
-    where.textContent = files.length > 0 ? `In the folder “${welcome?.folder ?? ""}”, where the studio was started:` : `The folder “${welcome?.folder ?? ""}” has no drawings yet. Choose a file, or drop one anywhere on the page.`;
+    const folder = `folder “${welcome?.folder ?? ""}”`;
+    where.textContent = files.length > 0
+      ? `In the ${folder}, where the studio was started:`
+      : `The ${folder} has no drawings yet. Choose a file, or drop one anywhere on the page.`;
     list.replaceChildren(...files.map((name) => file(name, name === `${store.known.name ?? ""}${EXTENSION}`, () => {
       box.close();
       store.send({ type: "open", name });
@@ -53,7 +56,9 @@ export function openFile(store: Store): () => void {
 }
 
 function file(name: string, current: boolean, onPress: () => void): HTMLElement {
-  const made = element("button", { class: "file", title: `Open ${name}`, data: { name } }, icon(name.endsWith(EXTENSION) ? "leaf" : isPicture(name) ? "picture" : "branch"), element("span", {}, name), current ? element("span", { class: "file-note" }, "open now") : null);
+  const kind = icon(name.endsWith(EXTENSION) ? "leaf" : isPicture(name) ? "picture" : "branch");
+  const note = current ? element("span", { class: "file-note" }, "open now") : null;
+  const made = element("button", { class: "file", title: `Open ${name}`, data: { name } }, kind, element("span", {}, name), note);
   made.type = "button";
   made.addEventListener("click", onPress);
   return made;

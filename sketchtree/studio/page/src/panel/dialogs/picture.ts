@@ -6,6 +6,9 @@ import { element } from "../../parts/element";
 
 export type PictureUse = "underlay" | "drawing";
 
+const TRACE = "It lies faintly under the page, and you draw the branches yourself. For photos and sketches of any kind.";
+const READ = "Dark lines on light paper become strokes. For line drawings, scans and pencil pages.";
+
 /** Ask; `null`: neither. */
 export function pictureDialog(file: File): Promise<PictureUse | null> {
   return new Promise((resolve) => {
@@ -30,8 +33,8 @@ export function pictureDialog(file: File): Promise<PictureUse | null> {
     box.body.append(
       shown,
       element("div", { class: "ways" },
-        way("Trace over it", "It lies faintly under the page, and you draw the branches yourself. For photos and sketches of any kind.", "picture-underlay", () => choose("underlay")),
-        way("Read its lines", "Dark lines on light paper become strokes. For line drawings, scans and pencil pages.", "picture-drawing", () => choose("drawing"))),
+        way("Trace over it", TRACE, "picture-underlay", () => choose("underlay")),
+        way("Read its lines", READ, "picture-drawing", () => choose("drawing"))),
     );
     box.foot.append(button({ label: "Cancel", look: "quiet", onPress: box.close }));
     box.open();

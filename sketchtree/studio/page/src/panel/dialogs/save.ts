@@ -54,7 +54,8 @@ class Saving {
     const read = projectName(this.field.value);
     if ("wrong" in read) return this.show(read.wrong, true);
     const other = read.name !== `${this.store.known.name ?? ""}${EXTENSION}`;
-    if (other && this.over !== read.name && this.store.known.welcome?.files.includes(read.name)) return this.ask(read.name, `${read.name} is there already. Replace it?`);
+    const there = this.store.known.welcome?.files.includes(read.name) ?? false;
+    if (other && there && this.over !== read.name) return this.ask(read.name, `${read.name} is there already. Replace it?`);
     this.send(read.name, this.over === read.name);
   }
 

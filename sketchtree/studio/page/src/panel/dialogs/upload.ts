@@ -14,7 +14,8 @@ export function isPicture(name: string): boolean {
 
 /** `underlay`: to trace over; `drawing`: strokes are read from it. Raises `Refused`. */
 export async function upload(file: File, as: "underlay" | "drawing"): Promise<void> {
-  if (file.size > MAX_UPLOAD) throw new Refused(`${file.name} has ${bytes(file.size)}; at most ${bytes(MAX_UPLOAD)} can be read.`, "Save it smaller, or with less in it.");
+  const tooLarge = `${file.name} has ${bytes(file.size)}; at most ${bytes(MAX_UPLOAD)} can be read.`;
+  if (file.size > MAX_UPLOAD) throw new Refused(tooLarge, "Save it smaller, or with less in it.");
   if (file.size === 0) throw new Refused(`${file.name} is empty.`, "Choose another file.");
   const query = new URLSearchParams({ name: file.name });
   if (isPicture(file.name)) query.set("as", as);

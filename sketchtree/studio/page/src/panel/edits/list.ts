@@ -22,7 +22,9 @@ export function editsList(store: Store, mark: (text: string) => void): HTMLEleme
     mark(edits.length > 0 ? String(edits.length) : "");
     select();
   };
-  const select = (): void => list.querySelectorAll<HTMLElement>("li").forEach((one) => one.classList.toggle("selected", one.dataset["limb"] === store.ui.selected));
+  const select = (): void => {
+    for (const one of list.querySelectorAll("li")) one.classList.toggle("selected", one.dataset["limb"] === store.ui.selected);
+  };
   store.on(["edits", "limbs", "strokes"], fill);
   store.on("selected", select);
   fill();
@@ -37,7 +39,8 @@ function entry(store: Store, edit: Edit, words: ReturnType<typeof editWords>): H
   if (!seen) show.setAttribute("aria-disabled", "true");
   show.addEventListener("click", () => { if (seen) pick(store, edit.limb); });
   const release = button({
-    label: `${words.release}: ${words.where}`, icon: edit.what === "cleared" ? "undo" : "unlock", iconOnly: true, look: "quiet", hint: words.release, testId: `release-${edit.limb}`,
+    label: `${words.release}: ${words.where}`, icon: edit.what === "cleared" ? "undo" : "unlock", iconOnly: true, look: "quiet", hint: words.release,
+    testId: `release-${edit.limb}`,
     onPress: () => store.send({ type: "lock", limb: edit.limb, on: false }),
   });
   return element("li", { data: { limb: edit.limb } }, show, release);

@@ -15,7 +15,8 @@ export function goneBanner(store: Store): HTMLElement {
     const met = store.known.welcome !== null;
     title.textContent = met ? "The studio does not answer." : "The studio is not there yet.";
     words.textContent = met
-      ? " You can go on drawing: your lines are kept here, and join the tree when it is back. If it stays away, run “sketchtree studio” in the terminal again: it goes on where it was."
+      ? " You can go on drawing: your lines are kept here, and join the tree when it is back. " +
+        "If it stays away, run “sketchtree studio” in the terminal again: it goes on where it was."
       : " If it stays so, run “sketchtree studio” in the terminal, and open the address it prints.";
     root.hidden = false;
   };

@@ -14,7 +14,8 @@ export interface Hint {
 
 export function hintCard(store: Store): Hint {
   const close = button({ label: "Close the hint", icon: "close", iconOnly: true, look: "quiet", testId: "hint-close", onPress: () => away() });
-  const words = element("p", {}, element("strong", {}, "Draw a trunk from the ground up, then a few branches."), " The tree follows your pen. Draw on this one, or begin a new page.");
+  const first = element("strong", {}, "Draw a trunk from the ground up, then a few branches.");
+  const words = element("p", {}, first, " The tree follows your pen. Draw on this one, or begin a new page.");
   const root = element("div", { class: "hint-card", role: "note", testId: "hint" }, icon("branch"), words, close);
   let called = false;
   let before: number | null = null; // strokes there were when it appeared

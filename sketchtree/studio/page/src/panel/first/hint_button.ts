@@ -5,7 +5,10 @@ import type { Store } from "../../store";
 import type { Hint } from "./hint";
 
 export function hintButton(store: Store, hint: Hint): HTMLButtonElement {
-  const made = button({ label: "What do I draw?", icon: "help", iconOnly: true, look: "quiet", hint: "What do I draw?", testId: "hint-again", onPress: () => (hint.root.hidden ? hint.show() : (hint.root.hidden = true)) });
+  const made = button({
+    label: "What do I draw?", icon: "help", iconOnly: true, look: "quiet", testId: "hint-again",
+    onPress: () => { if (hint.root.hidden) hint.show(); else hint.root.hidden = true; },
+  });
   made.classList.add("hint-again");
   const follow = (): void => { made.hidden = store.known.strokes.size === 0; };
   store.on("strokes", follow);

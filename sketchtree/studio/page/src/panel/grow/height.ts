@@ -9,7 +9,8 @@ const MOST = 1000;
 
 export function height(store: Store): HTMLElement {
   const id = freshId("height");
-  const field = element("input", { class: "field figure", id, testId: "height", title: "Height of the tree in metres. Leave it empty for what is usual for the template." });
+  const title = "Height of the tree in metres. Leave it empty for what is usual for the template.";
+  const field = element("input", { class: "field figure", id, testId: "height", title });
   field.type = "number";
   field.min = String(LEAST);
   field.max = String(MOST);

@@ -51,7 +51,8 @@ export function picturePicker(look: PickerLook): Picker {
 }
 
 function picture(one: Pickable, look: PickerLook): HTMLElement {
-  const made = element("button", { class: "picture", role: "radio", title: one.title, aria: { label: one.title }, testId: `${look.child}-${one.value}`, data: { value: one.value } });
+  const marks = { testId: `${look.child}-${one.value}`, data: { value: one.value } };
+  const made = element("button", { class: "picture", role: "radio", title: one.title, aria: { label: one.title }, ...marks });
   made.type = "button";
   made.tabIndex = -1;
   if (typeof one.picture === "string") {

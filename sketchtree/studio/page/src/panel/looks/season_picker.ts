@@ -6,7 +6,9 @@ import { picturePicker } from "./picture_picker";
 import { seasonDrawing } from "./season_drawing";
 
 export function seasonPicker(store: Store): HTMLElement {
-  const made = picturePicker({ label: "Season", testId: "season-picker", child: "season", onPick: (season) => store.send({ type: "choose", options: { season } }) });
+  const made = picturePicker({
+    label: "Season", testId: "season-picker", child: "season", onPick: (season) => store.send({ type: "choose", options: { season } }),
+  });
   made.root.classList.add("seasons");
   onList(store, (welcome) => welcome.seasons, (seasons) => {
     made.fill(seasons.map((season) => ({ value: season, title: season.charAt(0).toUpperCase() + season.slice(1), picture: seasonDrawing(season) })));

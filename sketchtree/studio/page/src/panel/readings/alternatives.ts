@@ -61,7 +61,8 @@ class ReadingStrip {
     block(this.look, this.asked ? "looking" : strokes.size === 0 ? "draw something first" : null);
     this.look.querySelector("span")!.textContent = this.asked ? "Looking …" : known && strokes.size > 0 ? "Look again" : "Show other readings";
     this.look.hidden = known !== null && !stale && !this.asked;
-    this.words.textContent = this.asked ? WORDS.asked : !known || strokes.size === 0 ? WORDS.never : stale ? WORDS.stale : known.readings.length < 2 ? WORDS.alone : WORDS.there;
+    const alone = known !== null && known.readings.length < 2;
+    this.words.textContent = WORDS[this.asked ? "asked" : !known || strokes.size === 0 ? "never" : stale ? "stale" : alone ? "alone" : "there"];
   }
 
   private fill(): void {
@@ -81,7 +82,8 @@ class ReadingStrip {
   private reading(known: Alternatives, reading: Reading, index: number): { root: HTMLElement; draw: () => void } {
     const { root: canvas, draw } = sketchlet(reading, known.readings[0]!);
     const odds = percent(reading.odds);
-    const root = element("button", { class: "reading", title: `Take this tree: ${odds} likely`, aria: { label: `Reading ${index + 1}: ${odds} likely` }, testId: `alternative-${index}` }, canvas, element("span", {}, odds));
+    const marks = { testId: `alternative-${index}`, title: `Take this tree: ${odds} likely`, aria: { label: `Reading ${index + 1}: ${odds} likely` } };
+    const root = element("button", { class: "reading", ...marks }, canvas, element("span", {}, odds));
     root.type = "button";
     root.addEventListener("click", () => {
       this.taking = index;

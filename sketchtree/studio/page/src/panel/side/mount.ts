@@ -23,10 +23,12 @@ import { section } from "./section";
 export function mountSide(root: HTMLElement, store: Store): void {
   const hand = section("edits", "Done by hand", true);
   hand.body.append(editsList(store, hand.mark));
+  const part = (name: string, title: string, ...controls: ((store: Store) => HTMLElement)[]): HTMLElement =>
+    section(name, title, true, ...controls.map((control) => control(store))).root;
   root.append(
-    section("tree", "Tree", true, seed(store), generations(store), density(store), gravity(store), light(store), height(store), crownToggle(store), fill(store), planar(store), thetaMode(store)).root,
-    section("looks", "Looks", true, seasonPicker(store), leafPicker(store), barkPicker(store)).root,
-    section("depth", "Depth", true, uncertainty(store), alternatives(store), wholeTree(store)).root,
+    part("tree", "Tree", seed, generations, density, gravity, light, height, crownToggle, fill, planar, thetaMode),
+    part("looks", "Looks", seasonPicker, leafPicker, barkPicker),
+    part("depth", "Depth", uncertainty, alternatives, wholeTree),
     hand.root,
   );
 }

@@ -14,7 +14,8 @@ export function troubleCard(store: Store): HTMLElement {
   const remedy = element("p", {});
   const show = button({ label: "Show the line", icon: "eye", look: "quiet", testId: "trouble-stroke", onPress: () => { point(store); } });
   const close = button({ label: "Close", icon: "close", iconOnly: true, look: "quiet", onPress: () => settle(store) });
-  const root = element("div", { class: "trouble", role: "alert", testId: "trouble" }, icon("warn"), element("div", { class: "trouble-words" }, cause, remedy, show), close);
+  const words = element("div", { class: "trouble-words" }, cause, remedy, show);
+  const root = element("div", { class: "trouble", role: "alert", testId: "trouble" }, icon("warn"), words, close);
   root.hidden = true;
   store.on("trouble", () => {
     const trouble = store.known.trouble;

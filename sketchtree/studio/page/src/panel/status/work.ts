@@ -11,7 +11,9 @@ export function work(store: Store): HTMLElement {
   const words = element("span", { class: "work-words" });
   const bar = element("progress", { aria: { label: "How far it is" } });
   bar.max = 1;
-  const stop = button({ label: "Stop", icon: "stop", look: "quiet", hint: "Stop this work. The drawing stays.", testId: "cancel", onPress: () => store.send({ type: "cancel" }) });
+  const stop = button({
+    label: "Stop", icon: "stop", look: "quiet", hint: "Stop this work. The drawing stays.", testId: "cancel", onPress: () => store.send({ type: "cancel" }),
+  });
   stop.classList.add("in-line");
   const root = element("span", { class: "work" }, words, bar, stop);
   root.hidden = true;

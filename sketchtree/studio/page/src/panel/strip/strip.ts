@@ -43,7 +43,8 @@ class Strip {
     if (!welcome) return;
     this.cards.clear();
     this.add("auto", "Automatic", null, "The template most like the drawing, chosen anew whenever it changes");
-    for (const one of welcome.templates) this.add(one.name, one.title, one.picture && this.store.address(one.picture), `${one.title}: rest here to see the tree with it, click to keep it`);
+    for (const { name, title, picture } of welcome.templates)
+      this.add(name, title, picture && this.store.address(picture), `${title}: rest here to see the tree with it, click to keep it`);
     this.add("none", "No template", null, "Only what the drawing itself says, with plain leaves and bark");
     this.list.replaceChildren(...[...this.cards.values()].map((one) => one.root));
     this.order();
