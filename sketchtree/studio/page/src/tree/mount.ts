@@ -108,16 +108,22 @@ interface Standing {
 /** What the program sends is shown. */
 function followFrames(view: View, store: Store, { scenery, chosen, weather, ground, figure, ghosts }: Standing): void {
   const plants = new Plants();
+  let framedFor = 0; // metres: height of the tree that the eye was placed for
   store.on("frame", () => {
     if (!store.frame) return;
     scenery.show(plants.take(store.frame.head, store.frame.arrays), store.frame.head.phase === "quick");
-    const first = view.box === null;
     view.box = scenery.box;
     if (!scenery.box.isEmpty()) {
       weather.light(scenery.box);
       ground.under(scenery.box, trunkOf(store));
       figure.beside(scenery.box);
-      if (first) view.look(view.whole());
+      if (isOther(framedFor, scenery.box.max.y) && store.frame.head.phase !== "glance") {
+        if (framedFor === 0) view.look(view.whole());
+        else view.fly(view.whole());
+        framedFor = scenery.box.max.y;
+      }
+    } else {
+      framedFor = 0;
     }
     if (store.ui.uncertainty) scenery.doubt(doubtColours(scenery.now, store.known.limbs));
     ghosts.show([], 0); // what was to come is there
@@ -131,6 +137,11 @@ function followFrames(view: View, store: Store, { scenery, chosen, weather, grou
     ghosts.show(paths, 0.0022 * view.reach);
     view.stage.draw(true);
   });
+}
+
+/** Is the tree so much smaller or larger that the eye should go elsewhere? */
+function isOther(before: number, now: number): boolean {
+  return before === 0 || now > 1.5 * before || now < 0.6 * before;
 }
 
 /** A guess at the trunk's radius: it decides how wide the ground darkens at its foot. */
