@@ -108,7 +108,7 @@ interface Standing {
 /** What the program sends is shown. */
 function followFrames(view: View, store: Store, { scenery, chosen, weather, ground, figure, ghosts }: Standing): void {
   const plants = new Plants();
-  let framedFor = 0; // metres: height of the tree that the eye was placed for
+  let stood = false; // there was a tree before
   store.on("frame", () => {
     if (!store.frame) return;
     scenery.show(plants.take(store.frame.head, store.frame.arrays), store.frame.head.phase === "quick");
@@ -117,14 +117,10 @@ function followFrames(view: View, store: Store, { scenery, chosen, weather, grou
       weather.light(scenery.box);
       ground.under(scenery.box, trunkOf(store));
       figure.beside(scenery.box);
-      if (isOther(framedFor, scenery.box.max.y) && store.frame.head.phase !== "glance") {
-        if (framedFor === 0) view.look(view.whole());
-        else view.fly(view.whole());
-        framedFor = scenery.box.max.y;
-      }
-    } else {
-      framedFor = 0;
+      if (store.frame.head.phase !== "glance") view.follow(!stood);
     }
+    stood = !scenery.box.isEmpty();
+    ground.bare = !stood;
     if (store.ui.uncertainty) scenery.doubt(doubtColours(scenery.now, store.known.limbs));
     ghosts.show([], 0); // what was to come is there
     chosen.renew();
@@ -137,11 +133,6 @@ function followFrames(view: View, store: Store, { scenery, chosen, weather, grou
     ghosts.show(paths, 0.0022 * view.reach);
     view.stage.draw(true);
   });
-}
-
-/** Is the tree so much smaller or larger that the eye should go elsewhere? */
-function isOther(before: number, now: number): boolean {
-  return before === 0 || now > 1.5 * before || now < 0.6 * before;
 }
 
 /** A guess at the trunk's radius: it decides how wide the ground darkens at its foot. */

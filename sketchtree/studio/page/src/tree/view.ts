@@ -8,6 +8,7 @@ import type { Ray } from "./hand/pick";
 import type { PagePlane } from "./page/plane";
 import { Stage } from "./stage/stage";
 
+const SLACK = 0.06; // of the distance, before the eye follows a tree that grows
 const NEAR_ENOUGH = 7; // pixels from a limb that still hit it
 
 export class View {
@@ -16,6 +17,7 @@ export class View {
   eye: Eye = { azimuth: 24, elevation: 6, distance: 20, target: [0, 4, 0] };
   box: Box3 | null = null; // of what there is to see
   overPage: (() => { page: PageOnScreen; plane: PagePlane; azimuth: number } | null) = () => null; // while the page lies over the tree
+  private seesAll = true;
   private readonly cameras = new Cameras();
   private camera: Camera | null = null;
   private readonly spot = new Vector3();
@@ -36,6 +38,7 @@ export class View {
 
   look(eye: Eye): void {
     this.flight.stop();
+    this.seesAll = false;
     this.eye = eye;
     this.stage.draw(true);
   }
@@ -43,6 +46,21 @@ export class View {
   fly(to: Eye): void {
     this.flight.to(this.eye, to, performance.now());
     this.stage.draw(true);
+  }
+
+  /** See the whole tree, from here or from another side; and go on seeing it as it grows, until a hand moves the eye. */
+  showAll(azimuth = this.eye.azimuth, elevation = this.eye.elevation, atOnce = false): void {
+    const eye = this.whole(azimuth, elevation);
+    if (atOnce) this.look(eye);
+    else this.fly(eye);
+    this.seesAll = true;
+  }
+
+  /** The tree is another: where the whole of it was seen, it still is. */
+  follow(atOnce: boolean): void {
+    if (!this.seesAll) return;
+    const nearer = this.whole().distance / this.eye.distance;
+    if (atOnce || (!this.flight.moving && (nearer > 1 + SLACK || nearer < 1 - 2 * SLACK))) this.showAll(undefined, undefined, atOnce);
   }
 
   /** The eye in its direction, or another, that sees the whole tree. */

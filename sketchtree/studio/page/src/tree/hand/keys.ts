@@ -22,9 +22,9 @@ export function listenKeys(view: View, store: Store, toolbar: Toolbar, handles: 
   };
   const nearer = (factor: number) => () => view.look(zoomed(view.eye, factor, 0, 0, view.stage.high));
   const turn = (right: number, up: number) => () => view.look(turned(view.eye, right, up));
-  const side = (azimuth: number, elevation: number) => () => view.fly(view.whole(azimuth, elevation));
+  const side = (azimuth: number, elevation: number) => () => view.showAll(azimuth, elevation);
   const chosen = (act: () => void, otherwise?: () => void) => () => (store.ui.selected === null ? otherwise?.() : act());
-  const whole = (): void => view.fly(view.whole());
+  const whole = (): void => view.showAll();
 
   const onKey: Record<string, () => void> = {
     ArrowLeft: turn(-STEP, 0), ArrowRight: turn(STEP, 0), ArrowUp: turn(0, STEP), ArrowDown: turn(0, -STEP),

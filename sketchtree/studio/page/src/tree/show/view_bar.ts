@@ -13,7 +13,7 @@ export interface Shown {
 export function viewBar(view: View, store: Store, shown: Shown, changed: () => void): HTMLElement {
   const fly = (azimuth: number, elevation: number) => () => {
     if (store.ui.layout === "over") store.set("turn", azimuth); // there the page is turned, and the tree with it
-    else view.fly(view.whole(azimuth, elevation));
+    else view.showAll(azimuth, elevation);
   };
   const side = (label: string, key: string, azimuth: number, elevation: number): HTMLButtonElement =>
     button({ label, key, look: "quiet", testId: `view-${label.toLowerCase()}`, hint: `See the tree from ${label === "Top" ? "above" : `its ${label.toLowerCase()}`}`, onPress: fly(azimuth, elevation) });
@@ -32,7 +32,7 @@ export function viewBar(view: View, store: Store, shown: Shown, changed: () => v
   follow();
   const bar = element("div", { class: "tree-bar", role: "toolbar", "aria-label": "View" },
     side("Front", "1", 0, 4), side("Side", "2", 90, 4), top,
-    button({ label: "Whole tree", icon: "fit", iconOnly: true, look: "quiet", key: "Home", testId: "view-whole", onPress: () => view.fly(view.whole()) }),
+    button({ label: "Whole tree", icon: "fit", iconOnly: true, look: "quiet", key: "Home", testId: "view-whole", onPress: () => view.showAll() }),
     element("span", { class: "tree-bar-gap" }),
     toggle("ink", "Drawing", "branch", "The drawing, as it lies on the tree"), toggle("grid", "Metres", "gallery", "Lines a metre apart on the ground"), figure);
   view.root.append(bar);

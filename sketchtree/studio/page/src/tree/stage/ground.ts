@@ -39,6 +39,11 @@ export class Ground {
     this.mesh.material.uniforms.uGrid!.value = is ? 1 : 0;
   }
 
+  /** Nothing stands on it: nothing darkens it. */
+  set bare(is: boolean) {
+    this.mesh.material.uniforms.uStands!.value = is ? 0 : 1;
+  }
+
   set visible(is: boolean) {
     this.mesh.visible = is;
   }
@@ -49,7 +54,7 @@ function material(): ShaderMaterial {
     lights: true, toneMapped: false,
     uniforms: UniformsUtils.merge([UniformsLib.lights, {
       uGround: { value: new Color() }, uShadow: { value: new Color() }, uHorizon: { value: new Color() }, uReach: { value: 1 }, uCrown: { value: 1 }, uTrunk: { value: 0.2 },
-      uMiddle: { value: new Vector2() }, uGrid: { value: 0 }, uLine: { value: 1 },
+      uMiddle: { value: new Vector2() }, uStands: { value: 1 }, uGrid: { value: 0 }, uLine: { value: 1 },
     }]),
     vertexShader: `
       #include <common>
@@ -70,13 +75,13 @@ function material(): ShaderMaterial {
       #include <lights_pars_begin>
       #include <shadowmap_pars_fragment>
       #include <shadowmask_pars_fragment>
-      uniform vec3 uGround, uShadow, uHorizon; uniform float uReach, uCrown, uTrunk, uGrid, uLine; uniform vec2 uMiddle; varying vec3 vAt;
+      uniform vec3 uGround, uShadow, uHorizon; uniform float uStands, uReach, uCrown, uTrunk, uGrid, uLine; uniform vec2 uMiddle; varying vec3 vAt;
       float line(float at, float wide) { float d = abs(fract(at - 0.5) - 0.5) / max(fwidth(at), 1e-5); return (1.0 - smoothstep(0.0, wide, d)) * (1.0 - smoothstep(0.2, 0.6, fwidth(at))); }
       void main() {
         float far = length(vAt.xz) / uReach;
         float below = exp(-dot(vAt.xz - uMiddle, vAt.xz - uMiddle) / (0.9 * uCrown * uCrown));
         float foot = exp(-pow(max(length(vAt.xz) - uTrunk, 0.0) / (1.6 * uTrunk), 1.0));
-        float light = mix(0.42, 1.0, getShadowMask()) * (1.0 - 0.16 * below) * (1.0 - 0.45 * foot);
+        float light = mix(0.42, 1.0, getShadowMask()) * (1.0 - 0.16 * uStands * below) * (1.0 - 0.45 * uStands * foot);
         vec3 color = mix(uShadow, uGround, light);
         float grid = uGrid * max(line(vAt.x, 1.2), line(vAt.z, 1.2)) * exp(-length(vAt.xz) / (3.0 * uCrown));
         color = mix(color, color * (uLine < 1.0 ? 0.62 : 1.7), grid);
