@@ -18,7 +18,7 @@ from sketchtree.editing.edits import Edits
 from sketchtree.editing.limbs import LimbLines
 from sketchtree.editing.rows import Drawing
 from sketchtree.editing.settle import Settling, settle
-from sketchtree.editing.settled import Depths, Settled
+from sketchtree.editing.settled import Depths, Manner, Settled
 from sketchtree.errors import InferenceError
 from sketchtree.geometry.radii import PipeRadii
 from sketchtree.keys import stage_key
@@ -31,17 +31,19 @@ from sketchtree.mrf.solver import RESULTS, AbstractSolver
 from sketchtree.options import ReadingOptions
 from sketchtree.page import drawn_radius, page_to_world
 from sketchtree.parameters import GENERIC, Habit, TreeParameters
-from sketchtree.roots import root_depth
+from sketchtree.roots import root_depth, without_roots
 from sketchtree.similarity import Similarity
 from sketchtree.sketch.graph import SketchGraph
 from sketchtree.sketch.strokes import Sketch
+from sketchtree.propagate.blocks.block import blocks_of
 from sketchtree.skeleton import TreeSkeleton
 from sketchtree.templates.exemplar import Exemplar
 from sketchtree.templates.matching.match import Match
 from sketchtree.templates.store.database import Database
 from sketchtree.watch import Watch
 
-_ANOTHER = 0.15  # Θ is measured anew when the drawing has so many more limbs, or fewer
+_ANOTHER = 0.15  # the manner of growing is measured anew when so many limbs, of those there were, came or went
+_LARGER = 0.02  # or when the tree's scale changed by so much
 
 
 @dataclass(frozen=True, eq=False)
@@ -141,9 +143,9 @@ def _in_space(sketch, graph: SketchGraph, matches, exemplar, asked: _Asked, simi
     hanging = Hanging(graph, prior, solver, asked.edits, asked.settled, axis, asked.key, asked.quick)
     front, tree = _with_attached(front, sketch, hanging)
     skeleton = PipeRadii(habit, front.radius)(_in_world(tree, similarity, front.fit.depth_sd), key=radii_key)
-    now = _as_settled(front, asked, exemplar, axis)
+    now = _as_settled(front, asked, exemplar, axis, skeleton, similarity.scale)
     held = options.theta == "fixed"
-    theta = front.fit.theta_before if held else now.theta
+    theta = front.fit.theta_before if held else now.manner.theta
     return DrawnTree(
         front.graph, matches, exemplar, front.fit, similarity, skeleton, front.radius, habit, held, theta, sketch, asked.edits, now, front.touched, front.remarks
     )
@@ -199,12 +201,16 @@ def _settled_limbs(graph: SketchGraph, fit: Fit) -> dict:
     return {line.limb: line.depths(graph, fit.depth, fit.depth_sd, graph.stroke_ids) for line in lines.lines}
 
 
-def _as_settled(front: _Front, asked: _Asked, exemplar: Exemplar | None, axis: float) -> Settled:
-    """What is settled now. Θ stays what it was while the drawing is about as large and the question the same: one stroke more leaves what grew elsewhere alone."""
-    before, bears, count = asked.settled, asked.of_depths(exemplar), len(front.limbs)
-    same = before.theta is not None and before.asked == bears and abs(count - before.counted) <= _ANOTHER * before.counted
-    theta, counted = (before.theta, before.counted) if same else (front.fit.theta, count)
-    return Settled(front.limbs, exemplar.name if exemplar else None, bears, theta, counted, axis)
+def _as_settled(front: _Front, asked: _Asked, exemplar: Exemplar | None, axis: float, skeleton: TreeSkeleton, scale: float) -> Settled:
+    """What is settled now. The manner of growing stays what it was while the drawing is about as large and the question the same: one stroke more leaves what grew
+    elsewhere alone."""
+    before, bears, limbs = asked.settled.manner, asked.of_depths(exemplar), frozenset(front.limbs)
+    same = before is not None and asked.settled.asked == bears and len(limbs ^ before.limbs) <= _ANOTHER * len(before.limbs)
+    if not same or abs(scale / before.scale - 1.0) > _LARGER:
+        above, _ = without_roots(skeleton)
+        alone = len(np.unique(above.tree)) == 1
+        before = Manner(front.fit.theta, blocks_of(above) if alone else None, limbs, scale)
+    return Settled(front.limbs, exemplar.name if exemplar else None, bears, before, axis)
 
 
 def _with_roots(fit: Fit, graph: SketchGraph) -> Fit:

@@ -10,7 +10,7 @@ import numpy as np
 from jaxtyping import Array, Float, Key
 
 from sketchtree.choose import bark_model, leaf_model
-from sketchtree.drawn_tree import DrawnTree, SketchSource, draw_out
+from sketchtree.drawn_tree import DrawnTree, draw_out
 from sketchtree.dressing import Dress
 from sketchtree.editing.clearing import cleared
 from sketchtree.foliage.blossom import blossom
@@ -197,6 +197,7 @@ def propagation(drawn: DrawnTree, options: TreeOptions, obstacles: tuple = ()) -
         light=options.light,
         fixed=drawn.held,
         exemplar=drawn.exemplar.skeleton if drawn.exemplar else None,
+        like=drawn.settled.manner.blocks,
     )
 
 

@@ -9,7 +9,7 @@ from sketchtree import keys, stage
 from sketchtree.geometry.radii import PipeRadii
 from sketchtree.parameters import GENERIC, Habit
 from sketchtree.options import ReadingOptions
-from sketchtree.pipeline import SketchSource
+from sketchtree.drawn_tree import SketchSource
 from sketchtree.propagate.after.prune import Prune
 from sketchtree.propagate.after.sag import Sag
 from sketchtree.propagate.after.shed import Shed

@@ -2,7 +2,7 @@
 
     edits     [{"op": "hold", "limb": "…", "share": […], "depth": […], "whole": false}, {"op": "clear", "limb", "path": [[x, y, z], …], "radius"},
                {"op": "adopt", "limb", "parent", "share", "path", "radius", "was"}, …]       limb ids are decimal text; sketch units, y up
-    settled   {"template", "asked", "theta": {…}, "counted", "axis", "limbs": {id: {"share", "depth", "sd", "course", "parent", "strokes", "view_deg"}}}
+    settled   {"template", "asked", "manner": {"theta", "blocks", "limbs", "scale"}, "axis", "limbs": {id: {"share", "depth", "sd", "course", "parent", "strokes", "view_deg"}}}
 
 Numbers are written so that they read back to the last bit; an sd that is not known is null.
 """
@@ -14,8 +14,13 @@ from typing import Any
 import numpy as np
 
 from sketchtree.editing.edits import Adopted, Cleared, Edits, Held
-from sketchtree.editing.settled import COURSE, Depths, Settled
+from sketchtree.editing.settled import COURSE, Depths, Manner, Settled
 from sketchtree.parameters import TreeParameters
+from sketchtree.propagate.blocks.block import Blocks
+
+
+_CHILDREN = ("apical", "scale", "divergence", "orientation", "reach", "length", "droop")
+_BLOCKS = {name: np.int64 for name in ("id", "order", "start")} | {name: float for name in ("position", "zone", *_CHILDREN[1:])} | {"apical": bool}
 
 
 def edits_as_json(edits: Edits) -> list[dict]:
@@ -54,26 +59,55 @@ def settled_as_json(settled: Settled) -> dict:
         }
         for name, one in settled.limbs.items()
     }  # fmt: skip
-    theta = None if settled.theta is None else settled.theta.as_dict()
-    return {"template": settled.template, "asked": settled.asked, "theta": theta, "counted": settled.counted, "axis": settled.axis, "limbs": limbs}
+    manner = None if settled.manner is None else _manner_as_json(settled.manner)
+    return {"template": settled.template, "asked": settled.asked, "manner": manner, "axis": settled.axis, "limbs": limbs}
 
 
 def settled_from_json(row: Any) -> Settled:
     """Raises ValueError for what is not that."""
     row = _checked(row, dict)
     limbs = {_limb(name): _depths(one) for name, one in _checked(row.get("limbs", {}), dict).items()}
-    theta = row.get("theta")
-    names = {field.name for field in dataclasses.fields(TreeParameters)}
-    if theta is not None and set(_checked(theta, dict)) != names:
-        raise ValueError("its Θ has other parameters")
     return Settled(
         limbs,
         None if row.get("template") is None else str(row["template"]),
         str(row.get("asked", "")),
-        None if theta is None else TreeParameters(**{name: _number(value) for name, value in theta.items()}),
-        int(row.get("counted", 0)),
+        None if row.get("manner") is None else _manner(_checked(row["manner"], dict)),
         _number(row.get("axis", 0.0)),
     )
+
+
+def _manner_as_json(manner: Manner) -> dict:
+    blocks = manner.blocks
+    columns = None if blocks is None else {name: _plain(getattr(blocks, name)) for name in _BLOCKS}
+    return {"theta": manner.theta.as_dict(), "blocks": columns, "limbs": sorted(map(str, manner.limbs)), "scale": float(manner.scale)}
+
+
+def _plain(column) -> list:
+    """Whole numbers as they are, those that are unknown as null."""
+    return [None if value != value else value for value in np.asarray(column).tolist()]
+
+
+def _manner(row: dict) -> Manner:
+    theta = _checked(row["theta"], dict)
+    if set(theta) != {field.name for field in dataclasses.fields(TreeParameters)}:
+        raise ValueError("its Θ has other parameters")
+    blocks = None if row.get("blocks") is None else _blocks(_checked(row["blocks"], dict))
+    limbs = frozenset(_limb(name) for name in _checked(row["limbs"], list))
+    return Manner(TreeParameters(**{name: _number(value) for name, value in theta.items()}), blocks, limbs, _number(row["scale"]))
+
+
+def _blocks(row: dict) -> Blocks:
+    columns = {}
+    for name, kind in _BLOCKS.items():
+        values = [np.nan if value is None else value for value in _checked(row[name], list)]
+        columns[name] = np.array(values, kind)
+    blocks, count = Blocks(**columns), int(columns["start"][-1]) if len(columns["start"]) else -1
+    of_block, of_child = (len(columns[name]) for name in ("id", "apical"))
+    if len(columns["start"]) != of_block + 1 or columns["start"][0] != 0 or (np.diff(columns["start"]) < 0).any() or count != of_child:
+        raise ValueError("its blocks do not fit each other")
+    if any(len(columns[name]) != of_block for name in ("order", "position", "zone")) or any(len(columns[name]) != of_child for name in _CHILDREN):
+        raise ValueError("its blocks do not fit each other")
+    return blocks
 
 
 def reading(make: Callable, row: Any):

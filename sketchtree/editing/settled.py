@@ -7,6 +7,7 @@ import numpy as np
 from jaxtyping import Float
 
 from sketchtree.parameters import TreeParameters
+from sketchtree.propagate.blocks.block import Blocks
 
 COURSE = 9  # places along a limb by which its course is told from another
 
@@ -25,14 +26,23 @@ class Depths:
 
 
 @dataclass(frozen=True, eq=False)
+class Manner:
+    """In what manner the rest grows, as it was measured on the drawing once: a stroke more does not change it everywhere."""
+
+    theta: TreeParameters
+    blocks: Blocks | None  # of the drawn limbs, metres; None of several trees, each of which has its own
+    limbs: frozenset[int]  # that there were
+    scale: float  # metres a sketch unit
+
+
+@dataclass(frozen=True, eq=False)
 class Settled:
     """All limbs'. Empty: nothing is known yet."""
 
     limbs: Mapping[int, Depths] = field(default_factory=dict)
     template: str | None = None  # the exemplar that was used; None: none yet
     asked: str = ""  # the options that bear on depths: with others, all limbs are solved again
-    theta: TreeParameters | None = None  # by which the rest grows, kept until the drawing is another
-    counted: int = 0  # limbs when it was measured
+    manner: Manner | None = None  # in which the rest grows, kept until the drawing is another
     axis: float = 0.0  # x of the first root, sketch units: turned pages turn about the vertical through it
 
     def __len__(self) -> int:

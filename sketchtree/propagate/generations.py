@@ -90,7 +90,8 @@ def _trees(planted: Planted) -> tuple[list[Member], list]:
     parts = [tree] if len(names) == 1 else [tree.select(tree.tree == name) for name in names]
     crowns = outlines_of_trees(parts, planted.wanted.crown)
     most = max(planted.wanted.max_segments // len(parts), 1)
-    wanted = [replace(planted.wanted, crown=crown, max_segments=most) for crown in crowns]
+    like = planted.wanted.like if len(parts) == 1 else None
+    wanted = [replace(planted.wanted, crown=crown, max_segments=most, like=like) for crown in crowns]
     return [Member(part, its, planted.key, planted.place) for part, its in zip(parts, wanted, strict=True)], rows
 
 

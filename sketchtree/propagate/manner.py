@@ -56,7 +56,7 @@ class Manner:
     def of(cls, tree: TreeSkeleton, wanted: Wanted) -> "Manner":
         """The manner of a drawn tree: the exemplar's, made more like what was drawn; the habit's where there is none to lend."""
         habit = to_scale(wanted.habit, tree, wanted.crown)
-        own, (lender, supplement) = blocks_of(tree), _supplement(wanted, habit)
+        own, (lender, supplement) = blocks_of(tree) if wanted.like is None else wanted.like, _supplement(wanted, habit)
         thorough = _thorough(wanted, own, supplement, lender)
         if not wanted.fixed:
             supplement = likened(supplement, own, thorough)

@@ -6,6 +6,7 @@ import numpy as np
 
 from sketchtree.errors import OptionError
 from sketchtree.parameters import Habit, TreeParameters
+from sketchtree.propagate.blocks.block import Blocks
 from sketchtree.propagate.space.light import check_strength
 from sketchtree.skeleton import TreeSkeleton
 
@@ -31,6 +32,7 @@ class Wanted:
     density: float = 1.0  # laterals a metre of limb, over the habit's, 0.01-10
     thorough: float | None = None  # 0-1, how completely the drawn orders were drawn; None: judged from the drawing
     fixed: bool = False  # Θ is held: nothing is made more like what was drawn
+    like: Blocks | None = None  # blocks of the drawing by which its manner is judged; None: as it is. While somebody draws, a limb more changes nothing elsewhere
     light: float = 0.0  # 0-1, how much growth turns to the light and how few buds open in the shade; 0: not at all
 
     def __post_init__(self):

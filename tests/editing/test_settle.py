@@ -98,4 +98,4 @@ def test_theta_stays_while_the_drawing_is_about_as_large(settled):
     again, _ = made(operations.hold(after, limb("left"), 1.0, 12.5))
     assert again.theta == drawn.theta
     fewer, _ = made(after.replace(strokes={name: after.strokes[name] for name in ("trunk", "left", "right")}))
-    assert fewer.settled.counted == 3
+    assert fewer.settled.manner.limbs == {limb("trunk"), limb("left"), limb("right")}

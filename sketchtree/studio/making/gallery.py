@@ -19,7 +19,7 @@ def catalogue(templates) -> messages.Welcome:
     formats = [name for name in _FORMATS if name in MESHES + SKELETONS + PROJECTS]
     return messages.Welcome(
         version=messages.VERSION,
-        templates=[_choice(name, "template") for name in templates.names],
+        templates=[_choice(name, "template", title) for name, title in zip(templates.names, templates.titles, strict=True)],
         leaves=[_choice(name, "leaf") for name in leaf_names() if name not in BLOSSOMS],
         barks=[_choice(name, "bark") for name in bark_names()],
         seasons=list(SEASONS),
@@ -58,5 +58,5 @@ def example_picture(name: str) -> bytes | None:
     return encoded(np.stack([np.full_like(ink, 40), ink], axis=-1))
 
 
-def _choice(name: str, what: str) -> messages.Choice:
-    return messages.Choice(name=name, title=name.replace("_", " ").capitalize(), picture=f"/picture/{what}/{name}.png")
+def _choice(name: str, what: str, title: str = "") -> messages.Choice:
+    return messages.Choice(name=name, title=title or name.replace("_", " ").capitalize(), picture=f"/picture/{what}/{name}.png")

@@ -163,6 +163,8 @@ class Jobs:
 def _basis(drawn, tree, chunks, digests: dict[str, str]):
     from sketchtree.studio.making.work import Basis
 
+    points = tree.skeleton.tip
     return Basis(
-        drawn.similarity.scale, drawn.similarity.translate, tuple(digests), drawn.settled, tree.skeleton.segment_count, len(tree.leaves), chunks.triangles
+        drawn.similarity.scale, drawn.similarity.translate, tuple(digests), drawn.settled, tree.skeleton.height, tuple(points.min(axis=0)), tuple(points.max(axis=0)),
+        tree.skeleton.segment_count, len(tree.leaves), chunks.triangles
     )

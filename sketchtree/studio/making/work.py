@@ -44,6 +44,9 @@ class Basis:
     translate: tuple[float, float, float]
     owners: tuple[str, ...]
     settled: Settled
+    height: float  # metres
+    low: tuple[float, float, float]
+    high: tuple[float, float, float]
     segments: int
     leaves: int
     triangles: tuple[int, int]
@@ -124,7 +127,9 @@ def tree_frame(
         drawn=drawn.skeleton.segment_count,
         leaves=len(tree.leaves) if basis is None else basis.leaves,
         triangles=list(chunks.triangles if basis is None else basis.triangles),
-        height=skeleton.height, low=points.min(axis=0).tolist(), high=points.max(axis=0).tolist(),
+        height=skeleton.height if basis is None else basis.height,
+        low=list(points.min(axis=0) if basis is None else np.minimum(points.min(axis=0), basis.low)),
+        high=list(points.max(axis=0) if basis is None else np.maximum(points.max(axis=0), basis.high)),
         template=drawn.exemplar.name if drawn.exemplar else None, leaf=tree.dress.leaf, bark=tree.dress.bark, warnings=list(drawn.warnings + tree.warnings), arrays=[],
     )  # fmt: skip
     return arrays.frame(head), digests
