@@ -23,6 +23,7 @@ from sketchtree.studio import messages
 from sketchtree.studio.engine import Outcome
 
 _ROLES = ("quick", "full", "side")
+_SMALL, _LINES = 1_000_000, (".svg", ".json", ".excalidraw", ".inkml")  # bytes, and kinds, of drawings that are read at once
 _PAUSE = 0.1  # seconds between two tellings of how far a stage is
 
 
@@ -252,7 +253,11 @@ class Crew:
         return await self._hands["full"].ask("find", limb)[1]
 
     async def read(self, data: bytes, name: str) -> Document:
-        """As `Engine.read`."""
+        """As `Engine.read`. Small drawings of lines are read here, on a thread: they are there before any other process is."""
+        if len(data) < _SMALL and Path(name).suffix.lower() in _LINES:
+            from sketchtree.studio.making.documents import document_of
+
+            return await asyncio.to_thread(document_of, data, name)
         return await self._hands["side"].ask("read", data, name)[1]
 
     async def export(self, document: Document, name: str, options: dict) -> dict[str, bytes]:
