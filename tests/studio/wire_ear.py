@@ -6,9 +6,10 @@ import threading
 import time
 from collections import Counter
 from collections.abc import Callable
+from contextlib import ExitStack
 from urllib.parse import urlsplit
 
-PATIENCE = 30.0
+PATIENCE = 90.0
 
 
 class Ear:
@@ -19,7 +20,10 @@ class Ear:
 
         place = urlsplit(address).netloc
         cookie = "; ".join(f"{one['name']}={one['value']}" for one in cookies)
-        self._line = connect(f"ws://{place}/ws", additional_headers={"Cookie": cookie}, origin=f"http://{place}", max_size=None, compression=None)
+        self._open = ExitStack()
+        self._line = self._open.enter_context(
+            connect(f"ws://{place}/ws", additional_headers={"Cookie": cookie}, origin=f"http://{place}", max_size=None, compression=None)
+        )
         self._changed = threading.Condition()
         self._strokes: dict[str, dict] = {}
         self._others: dict = {"options": {}, "edits": [], "underlay": None}
@@ -39,7 +43,7 @@ class Ear:
         self._line.send(anything)
 
     def close(self) -> None:
-        self._line.close()
+        self._open.close()
 
     def sync(self) -> None:
         """Until what was said before was heard: the program works in order."""
