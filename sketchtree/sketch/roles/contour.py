@@ -163,21 +163,22 @@ def _roundest(way: Float[np.ndarray, "point 2"], size: float, ground: float, wid
 
     What is cut off must be a leg of the trunk: it reaches below `ground`."""
     n = len(way)
-    step = np.hypot(*np.diff(way, axis=0).T)
-    s = np.r_[0.0, np.cumsum(step)]
-    moment = np.r_[0.0, np.cumsum(way[:-1, 0] * way[1:, 1] - way[:-1, 1] * way[1:, 0])]
     x, y = way.T
-    area = 0.5 * np.abs(moment[None] - moment[:, None] + x[None] * y[:, None] - y[None] * x[:, None])
-    opening = np.hypot(x[None] - x[:, None], y[None] - y[:, None])
-    inside = np.arange(n)[None] >= np.arange(n)[:, None]
-    side = np.max([_running_extent(axis, inside) for axis in (x, y)], axis=0)
-    around = np.where(inside, s[None] - s[:, None] + 2 * opening, np.inf)
-    score = 4 * np.pi * area / np.maximum(around, 1e-9 * size) ** 2
     before = np.minimum.accumulate(y) <= ground
     after = np.minimum.accumulate(y[::-1])[::-1] <= ground
     before[0] = after[-1] = True
-    allowed = inside & before[:, None] & after[None] & (side >= LARGE * size) & (opening <= widest * side)
-    score = np.where(allowed & (score >= ROUND), score, -np.inf)
+    rows = np.flatnonzero(before)  # few: most lines are on the ground at one end, if at all
+    s = np.r_[0.0, np.cumsum(np.hypot(*np.diff(way, axis=0).T))]
+    moment = np.r_[0.0, np.cumsum(way[:-1, 0] * way[1:, 1] - way[:-1, 1] * way[1:, 0])]
+    area = 0.5 * np.abs(moment[None] - moment[rows, None] + x[None] * y[rows, None] - y[None] * x[rows, None])
+    opening = np.hypot(x[None] - x[rows, None], y[None] - y[rows, None])
+    inside = np.arange(n)[None] >= rows[:, None]
+    side = np.max([_running_extent(axis, inside) for axis in (x, y)], axis=0)
+    around = np.where(inside, s[None] - s[rows, None] + 2 * opening, np.inf)
+    round_as = 4 * np.pi * area / np.maximum(around, 1e-9 * size) ** 2
+    allowed = inside & after[None] & (side >= LARGE * size) & (opening <= widest * side)
+    score = np.full((n, n), -np.inf)
+    score[rows] = np.where(allowed & (round_as >= ROUND), round_as, -np.inf)
     for _ in range(TRIES):
         low, high = (int(k) for k in np.unravel_index(np.argmax(score), score.shape))
         if not np.isfinite(score[low, high]):
@@ -186,8 +187,8 @@ def _roundest(way: Float[np.ndarray, "point 2"], size: float, ground: float, wid
         score[max(low - APART, 0) : low + APART + 1, max(high - APART, 0) : high + APART + 1] = -np.inf
 
 
-def _running_extent(value: Float[np.ndarray, " point"], inside) -> Float[np.ndarray, "point point"]:
-    """Of every part from i to j, how far its coordinate ranges."""
+def _running_extent(value: Float[np.ndarray, " point"], inside) -> Float[np.ndarray, "start point"]:
+    """Of every part from some i to j, how far its coordinate ranges."""
     upper = np.maximum.accumulate(np.where(inside, value[None], -np.inf), axis=1)
     lower = np.minimum.accumulate(np.where(inside, value[None], np.inf), axis=1)
     return np.where(inside, upper - lower, 0.0)
