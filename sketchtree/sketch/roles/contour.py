@@ -10,8 +10,8 @@ and it is the crown only if the whole drawing says so: it is large and high, has
 nothing drawn outside it rises above its opening. A limb fails: its neighbours stand beside it, and its parent at its end.
 """
 
-from collections.abc import Iterator
 from dataclasses import dataclass
+from functools import lru_cache
 from itertools import combinations
 
 import numpy as np
@@ -158,11 +158,17 @@ def _closing(outline, others: dict[int, Float[np.ndarray, "point 2"]], size: flo
     return {row: points for _, _, row, points in apart}
 
 
-def _roundest(way: Float[np.ndarray, "point 2"], size: float, ground: float, widest: float) -> Iterator[tuple[int, int]]:
+def _roundest(way: Float[np.ndarray, "point 2"], size: float, ground: float, widest: float) -> tuple[tuple[int, int], ...]:
     """First and last point of the large, nearly closed parts that are roundest once closed, the roundest first.
 
     What is cut off must be a leg of the trunk: it reaches below `ground`."""
-    n = len(way)
+    return _roundest_of(np.ascontiguousarray(way, np.float64).tobytes(), size, ground, widest)
+
+
+@lru_cache(maxsize=4096)  # while somebody draws, nearly all strokes are those of the last reading
+def _roundest_of(line: bytes, size: float, ground: float, widest: float) -> tuple[tuple[int, int], ...]:
+    way = np.frombuffer(line, np.float64).reshape(-1, 2)
+    n, found = len(way), []
     x, y = way.T
     before = np.minimum.accumulate(y) <= ground
     after = np.minimum.accumulate(y[::-1])[::-1] <= ground
@@ -182,9 +188,10 @@ def _roundest(way: Float[np.ndarray, "point 2"], size: float, ground: float, wid
     for _ in range(TRIES):
         low, high = (int(k) for k in np.unravel_index(np.argmax(score), score.shape))
         if not np.isfinite(score[low, high]):
-            return
-        yield low, high
+            break
+        found.append((low, high))
         score[max(low - APART, 0) : low + APART + 1, max(high - APART, 0) : high + APART + 1] = -np.inf
+    return tuple(found)
 
 
 def _running_extent(value: Float[np.ndarray, " point"], inside) -> Float[np.ndarray, "start point"]:
