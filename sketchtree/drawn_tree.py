@@ -210,7 +210,8 @@ def _as_settled(front: _Front, asked: _Asked, exemplar: Exemplar | None, axis: f
         above, _ = without_roots(skeleton)
         alone = len(np.unique(above.tree)) == 1
         before = Manner(front.fit.theta, blocks_of(above) if alone else None, limbs, scale)
-    return Settled(front.limbs, exemplar.name if exemplar else None, bears, before, axis)
+    limbs = {limb: dataclasses.replace(one, rough=asked.quick and limb in front.touched) for limb, one in front.limbs.items()}
+    return Settled(limbs, exemplar.name if exemplar else None, bears, before, axis)
 
 
 def _with_roots(fit: Fit, graph: SketchGraph) -> Fit:

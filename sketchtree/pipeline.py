@@ -3,6 +3,7 @@
     strokes → sketch graph → template → depths → skeleton → propagation → radii → sag, shedding, untangling, pruning → leaves → meshes
 """
 
+import dataclasses
 from dataclasses import dataclass
 from pathlib import Path
 
@@ -91,9 +92,11 @@ def complete(
     return finish(drawn, grown, templates, key=key, options=options, watch=watch)
 
 
-def grow(drawn: DrawnTree, options: TreeOptions, obstacles: tuple = (), *, key: Key[Array, ""]) -> Propagation:
-    """What the sketch left out, grown (§6); nothing where a limb was cleared away by hand."""
-    grown = propagation(drawn, options, obstacles).run(drawn.skeleton, key=stage_key(key, "propagate"))
+def grow(
+    drawn: DrawnTree, options: TreeOptions, obstacles: tuple = (), *, key: Key[Array, ""], only: frozenset[int] | None = None
+) -> Propagation:
+    """What the sketch left out, grown (§6); nothing where a limb was cleared away by hand. `only`: ids of the drawn limbs that grow."""
+    grown = dataclasses.replace(propagation(drawn, options, obstacles), only=only).run(drawn.skeleton, key=stage_key(key, "propagate"))
     return cleared(grown, drawn.edits.cleared.values(), drawn.similarity)
 
 

@@ -99,10 +99,11 @@ def _with_stroke(drawing: Drawing, number: int, stroke: Stroke, hanging: Hanging
     limb, parent = stroke_limb_id(stroke.id), int(drawing.tree.limb[foot])
     before = hanging.settled.limbs.get(limb)
     course = _course(points, along)
-    fresh = before is None or before.parent != parent or bool(np.abs((course - course[0]) - (before.course - before.course[0])).max() > SAME_COURSE * height)
+    fresh = before is None or before.rough or before.parent != parent or bool(np.abs((course - course[0]) - (before.course - before.course[0])).max() > SAME_COURSE * height)
     if fresh:
         drawing_with = _joined(drawing, foot, points, marks, np.full(len(points), start[2]), limb, number, hanging, view)
-        depth, sd = _solved(drawing_with, limb, foot, view, hanging)
+        begin = None if before is None else depth_at(before, share) - before.depth[0]
+        depth, sd = _solved(drawing_with, limb, foot, view, hanging, begin)
     else:
         depth, sd = depth_at(before, share) + start[2] - before.depth[0], np.interp(share, before.share, before.sd)
     depth = _with_held(hanging.edits, limb, share, depth, start[2])
@@ -131,8 +132,9 @@ def _joined(drawing: Drawing, foot: int, points, marks, depth, limb: int, number
     return drawing.with_limb(foot, front[marks[1:]], curves, limb, number)
 
 
-def _solved(drawing: Drawing, limb: int, foot: int, view: float, hanging: Hanging):
-    """(depth at the foot and at every node of the limb, its sd), on its own page, all else held as well as that page allows."""
+def _solved(drawing: Drawing, limb: int, foot: int, view: float, hanging: Hanging, begin):
+    """(depth at the foot and at every node of the limb, its sd), on its own page, all else held as well as that page allows. `begin`: how far the foot and the nodes
+    went before, None if nothing is known."""
     ids = hanging.graph.stroke_ids
     turned = on_other_page(drawing.tree, lambda point: on_page(point, view, hanging.axis))
     turned = turned.select(turned.kind != Kind.ROOT)
@@ -143,10 +145,13 @@ def _solved(drawing: Drawing, limb: int, foot: int, view: float, hanging: Hangin
     stands = sum_from_root(graph.parent, np.where(graph.is_base, turned.tip[:, 2], 0.0))  # depth of each row's base
     z = _reachable(factors, (turned.tip[:, 2] - stands) / factors.scale) * factors.scale
     locked = {k: float(z[row]) for k, row in enumerate(rows) if not free[factors.limb[row]] and not factors.is_base[row]}
-    solver = dataclasses.replace(hanging.solver, start=None, locked=locked, **(QUICK if hanging.quick else {}))
-    fit = infer(part, hanging.prior, solver, key=stage_key(hanging.key, f"turned {limb}"), throw=False)
     mine = np.flatnonzero(free[factors.limb[rows]] & ~factors.is_base[rows])
     k = int(np.flatnonzero(rows == foot)[0])
+    start = None if begin is None or len(begin) != len(mine) + 1 else np.where(np.isin(np.arange(len(rows)), mine), np.nan, z[rows])
+    if start is not None:
+        start[mine] = z[foot] + begin[1:]
+    solver = dataclasses.replace(hanging.solver, start=start, locked=locked, **(QUICK if hanging.quick else {}))
+    fit = infer(part, hanging.prior, solver, key=stage_key(hanging.key, f"turned {limb}"), throw=False)
     at = turned.tip[foot, 2]
     sd = fit.depth_sd[mine] if np.isfinite(fit.depth_sd[mine]).all() else np.zeros(len(mine))
     return np.r_[at, at + fit.depth[mine] - fit.depth[k]], np.r_[0.0, sd]

@@ -24,7 +24,7 @@ from sketchtree.mrf.solver import RESULTS
 from sketchtree.sketch.graph import SketchGraph
 
 _NEAR = 0.04  # share of a limb: the node so near a held place is held
-QUICK = {"burn": (1.0,), "keep": 1, "cool": (0.05,)}  # the shortest run of `elevation` that still finds a side
+QUICK = {"burn": (), "keep": 1, "cool": (0.05,), "chain_count": 8}  # the shortest run of `elevation` that still finds a side
 
 
 @dataclass(frozen=True, eq=False)

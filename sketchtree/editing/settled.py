@@ -23,6 +23,7 @@ class Depths:
     parent: int | None  # the limb it grows on; None for a stem
     strokes: tuple[str, ...]  # ids of the strokes that drew it; none: adopted
     view_deg: float = 0.0  # azimuth of its page
+    rough: bool = False  # found in a hurry: the next answer begins there, and solves it again
 
 
 @dataclass(frozen=True, eq=False)

@@ -45,7 +45,7 @@ def depth_at(depths: Depths, share) -> Float[np.ndarray, " place"]:
 
 
 def _is_new(line: LimbLine, lines: LimbLines, known: Depths | None, height: float) -> bool:
-    if known is None or known.parent != line.parent:
+    if known is None or known.rough or known.parent != line.parent:
         return True
     return bool(np.abs(line.course(lines.graph) - known.course).max() > SAME_COURSE * height)
 

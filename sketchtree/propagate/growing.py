@@ -97,6 +97,8 @@ class Growing:
 
     def _lead(self):
         """The limbs that go on into a crown which the drawing left empty: the first generation, if there are any."""
+        if self.wanted.only is not None:
+            return None
         most = self.wanted.max_segments - self.segments
         found = leaders(self.drawn.tree, self.envelope, self.habit, self.spacing, self.key, most=most, obstacles=self.obstacles)
         if found is not None:
@@ -110,10 +112,14 @@ class Growing:
         tips = open_tips(tree, self.spacing, self.habit, self.envelope, self.key)
         tips = tips.select(~np.isin(tips.limb, list(led)) & (self.manner.thorough < 0.5))
         self.drawn_nodes = drawn_nodes(self.drawn, tips, self.manner.library, self.habit, self.envelope, led)
+        if self.wanted.only is not None:
+            mine = np.array(sorted(self.wanted.only), np.int64)
+            tips = tips.select(np.isin(tips.limb, mine))
+            self.drawn_nodes = self.drawn_nodes.select(np.isin(self.drawn_nodes.limb, mine))
         new = self._laterals(self.drawn_nodes)
         drawn = DrawnLaterals.of(tree)
         new = drawn.fitted(new, self.key).select(~drawn.beside(new, self.spacing))
-        if self.habit.max_order > 0 and self.manner.thorough < 0.5:
+        if self.habit.max_order > 0 and self.manner.thorough < 0.5 and self.wanted.only is None:
             new = new.join(self._free(into_gaps(tree, frames(tree), drawn, new, self.key)))
         if self.leaders:
             beside = self._laterals(self.leaders.nodes)

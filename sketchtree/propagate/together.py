@@ -56,7 +56,7 @@ class Together:
         limits = [member.wanted.limit for member in self.members]
         self._run(limits)
         limits = [CROWN_GENERATIONS if m.wanted.generations is None else limit for m, limit in zip(self.members, limits, strict=True)]
-        gaps = [_gaps(growing) for growing in self.growing]
+        gaps = [() if growing.wanted.only is not None else _gaps(growing) for growing in self.growing]
         for round_ in range(max(map(len, gaps), default=0)):
             self._look_round()
             for growing, limit, gap in zip(self.growing, limits, gaps, strict=True):

@@ -33,6 +33,7 @@ class Wanted:
     thorough: float | None = None  # 0-1, how completely the drawn orders were drawn; None: judged from the drawing
     fixed: bool = False  # Θ is held: nothing is made more like what was drawn
     like: Blocks | None = None  # blocks of the drawing by which its manner is judged; None: as it is. While somebody draws, a limb more changes nothing elsewhere
+    only: frozenset[int] | None = None  # ids of the drawn limbs that grow, for an answer in a hurry: no crown is filled, no limb led into it; None: all
     light: float = 0.0  # 0-1, how much growth turns to the light and how few buds open in the shade; 0: not at all
 
     def __post_init__(self):

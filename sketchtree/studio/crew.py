@@ -163,7 +163,7 @@ class Crew:
             self._nothing(revision)
             return
         if self._hands["quick"].runs:
-            await self._hurry(revision, document)
+            document = await self._hurry(revision, document)
         if revision != self._revision:
             return
         self._full_number, answer = self._hands["full"].ask("full", revision, document, dict(self._known))
@@ -180,20 +180,21 @@ class Crew:
         self.on_outcome(Outcome(revision, frame, settled=basis.settled))
         self._say(messages.Working(state="idle", revision=revision))
 
-    async def _hurry(self, revision: int, document: Document) -> None:
-        """What was touched, first."""
+    async def _hurry(self, revision: int, document: Document) -> Document:
+        """What was touched, first; returns the document with what that settled for now: the full tree begins there."""
         _, answer = self._hands["quick"].ask("quick", revision, document, self._basis)
         try:
             found = await answer
         except SketchTreeError:
-            return  # the full tree says what is wrong
+            return document  # the full tree says what is wrong
         if found is None or revision != self._revision:
-            return
+            return document
         frame, digests, settled = found
         self._known |= digests
         if self._basis is not None:
             self._basis = dataclasses.replace(self._basis, owners=tuple(dict.fromkeys((*self._basis.owners, *digests))), settled=settled)
         self.on_outcome(Outcome(revision, frame))
+        return document.replace(settled=dataclasses.replace(settled, manner=document.settled.manner))
 
     def refresh(self) -> None:
         """A page that joins asks for `frame` itself."""

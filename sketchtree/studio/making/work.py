@@ -155,7 +155,7 @@ def hurried(bench: Bench, document: Document, basis: Basis | None, watch: Watch)
     if len(touched) > _MOST:
         raise Stopped
     with watch("propagate"):
-        grown = grow(drawn, _light(document.tree, bare=basis is None), key=key)
+        grown = grow(drawn, _light(document.tree, bare=basis is None), key=key, only=touched)
         radius = np.full(len(grown.skeleton), np.nan)
         radius[grown.drawn_row] = drawn.radius
         whole = PipeRadii(drawn.habit, radius, grown.tip_weight)(grown.skeleton)
