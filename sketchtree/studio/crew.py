@@ -42,8 +42,7 @@ class Hand:
         self._pipe, theirs = context.Pipe()
         from sketchtree.studio.making.worker import main
 
-        warm = self.role != "side"
-        self._process = context.Process(target=main, args=(theirs, None if self._database is None else str(self._database), warm), daemon=True)
+        self._process = context.Process(target=main, args=(theirs, None if self._database is None else str(self._database), self.role), daemon=True)
         self._process.start()
         theirs.close()
         threading.Thread(target=self._listen, args=(self._pipe,), daemon=True).start()

@@ -40,11 +40,11 @@ class Jobs:
 
         return Bench(self.templates)
 
-    def warm_up(self) -> None:
+    def warm_up(self, quick: bool) -> None:
         """Compile what every drawing needs, before it is asked for."""
         from sketchtree.studio.making.warm import warm_up
 
-        warm_up()
+        warm_up(quick)
 
     def _full(self, number, watch, revision: int, document: Document, known: dict[str, str]):
         from sketchtree.keys import root_key

@@ -1,31 +1,34 @@
 """What is slow only the first time? Compiling the programs of inference; it is done before the first stroke.
 
-A little drawing of every size up to the largest that is met every day is inferred once, plainly and with all but one limb held, as after a stroke.
+Columns of drawings are padded to a few sizes (`mrf.padding`), and each size has a program, which is kept on disk. One little drawing of every size that is met every day is
+inferred with all but one limb held, as after a stroke; the sizes met first come first.
 """
+
+import dataclasses
 
 import numpy as np
 
-from sketchtree.editing.edits import Edits
-from sketchtree.editing.settle import settle
-from sketchtree.editing.settled import Settled
+from sketchtree.editing.settle import QUICK
 from sketchtree.keys import root_key
 from sketchtree.mrf.factor_graph import factor_graph
+from sketchtree.mrf.infer import infer
 from sketchtree.mrf.methods import solver_named
 from sketchtree.mrf.prior import Prior
 from sketchtree.parameters import GENERIC
 from sketchtree.sketch.reading import sketch_graph
 from sketchtree.sketch.strokes import Sketch, Stroke
 
-_LIMBS = (4, 20, 45)  # of drawings whose columns are padded to 32, 64 and 128 rows
+_LIMBS = (4, 10, 20, 15, 40, 30)  # of drawings padded to 32 rows and 8 limbs, 32 and 16, 64 and 32, 64 and 16, 128 and 64, 128 and 32
 
 
-def warm_up(limbs: tuple[int, ...] = _LIMBS) -> None:
-    """Compile, or read what was compiled before."""
+def warm_up(quick: bool, limbs: tuple[int, ...] = _LIMBS) -> None:
+    """Compile, or read what was compiled before: the programs of hurried answers, or of full ones."""
     for count in limbs:
-        graph = sketch_graph(_little(count))
-        factors, prior, key = factor_graph(graph), Prior(GENERIC), root_key(0)
-        solver = solver_named("elevation")
-        settle(graph, factors, prior, solver, edits=Edits(), settled=Settled(), key=key, quick=True)
+        factors = factor_graph(sketch_graph(_little(count)))
+        last = factors.limb_count - 1
+        locked = {int(row): 0.0 for row in np.flatnonzero((factors.limb != last) & ~factors.is_base)}
+        solver = dataclasses.replace(solver_named("elevation"), start=np.zeros(len(factors)), locked=locked, **(QUICK if quick else {}))
+        infer(factors, Prior(GENERIC), solver, key=root_key(0), max_steps=None if quick else 1, throw=False)
 
 
 def _little(count: int) -> Sketch:

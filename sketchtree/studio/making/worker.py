@@ -51,15 +51,15 @@ class Desk:
             os._exit(0)
 
 
-def main(pipe: Connection, database: str | None, warm: bool) -> None:
-    """Work until the pipe closes."""
+def main(pipe: Connection, database: str | None, role: str) -> None:
+    """Work until the pipe closes, as one of the crew: quick, full or side."""
     signal.signal(signal.SIGINT, signal.SIG_IGN)
     desk = Desk(pipe)
     from sketchtree.studio.making.jobs import Jobs
 
     jobs = Jobs(None if database is None else Path(database), desk)
-    if warm:
-        threading.Thread(target=jobs.warm_up, daemon=True).start()
+    if role != "side":
+        threading.Thread(target=jobs.warm_up, args=(role == "quick",), daemon=True).start()
     while True:
         number, kind, arguments = desk.jobs.get()
         if desk.stopped(number, kind):
