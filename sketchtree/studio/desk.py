@@ -62,6 +62,7 @@ class Desk:
         self.tasks: set[asyncio.Task] = set()
         self.notes: list[messages.Trouble] = []  # told to every page that joins
         self.pictures: dict[str, bytes] = {}  # that were traced over, by digest
+        self._wrong: messages.Trouble | None = None  # why there is no tree of the drawing as it is
         self._clock = clock
         self._pages: set[Page] = set()
         self._kept: dict[type, messages.Event] = {}
@@ -140,7 +141,7 @@ class Desk:
         page.greeted = True
         self._pages.add(page)
         page.outbox.everything()
-        for event in (*self._kept.values(), *self.notes):
+        for event in (*self._kept.values(), *self.notes, *([self._wrong] if self._wrong else ())):
             page.outbox.put(event)
         self.engine.refresh()
 
@@ -218,6 +219,8 @@ class Desk:
         """The engine has something to tell."""
         if outcome.settled is not None and self._settled_since <= outcome.revision <= self.revision:
             self._settle(outcome.settled)
+        if isinstance(outcome.event, messages.Trouble) or outcome.settled is not None:
+            self._wrong = outcome.event if isinstance(outcome.event, messages.Trouble) else None
         self.tell(outcome.event)
         self._came.set()
 

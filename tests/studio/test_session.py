@@ -71,6 +71,19 @@ async def test_undo_and_redo_are_told_as_differences():
 
 
 @run
+async def test_a_page_that_joins_is_told_why_there_is_no_tree_until_there_is_one():
+    async with talking() as talk:
+        talk.session.desk.on_outcome(Outcome(1, messages.Trouble(message="The trunk can't be found.", remedy="Draw one.")))
+        other = Talk(talk.session)
+        await other.say(messages.Hello(version=messages.VERSION))
+        assert other.last("trouble")["message"] == "The trunk can't be found."
+        await talk.say(drawn("a"))
+        third = Talk(talk.session)
+        await third.say(messages.Hello(version=messages.VERSION))
+        assert third.all("trouble") == []
+
+
+@run
 async def test_two_pages_stay_as_one_and_the_last_writer_of_a_stroke_wins():
     async with talking() as talk:
         other = Talk(talk.session)

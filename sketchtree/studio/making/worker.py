@@ -2,6 +2,7 @@
 
 A job is (number, kind, arguments), an outcome (number, what, value): "event" (an event or a frame, with what is settled), "done" (the answer), "trouble" (a SketchTreeError),
 "stopped", "fault" (a fault of ours, as text). Of kinds in `NEWEST` only the newest job matters: an older one that waits is dropped, one that runs ends at its next step.
+`LAST` wait for all others: what the tree wears goes before pictures of what it might wear.
 The pipe is private to the two processes.
 """
 
@@ -16,13 +17,14 @@ from pathlib import Path
 from sketchtree.errors import SketchTreeError
 
 NEWEST = ("full", "quick", "ghost", "glance", "alternatives")
+LAST = ("picture",)
 
 
 class Desk:
     """The worker's side of the pipe."""
 
     def __init__(self, pipe: Connection):
-        self.pipe, self.jobs = pipe, queue.SimpleQueue()
+        self.pipe, self.jobs = pipe, queue.PriorityQueue()
         self.newest: dict[str, int] = {}
         self.ended = -1  # jobs up to this number are to stop
         threading.Thread(target=self._listen, daemon=True).start()
@@ -35,7 +37,7 @@ class Desk:
                     self.ended = number
                     continue
                 self.newest[kind] = number
-                self.jobs.put((number, kind, arguments))
+                self.jobs.put((kind in LAST, number, kind, arguments))
         except (EOFError, OSError):
             os._exit(0)  # the server is gone
 
@@ -61,7 +63,7 @@ def main(pipe: Connection, database: str | None, role: str) -> None:
     if role != "side":
         threading.Thread(target=jobs.warm_up, args=(role == "quick",), daemon=True).start()
     while True:
-        number, kind, arguments = desk.jobs.get()
+        _, number, kind, arguments = desk.jobs.get()
         if desk.stopped(number, kind):
             desk.say(number, "stopped")
             continue
