@@ -14,7 +14,7 @@ from jaxtyping import Array, Float, Key
 from sketchtree.axes import NULL
 from sketchtree.drawable import bends
 from sketchtree.editing.edits import Adopted, Edits
-from sketchtree.editing.part import part_of
+from sketchtree.editing.part import part_of, reachable
 from sketchtree.editing.rows import Drawing, nearest_place, on_other_page, place_at
 from sketchtree.editing.settle import QUICK
 from sketchtree.editing.settled import COURSE, Depths, Settled
@@ -25,7 +25,6 @@ from sketchtree.limb_ids import stroke_limb_id
 from sketchtree.mrf.factor_graph import factor_graph
 from sketchtree.mrf.infer import infer
 from sketchtree.mrf.prior import Prior
-from sketchtree.mrf.sampling.locks import STEEPEST
 from sketchtree.sketch.graph import SketchGraph
 from sketchtree.sketch.strokes import Stroke, StrokeKind
 from sketchtree.skeleton import Kind
@@ -143,7 +142,7 @@ def _solved(drawing: Drawing, limb: int, foot: int, view: float, hanging: Hangin
     free = factors.limb_id == limb
     part, rows = part_of(factors, free)
     stands = sum_from_root(graph.parent, np.where(graph.is_base, turned.tip[:, 2], 0.0))  # depth of each row's base
-    z = _reachable(factors, (turned.tip[:, 2] - stands) / factors.scale) * factors.scale
+    z = reachable(factors, (turned.tip[:, 2] - stands) / factors.scale) * factors.scale
     locked = {k: float(z[row]) for k, row in enumerate(rows) if not free[factors.limb[row]] and not factors.is_base[row]}
     mine = np.flatnonzero(free[factors.limb[rows]] & ~factors.is_base[rows])
     k = int(np.flatnonzero(rows == foot)[0])
@@ -155,13 +154,6 @@ def _solved(drawing: Drawing, limb: int, foot: int, view: float, hanging: Hangin
     at = turned.tip[foot, 2]
     sd = fit.depth_sd[mine] if np.isfinite(fit.depth_sd[mine]).all() else np.zeros(len(mine))
     return np.r_[at, at + fit.depth[mine] - fit.depth[k]], np.r_[0.0, sd]
-
-
-def _reachable(factors, depth):
-    """The depths with no segment steeper than one may be: limbs that point at the viewer are held a little less steep."""
-    rise = np.where(factors.is_base, 0.0, depth - depth[np.maximum(factors.parent, 0)])
-    most = 0.99 * factors.length * np.tan(STEEPEST)
-    return sum_from_root(factors.parent, np.where(factors.is_base, 0.0, np.clip(rise, -most, most)))
 
 
 def _with_held(edits: Edits, limb: int, share, depth, foot: float):

@@ -7,10 +7,12 @@ outline, the width of its crown) stay those of the whole, so that a factor of th
 import dataclasses
 
 import numpy as np
-from jaxtyping import Bool, Int
+from jaxtyping import Bool, Float, Int
 
 from sketchtree.axes import NULL
 from sketchtree.mrf.factor_graph import FactorGraph
+from sketchtree.mrf.sampling.locks import STEEPEST
+from sketchtree.traverse import sum_from_root
 
 _ROWS = ("xy", "length", "direction", "order", "tree", "radius", "is_base", "is_apical", "is_joined")
 _LIMBS = ("limb_id", "limb_order", "limb_spreads", "limb_length", "insertion", "trunk_x", "half_width")
@@ -28,6 +30,15 @@ def part_of(graph: FactorGraph, free: Bool[np.ndarray, " limb"]) -> tuple[Factor
             limbs[graph.limb_parent[limb]] = True
     rows = np.flatnonzero(limbs[graph.limb])
     return _sliced(graph, rows, np.flatnonzero(limbs)), rows
+
+
+def reachable(graph: FactorGraph, depth: Float[np.ndarray, " segment"]) -> Float[np.ndarray, " segment"]:
+    """Depths (H = 1) with no segment steeper than a held one may be: an answer may be a little steeper, and a limb that points at the viewer of a turned page is. NaN
+    where nothing is known."""
+    rise = np.where(graph.is_base, 0.0, depth - depth[np.maximum(graph.parent, 0)])
+    most = 0.99 * graph.length * np.tan(STEEPEST)
+    within = sum_from_root(graph.parent, np.where(graph.is_base, 0.0, np.clip(np.nan_to_num(rise), -most, most)))
+    return np.where(np.isfinite(depth), within, np.nan)
 
 
 def _sliced(graph: FactorGraph, rows, limbs) -> FactorGraph:

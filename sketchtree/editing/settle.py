@@ -12,7 +12,7 @@ from jaxtyping import Array, Float, Key
 
 from sketchtree.editing.edits import Edits, Held
 from sketchtree.editing.limbs import LimbLine, LimbLines
-from sketchtree.editing.part import part_of
+from sketchtree.editing.part import part_of, reachable
 from sketchtree.editing.settled import Settled
 from sketchtree.editing.touched import carried, touched
 from sketchtree.mrf.factor_graph import FactorGraph
@@ -58,11 +58,13 @@ def settle(
     whole = bool(free.all())
     part, rows = (factors, np.arange(len(graph))) if whole else part_of(factors, free)
     place = {int(row): k for k, row in enumerate(rows)}
-    options = {"start": start[rows] if np.isfinite(start[~graph.is_base]).any() else None, "locked": {place[row]: z for row, z in locked.items() if row in place}}
+    near = reachable(factors, start / factors.scale) * factors.scale
+    begin = near[rows] if np.isfinite(start[~graph.is_base]).any() else None
+    options = {"start": begin, "locked": {place[row]: float(near[row]) for row in locked if row in place}}
     if quick:
         options |= QUICK
     fit = infer(part, prior, dataclasses.replace(solver, **options), key=key, alternatives=alternatives, throw=False)
-    return Settling(_merged(fit, factors, prior, rows, start, lines, settled, moving, whole), moving, warnings)
+    return Settling(_merged(fit, factors, prior, rows, locked, start, lines, settled, moving, whole), moving, warnings)
 
 
 def _locks(lines: LimbLines, edits: Edits, moving, start, scale: float):
@@ -122,14 +124,29 @@ def _as_fit(factors: FactorGraph, prior: Prior, depth, lines: LimbLines, settled
     return Fit(depth, _sd(lines, settled), theta, prior.theta, RESULTS.converged, None, 0, 0.0, solver.name)
 
 
-def _merged(fit: Fit, factors, prior, rows, start, lines, settled, moving, whole) -> Fit:
-    """The fit of a part as one of the whole drawing."""
+def _merged(fit: Fit, factors, prior, rows, locked, start, lines, settled, moving, whole) -> Fit:
+    """The fit of a part as one of the whole drawing: what is locked is where it is to be, to the last bit, and what is free rises from there."""
     free = np.isin(lines.graph.limb_id[lines.graph.limb], list(moving))
     depth, sd = np.where(np.isfinite(start), start, 0.0), _sd(lines, settled)
-    depth[rows] = fit.depth
+    found = np.zeros(len(depth))
+    found[rows] = fit.depth
+    for row in rows.tolist():  # parents first
+        above = factors.parent[row]
+        if row in locked or above < 0:
+            depth[row] = locked.get(row, depth[row])
+        else:
+            depth[row] = depth[above] + found[row] - found[above]
     sd[rows] = np.where(free[rows], fit.depth_sd, sd[rows])
     theta = measured_theta(factors, depth / factors.scale, prior.theta)
-    return dataclasses.replace(fit, depth=depth, depth_sd=sd, theta=theta, posterior=fit.posterior if whole else None, overlaps=rows[fit.overlaps])
+    others = tuple(reading._replace(depth=_with_locks(reading.depth, rows, locked)) for reading in fit.alternatives)
+    return dataclasses.replace(
+        fit, depth=depth, depth_sd=sd, theta=theta, posterior=fit.posterior if whole else None, overlaps=rows[fit.overlaps], alternatives=others
+    )
+
+
+def _with_locks(depth, rows, locked: dict[int, float]):
+    """Another reading's depths, with what is held to the last bit."""
+    return np.array([locked.get(int(row), float(z)) for row, z in zip(rows, depth, strict=True)])
 
 
 def _sd(lines: LimbLines, settled: Settled) -> Float[np.ndarray, " segment"]:

@@ -99,3 +99,13 @@ def test_theta_stays_while_the_drawing_is_about_as_large(settled):
     assert again.theta == drawn.theta
     fewer, _ = made(after.replace(strokes={name: after.strokes[name] for name in ("trunk", "left", "right")}))
     assert fewer.settled.manner.limbs == {limb("trunk"), limb("left"), limb("right")}
+
+
+def test_what_was_settled_steeper_than_a_lock_may_be_stays_all_the_same():
+    _, before = made(document(*(stroke for stroke in STROKES if stroke.id != "high")))
+    steep = dataclasses.replace(before.settled.limbs[limb("right")], depth=np.linspace(0.0, 30 * HEIGHT, len(before.settled.limbs[limb("right")].depth)))
+    settled = dataclasses.replace(before.settled, limbs={**before.settled.limbs, limb("right"): steep})
+    drawn, after = made(before.replace(strokes=document().strokes, settled=settled))
+    assert drawn.touched == {limb("high")}
+    assert tip_depth(after, "right") == pytest.approx(30 * HEIGHT, rel=1e-3)
+    assert abs(tip_depth(after, "high")) < HEIGHT
