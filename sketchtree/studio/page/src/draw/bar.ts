@@ -3,13 +3,11 @@
 import { openDialog } from "../panel/mount";
 import { block, button, press, swapIcon } from "../parts/button";
 import { element } from "../parts/element";
-import { toast } from "../parts/toast";
 import type { Store } from "../store";
 import { icon } from "../style/icons";
 import { switchTheme } from "../style/theme";
-import { camera } from "./camera";
-import { PEN, showEmpty } from "./following";
 import { isForOther, pressed } from "./keys";
+import { newPage } from "./new_page";
 import { makeSheet } from "./sheet";
 
 export function mountBar(root: HTMLElement, store: Store): void {
@@ -39,16 +37,6 @@ export function mountBar(root: HTMLElement, store: Store): void {
   store.on(["undo", "redo"], show);
   show();
   listenFileKeys({ s: () => openDialog("save"), o: () => openDialog("open"), e: () => openDialog("export"), n: () => newPage(store), "?": () => sheet.open() });
-}
-
-/** An empty page; what was there is one undo away, and so nothing is asked. */
-function newPage(store: Store): void {
-  store.send({ type: "new" });
-  store.set("turn", 0);
-  store.set("tool", "branch");
-  showEmpty(camera);
-  store.set("width", PEN);
-  if (store.known.strokes.size) toast("A new page.", { action: { label: "Back to the drawing", onPress: () => store.send({ type: "undo" }) } });
 }
 
 /** The drawing's name, and a dot while its file is behind. */

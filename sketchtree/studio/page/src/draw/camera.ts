@@ -9,7 +9,6 @@ export interface Frame {
 
 const LEAST = 0.02;
 const MOST = 40;
-const FOOT = 44; // CSS pixels
 
 export class PageCamera {
   scale = 1; // CSS pixels a page unit
@@ -17,6 +16,9 @@ export class PageCamera {
   y = 0;
   width = 1; // of the canvas, CSS pixels
   height = 1;
+  private head = 0; // CSS pixels of the canvas's top and foot over which something stands
+  private foot = 44;
+  private fitted: Frame | null = null; // what was shown whole, until a hand moves the page
   private readonly listeners = new Set<() => void>();
 
   /** Be told when it moves; returns what ends it. */
@@ -44,24 +46,35 @@ export class PageCamera {
     this.place(scale, px - (px - this.x) * real, py - (py - this.y) * real);
   }
 
-  /** All of a box of the page, with a margin around it, above the controls at the page's foot. */
-  fit(box: Frame, margin = 0.08, foot = FOOT): void {
-    const height = Math.max(1, this.height - foot);
+  /** All of a box of the page, with a margin around it, between what stands at the page's top and foot. */
+  fit(box: Frame, margin = 0.06): void {
+    const height = Math.max(1, this.height - this.head - this.foot);
     const room = (1 - 2 * margin) * Math.min(this.width / Math.max(box.width, 1e-6), height / Math.max(box.height, 1e-6));
     const scale = Math.min(MOST, Math.max(LEAST, room));
-    this.place(scale, this.width / 2 - (box.left + box.width / 2) * scale, height / 2 - (box.top + box.height / 2) * scale);
+    this.place(scale, this.width / 2 - (box.left + box.width / 2) * scale, this.head + height / 2 - (box.top + box.height / 2) * scale);
+    this.fitted = box;
   }
 
-  /** The canvas has another size: what was in its middle stays there. */
+  /** Something stands over the canvas's top, or foot. Where all was shown, and more of it is hidden now, it is shown again; what goes moves nothing. */
+  cover(what: "head" | "foot", pixels: number): void {
+    const more = pixels > this[what];
+    this[what] = pixels;
+    if (more && this.fitted) this.fit(this.fitted);
+  }
+
+  /** The canvas has another size: what was shown whole still is; else what was in its middle stays there. */
   resize(width: number, height: number): void {
     const dx = (width - this.width) / 2;
     const dy = (height - this.height) / 2;
+    const { fitted } = this;
     this.width = width;
     this.height = height;
-    this.place(this.scale, this.x + dx, this.y + dy);
+    if (fitted && width > 1) this.fit(fitted);
+    else this.place(this.scale, this.x + dx, this.y + dy);
   }
 
   private place(scale: number, x: number, y: number): void {
+    this.fitted = null;
     this.scale = scale;
     this.x = x;
     this.y = y;

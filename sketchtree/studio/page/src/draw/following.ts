@@ -2,6 +2,7 @@
 
 import type { PageCamera } from "./camera";
 import type { Desk } from "./desk";
+import type { Stroke } from "../messages";
 import { around } from "./line/nearness";
 
 export const PEN = 4; // CSS pixels: width of the pen on a drawing just opened
@@ -26,10 +27,10 @@ export function followDrawing(desk: Desk): void {
   });
   store.on("strokes", () => {
     const ids = [...store.known.strokes.keys()];
-    const opened = ids.length > 0 && !ids.some((id) => before.has(id)) && store.pending.length === 0;
+    const opened = isOpened(before, ids, store.pending.length > 0);
     const alone = ids.length === 1 && before.size === 0; // the first line, drawn here or on another page
     before = new Set(ids);
-    if (!opened || alone || !fit()) return;
+    if (!opened || (alone && inSight(camera, store.known.strokes.values())) || !fit()) return;
     store.set("width", Number((PEN / camera.scale).toPrecision(2)));
   });
   let wrongAt = -1;
@@ -40,6 +41,20 @@ export function followDrawing(desk: Desk): void {
   store.on("tree", () => {
     if (desk.trouble !== null && (store.known.tree?.revision ?? 0) > wrongAt) desk.trouble = null;
   });
+}
+
+/** Did these strokes come all at once? Then it is a drawing that was opened, or found again (where some may still be on their way). */
+export function isOpened(before: ReadonlySet<string>, ids: readonly string[], underWay: boolean): boolean {
+  if (ids.length === 0 || ids.some((id) => before.has(id))) return false;
+  return !underWay || (before.size === 0 && ids.length > 1);
+}
+
+function inSight(camera: PageCamera, strokes: Iterable<Stroke>): boolean {
+  const box = around(strokes);
+  if (!box) return true;
+  const [left, top] = camera.toScreen(box.left, box.top);
+  const [right, foot] = camera.toScreen(box.left + box.width, box.top + box.height);
+  return left >= 0 && top >= 0 && right <= camera.width && foot <= camera.height;
 }
 
 /** All of the drawing on screen, or the empty page as it was at first. */

@@ -21,6 +21,7 @@ import { pairSelections } from "./selection";
 import { mountTip } from "./tip";
 import { mountViewCorner } from "./view_corner";
 
+const ROOM = 4; // CSS pixels above the controls
 const ABOUT = "Drawing page. Draw with a pen, mouse or finger; press ? for the keys.";
 
 export function mountDraw(root: HTMLElement, store: Store): void {
@@ -49,7 +50,11 @@ export function mountDraw(root: HTMLElement, store: Store): void {
   mountWheel(top, camera);
   mountTip(root, top, desk);
   listenKeys(root, desk, pen);
-  root.append(element("div", { class: "page-foot" }, mountOptions(desk), mountViewCorner(desk)));
+  const foot = element("div", { class: "page-foot" }, mountOptions(desk), mountViewCorner(desk));
+  root.append(foot);
+  const covered = (): void => camera.cover("foot", root.clientHeight - foot.offsetTop + ROOM);
+  new ResizeObserver(covered).observe(foot);
+  store.on("layout", covered); // there it stands higher, or lower
 
   store.on("tool", () => {
     pen.cancel();

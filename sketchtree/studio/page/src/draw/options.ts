@@ -52,7 +52,7 @@ function penOptions(desk: Desk): HTMLElement {
     label: "Steady", min: 0, max: 1, step: 0.05, value: store.ui.stabiliser, hint: "How much a shaking hand is steadied",
     show: (value) => `${Math.round(100 * value)} %`, onInput: (value) => store.set("stabiliser", value),
   });
-  const follow = (): void => { if (document.activeElement !== width.input) width.set(Math.log(shown()), `${shown().toFixed(1)} px`); };
+  const follow = (): void => { if (!width.input.matches(":focus")) width.set(Math.log(shown()), `${shown().toFixed(1)} px`); };
   store.on("width", follow);
   camera.on(follow);
   follow();

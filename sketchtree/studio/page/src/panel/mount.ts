@@ -16,6 +16,8 @@ import { mountSide } from "./side/mount";
 import { mountStatus } from "./status/mount";
 import { troubleCard } from "./status/trouble";
 import { mountStrip } from "./strip/strip";
+import { camera } from "../draw/camera";
+import { newPage } from "../draw/new_page";
 import type { Store } from "../store";
 import "./panel.css";
 
@@ -39,13 +41,16 @@ export function mountPanels(roots: PanelRoots, store: Store, views: Views): void
   mountSide(roots.side, store);
   mountStrip(roots.strip, store);
   mountStatus(roots.status, store);
-  const hint = hintCard(store);
+  const hint = hintCard(store, () => newPage(store));
   const words = document.createElement("div");
   words.className = "page-words";
   words.append(goneBanner(store), troubleCard(store), hint.root);
+  const covered = (): void => camera.cover("head", store.ui.layout === "beside" && words.offsetHeight ? words.offsetTop + words.offsetHeight : 0); // else there is room beside them
+  new ResizeObserver(covered).observe(words);
+  store.on("layout", covered);
   roots.page.append(emptyPage(store, { gallery: () => openDialog("gallery"), open: () => openDialog("open") }), words, hintButton(store, hint));
   roots.tree.append(emptyTree(store));
-  welcomeBack(store);
+  welcomeBack(store, () => newPage(store));
   mountDrop();
 }
 

@@ -51,7 +51,7 @@ export function choice<T extends string>(look: ChoiceLook<T>): Choice<T> {
     if (!step) return;
     event.preventDefault();
     event.stopPropagation();
-    const at = buttons.findIndex((made) => made === document.activeElement);
+    const at = buttons.findIndex((made) => made.matches(":focus"));
     const next = (at + step + buttons.length) % buttons.length;
     buttons[next]!.focus();
     pick(look.options[next]!.value);

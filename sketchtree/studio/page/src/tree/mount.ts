@@ -90,7 +90,7 @@ function fill(view: View, store: Store): TreeViews {
     return () => {
       weather.visible = ground.visible = true;
       ink.visible = shown.ink;
-      figure.group.visible = store.ui.figure;
+      figure.wanted = store.ui.figure;
     };
   };
   return { screenshot: (wish) => pictureOf(view, tidy, wish), turntable: () => filmOf(view, tidy) };
@@ -117,10 +117,12 @@ function followFrames(view: View, store: Store, { scenery, chosen, weather, grou
       weather.light(scenery.box);
       ground.under(scenery.box, trunkOf(store));
       figure.beside(scenery.box);
+      figure.stands = true;
       if (store.frame.head.phase !== "glance") view.follow(!stood);
     }
     stood = !scenery.box.isEmpty();
     ground.bare = !stood;
+    if (!stood) figure.stands = false;
     if (store.ui.uncertainty) scenery.doubt(doubtColours(scenery.now, store.known.limbs));
     ghosts.show([], 0); // what was to come is there
     chosen.renew();
@@ -159,26 +161,21 @@ function followLooks(view: View, store: Store, { weather, ground, figure, ink, g
   store.on("theme", theme);
   store.on("uncertainty", doubt);
   store.on(["uncertainty", "selected", "tool"], through);
-  store.on("figure", () => { figure.group.visible = store.ui.figure; view.stage.draw(); });
+  store.on("figure", () => { figure.wanted = store.ui.figure; view.stage.draw(); });
   view.stage.beforeDraw.push(() => { figure.face(view.stage.camera(view.stage.wide, view.stage.high)); return false; });
-  figure.group.visible = store.ui.figure;
+  figure.wanted = store.ui.figure;
   theme();
 }
 
 /** The drawing on its pages; the view turns with the page, and lies exactly under it where the page is over the tree. */
 function followPage(view: View, store: Store, ink: Ink): void {
   const plane = () => ({ scale: store.known.tree?.scale ?? 1, root: store.known.tree?.root ?? [0, 0] });
-  let drawnAt = "";
-  const strokes = (): void => {
-    const { scale, root } = plane();
-    drawnAt = `${scale} ${root.join(" ")}`;
-    if (store.known.tree) ink.show(store.known.strokes.values(), { scale, root });
-    view.stage.draw();
-  };
-  store.on("strokes", strokes);
-  store.on("tree", () => { if (drawnAt !== `${plane().scale} ${plane().root.join(" ")}`) strokes(); });
+  let stale = true; // lines are made with the next frame, however many steps come before it
+  store.on(["strokes", "tree"], () => { stale = true; view.stage.draw(); });
   view.overPage = () => (store.ui.layout === "over" && store.known.tree ? { page: pageCamera, plane: plane(), azimuth: view.flight.moving ? view.eye.azimuth : store.ui.turn } : null);
   view.stage.beforeDraw.push(() => {
+    if (stale && store.known.tree) ink.show(store.known.strokes.values(), plane());
+    stale = false;
     ink.seen(view.overPage()?.azimuth ?? view.eye.azimuth, view.stage.wide, view.stage.high);
     ink.without(store.ui.layout === "over" ? store.ui.turn : null); // the page itself shows that sheet
     return false;

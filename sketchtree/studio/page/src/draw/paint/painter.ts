@@ -20,10 +20,10 @@ export function paintDrawing(on: CanvasRenderingContext2D, ratio: number, desk: 
   if (!over) paintGrid(on, camera, palette);
   const underlay = desk.underlay ?? store.known.underlay;
   if (underlay && picture && isSamePage(store.ui.turn, 0)) paintUnderlay(on, camera, palette, underlay, picture, desk.movesUnderlay);
-  if (!over) paintGround(on, camera, palette, groundLevel(desk));
+  paintGround(on, camera, palette, groundLevel(desk));
   if (!isSamePage(store.ui.turn, 0) || turnedStrokes(desk)) paintGuides(on, desk, palette);
   on.setTransform(ratio * camera.scale, 0, 0, ratio * camera.scale, ratio * camera.x, ratio * camera.y);
-  const look: Look = { palette, scale: camera.scale, width: usualWidth(desk) };
+  const look: Look = { palette, scale: camera.scale, width: usualWidth(desk), cased: over };
   const shownHere = here(store);
   const areasFirst = [...shownHere.filter((one) => one.kind !== "branch"), ...shownHere.filter((one) => one.kind === "branch")];
   for (const stroke of areasFirst) paintOne(on, desk, look, stroke);

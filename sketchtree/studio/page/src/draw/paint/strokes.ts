@@ -8,12 +8,14 @@ export interface Look {
   palette: Palette;
   scale: number; // CSS pixels a page unit
   width: number; // page units: of strokes that have none of their own
+  cased: boolean; // with paper around the ink: the page is glass, and there are leaves behind it
 }
 
 export type State = "plain" | "hovered" | "selected" | "wrong" | "faint";
 
 const HALO = 5; // CSS pixels around what is selected
 const HALO_STRENGTH: Partial<Record<State, number>> = { selected: 0.32, hovered: 0.16, wrong: 0.22 };
+const CASING = 1.3; // CSS pixels, each side
 const LEAST = 1.1; // CSS pixels: no line is thinner on screen
 
 interface Shape {
@@ -36,8 +38,17 @@ export function paintStroke(on: CanvasRenderingContext2D, stroke: Stroke, look: 
     on.stroke(shape.line);
     on.globalAlpha = 1;
   }
+  if (look.cased && state !== "faint") paintCasing(on, shape, stroke.kind === "branch" ? shape.width : 2 / scale, look);
   if (stroke.kind === "branch") paintBranch(on, shape, state === "wrong" ? palette.wrong : palette.ink, scale);
   else paintArea(on, stroke, shape, look, state);
+  on.globalAlpha = 1;
+}
+
+function paintCasing(on: CanvasRenderingContext2D, shape: Shape, width: number, { palette, scale }: Look): void {
+  on.strokeStyle = palette.paper;
+  on.globalAlpha = 0.62;
+  on.lineWidth = Math.max(width, LEAST / scale) + (2 * CASING) / scale;
+  on.stroke(shape.line);
   on.globalAlpha = 1;
 }
 

@@ -12,11 +12,11 @@ export interface Hint {
   show: () => void;
 }
 
-export function hintCard(store: Store): Hint {
+export function hintCard(store: Store, newPage: () => void): Hint {
   const close = button({ label: "Close the hint", icon: "close", iconOnly: true, look: "quiet", testId: "hint-close", onPress: () => away() });
-  const first = element("strong", {}, "Draw a trunk from the ground up, then a few branches.");
-  const words = element("p", {}, first, " The tree follows your pen. Draw on this one, or begin a new page.");
-  const root = element("div", { class: "hint-card", role: "note", testId: "hint" }, icon("branch"), words, close);
+  const words = element("p", {}, element("strong", {}, "Draw a trunk, then branches."), element("span", {}, " The tree follows."));
+  const fresh = button({ label: "New page", testId: "hint-new", onPress: newPage });
+  const root = element("div", { class: "hint-card", role: "note", testId: "hint" }, icon("branch"), words, fresh, close);
   let called = false;
   let before: number | null = null; // strokes there were when it appeared
   const away = (): void => {

@@ -30,3 +30,8 @@ export function answers(choice: Choice, typed: string): boolean {
 function bare(text: string): string {
   return text.normalize("NFD").replace(/\p{M}/gu, "").toLowerCase().trim();
 }
+
+/** A title without what botanists add in brackets: a card has room for two short lines. */
+export function commonName(title: string): string {
+  return title.replace(/\s*\([^()]*\)\s*$/, "") || title;
+}

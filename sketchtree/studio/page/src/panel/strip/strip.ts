@@ -6,7 +6,7 @@ import { onList } from "../catalogue";
 import { linger } from "../linger";
 import { roving, type Roving } from "../roving";
 import { card, type TemplateCard } from "./card";
-import { answers, rank } from "./ranking";
+import { answers, commonName, rank } from "./ranking";
 import { search } from "./search";
 
 const REST = 250; // milliseconds until a look is worth a tree
@@ -44,7 +44,7 @@ class Strip {
     this.cards.clear();
     this.add("auto", "Automatic", null, "The template most like the drawing, chosen anew whenever it changes");
     for (const { name, title, picture } of welcome.templates)
-      this.add(name, title, picture && this.store.address(picture), `${title}: rest here to see the tree with it, click to keep it`);
+      this.add(name, commonName(title), picture && this.store.address(picture), `${title}: rest here to see the tree with it, click to keep it`);
     this.add("none", "No template", null, "Only what the drawing itself says, with plain leaves and bark");
     this.list.replaceChildren(...[...this.cards.values()].map((one) => one.root));
     this.order();
@@ -126,7 +126,7 @@ class Strip {
 
   private title(name: string): string {
     if (name === "auto") return "Automatic";
-    return this.store.known.welcome?.templates.find((one) => one.name === name)?.title ?? (name === "none" ? "No template" : name);
+    return commonNameOf(this.store, name) ?? (name === "none" ? "No template" : name);
   }
 
   private choose(name: string): void {
@@ -148,4 +148,9 @@ class Strip {
     event.preventDefault();
     this.list.scrollLeft += event.deltaY * (event.deltaMode === WheelEvent.DOM_DELTA_LINE ? 30 : 1);
   }
+}
+
+function commonNameOf(store: Store, name: string): string | undefined {
+  const title = store.known.welcome?.templates.find((one) => one.name === name)?.title;
+  return title && commonName(title);
 }

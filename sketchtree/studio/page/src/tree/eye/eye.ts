@@ -12,7 +12,7 @@ export interface Eye {
 export const FIELD = 28; // degrees, vertical
 const LOWEST = -20; // degrees: from below the ground one sees little
 const HIGHEST = 89.5;
-const MARGIN = 1.16; // room for the height's label, and for the buttons at the foot
+const MARGIN = 1.14; // room for the height's label
 
 const radians = (degrees: number): number => (degrees * Math.PI) / 180;
 
@@ -49,19 +49,21 @@ export function zoomed(eye: Eye, factor: number, x: number, y: number, high: num
   return { ...panned(eye, -x * moved, -y * moved, high), distance };
 }
 
-/** The nearest eye in the same direction that sees all of a tree in this box, with a margin: crowns are round, so their box's corners are empty. */
-export function framed(eye: Eye, low: Point, high: Point, aspect: number): Eye {
+/** The nearest eye in the same direction that sees all of a tree in this box, with a margin: crowns are round, so their box's corners are empty. `foot`: the share
+ *  of the view's height over whose lower end buttons stand. */
+export function framed(eye: Eye, low: Point, high: Point, aspect: number, foot = 0): Eye {
   const { right, up, back } = axes(eye);
-  const target: Point = [(low[0] + high[0]) / 2, (low[1] + high[1]) / 2, (low[2] + high[2]) / 2];
-  const tall = Math.tan(radians(FIELD / 2)) / MARGIN;
+  const middle: Point = [(low[0] + high[0]) / 2, (low[1] + high[1]) / 2, (low[2] + high[2]) / 2];
+  const half = Math.tan(radians(FIELD / 2));
+  const [tall, broad] = [(half * (1 - foot)) / MARGIN, (half * aspect) / MARGIN];
   let distance = 0.1;
   for (const [level, wide] of [[-1, 0.5], [0, 1], [1, 0.5]] as const)
     for (let side = 0; side < 8; side++) {
       const turn = (side * Math.PI) / 4;
       const at: Point = [((high[0] - low[0]) / 2) * wide * Math.cos(turn), ((high[1] - low[1]) / 2) * level, ((high[2] - low[2]) / 2) * wide * Math.sin(turn)];
-      distance = Math.max(distance, dot(at, back) + Math.max(Math.abs(dot(at, up)) / tall, Math.abs(dot(at, right)) / (tall * aspect)));
+      distance = Math.max(distance, dot(at, back) + Math.max(Math.abs(dot(at, up)) / tall, Math.abs(dot(at, right)) / broad));
     }
-  return { ...eye, target, distance };
+  return { ...eye, target: along(middle, up, -foot * half * distance), distance };
 }
 
 /** On the way from one to another; azimuths go the short way round, distances by their ratio. */

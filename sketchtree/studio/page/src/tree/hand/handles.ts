@@ -37,7 +37,7 @@ export class Handles {
   renew(): void {
     if (this.dragging) return;
     this.preview.show([], 0);
-    const focused = this.shown.findIndex(({ handle }) => handle === document.activeElement);
+    const focused = this.shown.findIndex(({ handle }) => handle.matches(":focus"));
     this.one = this.chosen.now;
     const shares = !this.one ? [] : this.one.limb ? grips(this.one.limb.held) : [1];
     this.layer.replaceChildren();
@@ -120,7 +120,7 @@ export class Handles {
     for (const { share, handle } of [...this.shown].reverse()) {
       const at = placeAt(this.one.path, this.one.share, share);
       const here = this.view.project(this.moving?.share === share ? along(at, this.moving.by, 1) : at);
-      const room = last === null || Math.hypot(here[0] - last[0], here[1] - last[1]) > ROOM || handle === document.activeElement;
+      const room = last === null || Math.hypot(here[0] - last[0], here[1] - last[1]) > ROOM || handle.matches(":focus"); // asked of itself: in a notebook it is in a shadow root
       handle.style.visibility = room ? "visible" : "hidden";
       if (room) last = here;
       handle.style.transform = `translate(${here[0].toFixed(1)}px, ${here[1].toFixed(1)}px) translate(-50%, -50%)`;

@@ -23,14 +23,14 @@ export function listenKeys(view: View, store: Store, toolbar: Toolbar, handles: 
   const nearer = (factor: number) => () => view.look(zoomed(view.eye, factor, 0, 0, view.stage.high));
   const turn = (right: number, up: number) => () => view.look(turned(view.eye, right, up));
   const side = (azimuth: number, elevation: number) => () => view.showAll(azimuth, elevation);
-  const chosen = (act: () => void, otherwise?: () => void) => () => (store.ui.selected === null ? otherwise?.() : act());
+  const chosen = (act: () => void) => () => { if (store.ui.selected !== null) act(); };
   const whole = (): void => view.showAll();
 
   const onKey: Record<string, () => void> = {
     ArrowLeft: turn(-STEP, 0), ArrowRight: turn(STEP, 0), ArrowUp: turn(0, STEP), ArrowDown: turn(0, -STEP),
-    "+": nearer(1.2), "=": nearer(1.2), "-": nearer(1 / 1.2), Home: whole,
+    "+": nearer(1.2), "=": nearer(1.2), "-": nearer(1 / 1.2), Home: whole, "0": whole,
     "1": side(0, 4), "2": side(90, 4), "3": side(0, 89.5),
-    f: chosen(() => toolbar.flip(), whole), l: chosen(() => toolbar.toggleLock()), Delete: chosen(() => toolbar.remove()), Backspace: chosen(() => toolbar.remove()),
+    f: chosen(() => toolbar.flip()), l: chosen(() => toolbar.toggleLock()), Delete: chosen(() => toolbar.remove()), Backspace: chosen(() => toolbar.remove()),
     Enter: chosen(() => handles.focus()),
     Escape: () => { leaving = true; store.set("selected", null); view.root.focus(); },
   };
@@ -44,7 +44,7 @@ export function listenKeys(view: View, store: Store, toolbar: Toolbar, handles: 
     }
     const act = onKey[event.key.length === 1 ? event.key.toLowerCase() : event.key];
     if (!act || (!inView && event.key === "Enter")) return; // Enter on a button presses it
-    if (["f", "l", "Delete", "Backspace"].includes(event.key) && store.ui.selected === null && event.key !== "f") return;
+    if (["f", "l", "Delete", "Backspace"].includes(event.key) && store.ui.selected === null) return;
     event.preventDefault();
     event.stopPropagation(); // the page's shortcuts do not act a second time
     act();

@@ -1,11 +1,12 @@
 // What can be done to the chosen limb? A few buttons beside it.
 
-import { block, button, swapIcon } from "../../parts/button";
+import { button, swapIcon } from "../../parts/button";
 import { element } from "../../parts/element";
 import type { Store } from "../../store";
 import { shortest, snapped } from "../eye/eye";
 import { placeAt } from "./drag";
 import type { Chosen } from "./chosen";
+import { shortName } from "./wood_of";
 import type { View } from "../view";
 
 const CLEAR = 26; // pixels between it and the limb, so that no handle is under it
@@ -14,13 +15,16 @@ export class Toolbar {
   private readonly bar: HTMLElement;
   private readonly lock: HTMLButtonElement;
   private readonly flipButton: HTMLButtonElement;
+  private readonly gone: HTMLButtonElement;
+  private readonly name = element("span", { class: "tree-toolbar-name" });
 
   constructor(private readonly view: View, private readonly chosen: Chosen, private readonly store: Store) {
     this.flipButton = button({ label: "Flip to the other side", icon: "flip", iconOnly: true, look: "quiet", key: "F", testId: "limb-flip", onPress: () => this.flip() });
     this.lock = button({ label: "Lock", icon: "lock", iconOnly: true, look: "quiet", key: "L", testId: "limb-lock", onPress: () => this.toggleLock() });
     const side = button({ label: "Draw on this side", icon: "turn", iconOnly: true, look: "quiet", testId: "limb-side", hint: "Turn the page to see this limb from its side, and draw there", onPress: () => this.turnToSide() });
-    const gone = button({ label: "Delete", icon: "trash", iconOnly: true, look: "quiet", key: "Del", testId: "limb-delete", hint: "Delete, with all that grows on it", onPress: () => this.remove() });
-    this.bar = element("div", { class: "tree-toolbar", role: "toolbar", "aria-label": "Chosen limb", "data-testid": "limb-toolbar", hidden: true }, this.flipButton, this.lock, side, gone);
+    this.gone = button({ label: "Delete", icon: "trash", iconOnly: true, look: "quiet", key: "Del", testId: "limb-delete", hint: "Delete, with all that grows on it", onPress: () => this.remove() });
+    this.bar = element("div", { class: "tree-toolbar", role: "toolbar", "aria-label": "Chosen limb", "data-testid": "limb-toolbar", hidden: true }, this.name, this.flipButton, this.lock, side, this.gone);
+    for (const made of [this.lock, this.gone]) made.append(element("span", { class: "tree-toolbar-word" }));
     view.root.append(this.bar);
     view.stage.afterDraw.push(() => this.follow());
     store.on(["selected", "limbs", "frame"], () => this.renew());
@@ -58,11 +62,14 @@ export class Toolbar {
     this.bar.hidden = one === null;
     if (!one) return;
     const kept = isKept(one.limb);
+    this.name.textContent = shortName(one);
+    word(this.lock, one.limb ? "" : "Keep"); // what can be done to limbs that nobody drew is said in words: one would not look for it
+    word(this.gone, one.limb ? "" : "Clear");
+    this.flipButton.hidden = one.limb === null;
     swapIcon(this.lock, kept ? "unlock" : "lock");
-    const words = kept ? "Unlock: let it move again" : one.limb ? "Lock: keep it as it is" : "Keep: it stays, whatever else changes";
+    const words = kept ? "Unlock: let it move again" : one.limb ? "Lock: keep it as it is" : "Keep: it stays as it is, whatever else changes, and can be flipped and bent";
     this.lock.setAttribute("aria-label", words);
     this.lock.title = this.lock.dataset.hint = `${words} (L)`;
-    block(this.flipButton, one.limb ? null : "Only limbs that were drawn or kept can be flipped");
     this.view.stage.draw();
   }
 
@@ -78,6 +85,11 @@ export class Toolbar {
     const top = Math.min(Math.max(8, above < 8 ? below : above), this.view.stage.high - high - 60);
     this.bar.style.transform = `translate(${left.toFixed(0)}px, ${top.toFixed(0)}px)`;
   }
+}
+
+function word(made: HTMLButtonElement, text: string): void {
+  made.querySelector("span")!.textContent = text;
+  made.classList.toggle("wordy", text !== "");
 }
 
 function isKept(limb: { locked: boolean; held: number[]; strokes: string[] } | null): boolean {

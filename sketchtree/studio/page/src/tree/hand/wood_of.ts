@@ -45,11 +45,16 @@ function pointsOf(limb: number, now: Merged, runs: readonly Run[]): Point[] {
   return points;
 }
 
-/** For ears and labels. */
+/** What sort of limb it is. */
+export function shortName({ limb }: Reached): string {
+  if (!limb) return "Grown limb";
+  return limb.order === 0 ? "Trunk" : limb.strokes.length ? "Drawn limb" : "Kept limb";
+}
+
+/** For ears. */
 export function described(one: Reached, limbs: readonly Limb[]): string {
   if (!one.limb) return "Grown limb. Lock keeps it, Delete clears it, its handle pulls it nearer or away.";
   const place = limbs.findIndex((limb) => limb.id === one.id) + 1;
-  const kind = one.limb.order === 0 ? "Trunk" : one.limb.strokes.length ? "Drawn limb" : "Adopted limb";
   const hold = one.limb.locked ? ", locked" : one.limb.held.length ? `, held at ${one.limb.held.length} ${one.limb.held.length === 1 ? "place" : "places"}` : "";
-  return `${kind}, ${place} of ${limbs.length}${hold}.`;
+  return `${shortName(one)}, ${place} of ${limbs.length}${hold}.`;
 }

@@ -10,6 +10,8 @@ import { shadeOf } from "./shade";
 import { leafMaterial, leafShadow, woodMaterial, type Lighting } from "./surface";
 import type { MapKind, Textures } from "./textures";
 
+const BARE = "#7d6c59"; // wood whose bark is still on its way
+
 interface Worn {
   of: string; // the material as the frame said it, to see whether it is another now
   surface: MeshStandardMaterial;
@@ -116,18 +118,22 @@ export class Scenery {
 
   private dress(of: Material, { surface, shadow }: Worn, passing: { value: Texture | null }): void {
     const put: Record<MapKind, (map: Texture) => void> = {
-      color: (map) => { surface.map = map; if (shadow) { shadow.map = map; shadow.needsUpdate = true; } },
+      color: (map) => { surface.map = map; surface.color.setRGB(of.color[0]!, of.color[1]!, of.color[2]!); if (shadow) { shadow.map = map; shadow.needsUpdate = true; } },
       normal: (map) => { surface.normalMap = map; },
       roughness: (map) => { surface.roughnessMap = map; surface.roughness = 1; },
       translucency: (map) => { passing.value = map; },
     };
-    surface.visible = false; // until its maps are there: cards without them are squares
-    const worth = this.software && shadow ? ["color", "translucency"] : of.maps; // a leaf's veins are not worth their time there
-    const coming = (of.maps as MapKind[]).filter((kind) => worth.includes(kind)).map((kind) => this.textures.get(of.key, kind, of.cutoff).then((map) => put[kind]?.(map)));
-    void Promise.allSettled(coming).then(() => { // of what the program has not, the plain colour stays
+    if (shadow) surface.visible = false; // until its colours are there: cards without them are squares
+    else if (of.maps.includes("color")) surface.color.set(BARE); // wood stands at once, as plain wood
+    const shown = (): void => {
       surface.visible = surface.needsUpdate = true;
       this.changed();
-    });
+    };
+    const worth = this.software && shadow ? ["color", "translucency"] : of.maps; // a leaf's veins are not worth their time there
+    const bring = (kind: MapKind): Promise<void> => this.textures.get(of.key, kind, of.cutoff).then((map) => put[kind](map));
+    const kinds = (of.maps as MapKind[]).filter((kind) => worth.includes(kind));
+    const first = kinds.filter((kind) => kind === "color").map((kind) => bring(kind).then(shown));
+    void Promise.allSettled([...first, ...kinds.filter((kind) => kind !== "color").map(bring)]).then(shown); // of what the program has not, the plain colour stays
   }
 }
 

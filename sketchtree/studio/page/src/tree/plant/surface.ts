@@ -42,7 +42,7 @@ export interface Lighting {
   leafShare: { value: number }; // how many of the leaves are there: fewer while wood is chosen or looked at
 }
 
-const DARKEST = 0.2; // of the sky's light, in the deepest crown: leaves hand it on to each other
+const DARKEST = 0.42; // of the sky's light, in the deepest crown: leaves hand it on to each other
 const PLACED = `
 attribute vec3 aPlace; attribute vec4 aTurn; attribute vec3 aScale; attribute vec3 aTint;
 vec3 turned(vec3 p) { vec4 q = normalize(aTurn); return p + 2.0 * cross(q.xyz, cross(q.xyz, p) + q.w * p); }

@@ -36,5 +36,6 @@ export function viewBar(view: View, store: Store, shown: Shown, changed: () => v
     element("span", { class: "tree-bar-gap" }),
     toggle("ink", "Drawing", "branch", "The drawing, as it lies on the tree"), toggle("grid", "Metres", "gallery", "Lines a metre apart on the ground"), figure);
   view.root.append(bar);
+  new ResizeObserver(() => { view.foot = view.root.clientHeight - bar.offsetTop; }).observe(bar);
   return bar;
 }

@@ -6,6 +6,8 @@ export const TALL = 1.8; // metres
 
 export class Figure {
   readonly group = new Group();
+  private asked = true;
+  private isBeside = false;
   private readonly material = new MeshBasicMaterial({ side: DoubleSide, toneMapped: false });
 
   constructor(scene: Scene) {
@@ -13,11 +15,24 @@ export class Figure {
     body.castShadow = false;
     this.group.add(body);
     scene.add(this.group);
+    this.stands = false;
     this.wear("light");
   }
 
   wear(theme: "light" | "dark"): void {
     this.material.color.set(theme === "light" ? "#5c6663" : "#aab4b2");
+  }
+
+  /** Somebody wants to see it. */
+  set wanted(is: boolean) {
+    this.asked = is;
+    this.group.visible = this.asked && this.isBeside;
+  }
+
+  /** There is a tree to stand beside: alone it would say nothing, and of the wrong size. */
+  set stands(is: boolean) {
+    this.isBeside = is;
+    this.wanted = this.asked;
   }
 
   /** Beside this tree: to its left and a little in front, clear of the trunk. */

@@ -13,8 +13,8 @@ export interface Look {
 }
 
 export const LOOKS: Record<"light" | "dark", Look> = {
-  light: { zenith: "#a9c3da", horizon: "#eceee9", ground: "#dad8d0", shadow: "#4d4f4c", sky: 3.2, sun: 6.6, warmth: "#fff4e4" },
-  dark: { zenith: "#1a2733", horizon: "#3a4246", ground: "#363b3c", shadow: "#0f1213", sky: 3.0, sun: 6.6, warmth: "#fff0d8" },
+  light: { zenith: "#a9c3da", horizon: "#eceee9", ground: "#dad8d0", shadow: "#4d4f4c", sky: 4.3, sun: 5.8, warmth: "#fff3e2" },
+  dark: { zenith: "#1a2733", horizon: "#3a4246", ground: "#363b3c", shadow: "#0f1213", sky: 4.4, sun: 5.8, warmth: "#fff0d8" },
 };
 
 /** Half a step of noise: without it a soft gradient shows bands. */
@@ -45,7 +45,7 @@ export class Weather {
     this.sun.color.set(look.warmth);
     this.sun.intensity = look.sun;
     this.sky.color.set(look.zenith).lerp(new Color("white"), 0.45);
-    this.sky.groundColor.set(look.ground).multiplyScalar(0.55);
+    this.sky.groundColor.set(look.ground).multiplyScalar(0.72);
     this.sky.intensity = look.sky;
     this.dome.material.uniforms.uZenith!.value.set(look.zenith);
     this.dome.material.uniforms.uHorizon!.value.set(look.horizon);
