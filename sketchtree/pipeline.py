@@ -4,6 +4,7 @@
 """
 
 import dataclasses
+from collections.abc import Callable
 from dataclasses import dataclass
 from pathlib import Path
 
@@ -93,10 +94,17 @@ def complete(
 
 
 def grow(
-    drawn: DrawnTree, options: TreeOptions, obstacles: tuple = (), *, key: Key[Array, ""], only: frozenset[int] | None = None
+    drawn: DrawnTree,
+    options: TreeOptions,
+    obstacles: tuple = (),
+    *,
+    key: Key[Array, ""],
+    only: frozenset[int] | None = None,
+    pulse: Callable[[], None] = lambda: None,
 ) -> Propagation:
-    """What the sketch left out, grown (§6); nothing where a limb was cleared away by hand. `only`: ids of the drawn limbs that grow."""
-    grown = dataclasses.replace(propagation(drawn, options, obstacles), only=only).run(drawn.skeleton, key=stage_key(key, "propagate"))
+    """What the sketch left out, grown (§6); nothing where a limb was cleared away by hand. `only`: ids of the drawn limbs that grow. `pulse` is called before
+    every generation; what it raises ends the growth."""
+    grown = dataclasses.replace(propagation(drawn, options, obstacles), only=only).run(drawn.skeleton, key=stage_key(key, "propagate"), pulse=pulse)
     return cleared(grown, drawn.edits.cleared.values(), drawn.similarity)
 
 

@@ -36,6 +36,7 @@ class Document:
     name: str = "untitled"
     units: str = "px"
     page: tuple[float, float, float, float] | None = None  # left, bottom, right, top; y up
+    warnings: tuple[str, ...] = ()  # of the file it was read from
 
     def replace(self, **fields) -> "Document":
         """The same document with some fields exchanged."""
@@ -44,4 +45,4 @@ class Document:
     @property
     def sketch(self) -> Sketch:
         """The drawing; strokes of turned pages too (`Stroke.view_deg`)."""
-        return Sketch(tuple(self.strokes.values()), name=self.name, units=self.units, page=self.page)
+        return Sketch(tuple(self.strokes.values()), name=self.name, units=self.units, page=self.page, warnings=self.warnings)

@@ -8,7 +8,7 @@ A crown that is still hollow then is filled by a few rounds more (`fill`). Growt
 at the crown's surface, at what a neighbour holds, or at `max_segments`.
 """
 
-from collections.abc import Sequence
+from collections.abc import Callable, Sequence
 from dataclasses import dataclass, field, replace
 
 import numpy as np
@@ -51,9 +51,9 @@ class Propagate(Wanted):
     def __call__(self, tree: TreeSkeleton, *, key: Key[Array, ""]) -> TreeSkeleton:
         return self.run(tree, key=key).skeleton
 
-    def run(self, tree: TreeSkeleton, *, key: Key[Array, ""]) -> Propagation:
-        """As the call, with the generations, warnings and what ended the growth."""
-        return propagate_together([Planted(tree, self, key)])[0]
+    def run(self, tree: TreeSkeleton, *, key: Key[Array, ""], pulse: Callable[[], None] = lambda: None) -> Propagation:
+        """As the call, with the generations, warnings and what ended the growth. `pulse` is called before every generation; what it raises ends the growth."""
+        return propagate_together([Planted(tree, self, key)], pulse)[0]
 
 
 def propagate(tree: TreeSkeleton, habit: Habit, theta: TreeParameters, *, key: Key[Array, ""], **wanted) -> Propagation:
@@ -71,12 +71,12 @@ class Planted:
     place: Float[np.ndarray, " 3"] = field(default_factory=lambda: np.zeros(3))  # of its frame in the world, metres
 
 
-def propagate_together(planted: Sequence[Planted]) -> list[Propagation]:
+def propagate_together(planted: Sequence[Planted], pulse: Callable[[], None] = lambda: None) -> list[Propagation]:
     """Grow what several drawings left out, in lockstep, competing for space and light (`together`); each in its own frame.
 
     The trees of one drawing compete likewise. The order of the drawings changes nothing."""
     trees = [_trees(one) for one in planted]
-    growing = iter(Together([member for members, _ in trees for member in members]).complete())
+    growing = iter(Together([member for members, _ in trees for member in members], pulse).complete())
     return [_found(one, [next(growing) for _ in members], rows) for one, (members, rows) in zip(planted, trees, strict=True)]
 
 

@@ -8,6 +8,7 @@ own frame: a tree that is out of the others' reach is to the last bit the tree t
     1   generations up to the limit         2   rounds of filling, where crowns are hollow or it was asked for         3   generations again
 """
 
+from collections.abc import Callable
 from dataclasses import dataclass, field
 
 import numpy as np
@@ -38,8 +39,8 @@ class Member:
 class Together:
     """Trees while they grow together. A single one without light grows as `Growing` alone would."""
 
-    def __init__(self, members: list[Member]):
-        self.members = members
+    def __init__(self, members: list[Member], pulse: Callable[[], None] = lambda: None):
+        self.members, self.pulse = members, pulse
         self.growing = [Growing(member.tree, member.wanted, member.key) for member in members]
         self.alone = [growing.space for growing in self.growing]
         self.lit = any(member.wanted.light > 0 for member in members)
@@ -58,6 +59,7 @@ class Together:
         limits = [CROWN_GENERATIONS if m.wanted.generations is None else limit for m, limit in zip(self.members, limits, strict=True)]
         gaps = [() if growing.wanted.only is not None else _gaps(growing) for growing in self.growing]
         for round_ in range(max(map(len, gaps), default=0)):
+            self.pulse()
             self._look_round()
             for growing, limit, gap in zip(self.growing, limits, gaps, strict=True):
                 if round_ < len(gap):
@@ -69,6 +71,7 @@ class Together:
         """Generation after generation, each tree until its limit or until nothing of it is open."""
         going = list(zip(self.growing, limits, strict=True))
         while going := [(growing, limit) for growing, limit in going if growing.done < limit]:
+            self.pulse()
             self._look_round()
             going = [(growing, limit) for growing, limit in going if growing.generation()]
 

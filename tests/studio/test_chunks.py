@@ -132,3 +132,15 @@ def test_a_project_keeps_the_picture_and_the_options():
         again = document_of(path.read_bytes(), path.name)
     assert again.underlay == underlay and again.seed == 4 and again.tree == document.tree and again.reading == document.reading and again.name == "tree"
     assert len(again.settled) == len(drawn.settled) and list(again.strokes) == ["trunk", "left"]
+
+
+def test_meshes_that_a_project_named_and_that_are_gone_are_said(tmp_path):
+    from sketchtree.studio.making.documents import document_of
+    from sketchtree.tree_output import Made, write_output
+
+    drawn = pipeline.draw_out(Sketch((_line("trunk", (0, 0), (0, 100)),)), key=KEY, options=ReadingOptions(template="none"))
+    model = pipeline.complete(drawn, key=KEY, options=TreeOptions(generations=0, leaf="none"))
+    write_output(model, tmp_path / "tree.sketchtree", Made(0, {"obstacle": ["rock.obj"], "prune": ["y<4", "outside:hole.ply"], "wood": "tubes"}))
+    again = document_of((tmp_path / "tree.sketchtree").read_bytes(), "tree.sketchtree")
+    assert again.tree.prune == ("y<4",) and again.tree.obstacle == () and again.tree.wood == "tubes"
+    assert again.sketch.warnings == tuple(f"{name} is not there any more; the tree is made without it." for name in ("rock.obj", "outside:hole.ply"))

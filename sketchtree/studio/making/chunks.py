@@ -26,7 +26,7 @@ from sketchtree.studio import messages
 from sketchtree.studio.making.frames import Arrays
 from sketchtree.traverse import generations
 
-DETAIL = Detail()
+DETAIL = Detail(most_triangles=500_000)  # of all wood on the screen; files may have more
 
 
 @dataclass(frozen=True, eq=False)

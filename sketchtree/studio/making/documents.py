@@ -11,11 +11,12 @@ import numpy as np
 from sketchtree.drawing import read_hand_work
 from sketchtree.editing.document import Document, Underlay
 from sketchtree.errors import SketchTreeError
-from sketchtree.options import FileOptions, ReadingOptions, TreeOptions
+from sketchtree.options import ReadingOptions, TreeOptions
+from sketchtree.propagate.after.shears import HOLE, plane
 from sketchtree.sketch.formats import read_sketch
 
 _SIGNATURE = b"\x89HDF\r\n\x1a\n"
-_NOT_OURS = {FileOptions: (), ReadingOptions: ("max_strokes", "max_mb", "max_megapixels", "samples", "alternatives"), TreeOptions: ("prune", "obstacle", "wood", "solid")}
+_NOT_KEPT = ("max_strokes", "max_mb", "max_megapixels", "samples", "alternatives")  # limits of a reading, and questions that were answered then
 
 
 def document_of(data: bytes, name: str) -> Document:
@@ -28,14 +29,14 @@ def document_of(data: bytes, name: str) -> Document:
             by_hand = read_hand_work(path)
         except SketchTreeError as error:
             raise type(error)(error.message.replace(f"{folder}/", ""), remedy=error.remedy) from error
-    reading, tree, seed, underlay = _kept(data) if data.startswith(_SIGNATURE) else (ReadingOptions(), TreeOptions(), 0, None)
-    return Document(
-        {stroke.id: stroke for stroke in sketch.strokes}, by_hand.edits, by_hand.settled, reading, tree, seed, underlay, Path(name).stem, sketch.units, sketch.page
+    document = Document(
+        {stroke.id: stroke for stroke in sketch.strokes}, by_hand.edits, by_hand.settled, name=Path(name).stem, units=sketch.units, page=sketch.page, warnings=sketch.warnings
     )
+    return _with_choices(document, data) if data.startswith(_SIGNATURE) else document
 
 
-def _kept(data: bytes) -> tuple[ReadingOptions, TreeOptions, int, Underlay | None]:
-    """Options, seed and picture of a project; what this version does not know, or can't be so, is as by default."""
+def _with_choices(document: Document, data: bytes) -> Document:
+    """The document with a project's options, seed and picture. What this version does not know is as by default; meshes that are not there any more are said."""
     import h5py
 
     with h5py.File(io.BytesIO(data), "r") as file:
@@ -45,12 +46,27 @@ def _kept(data: bytes) -> tuple[ReadingOptions, TreeOptions, int, Underlay | Non
         if "underlay" in file:
             at = file["underlay"].attrs
             underlay = Underlay(file["underlay"][()].astype(np.uint8).tobytes(), *(float(at[name]) for name in ("x", "y", "width", "height", "opacity")))
-    return _options(ReadingOptions, said), _options(TreeOptions, said), seed, underlay
+    said, gone = _without_meshes(said)
+    told = tuple(f"{name} is not there any more; the tree is made without it." for name in gone)
+    return document.replace(
+        reading=_options(ReadingOptions, said), tree=_options(TreeOptions, said), seed=seed, underlay=underlay, warnings=(*document.warnings, *told)
+    )
+
+
+def _without_meshes(said: dict) -> tuple[dict, list[str]]:
+    """(the options without the mesh files that are gone, their names)."""
+    gone = []
+    for option in ("obstacle", "prune"):
+        named = [str(one) for one in said.get(option) or ()]
+        missing = [one for one in named if not (option == "prune" and plane(one)) and not Path(one.removeprefix(HOLE)).is_file()]
+        said = said | {option: tuple(one for one in named if one not in missing)}
+        gone += missing
+    return said, gone
 
 
 def _options(kind: type, said: dict):
-    """One record of options, of what a project says; files that it named may lie elsewhere, so they are left out."""
-    names = [field.name for field in dataclasses.fields(kind) if field.name in said and field.name not in _NOT_OURS[kind]]
+    """One record of options, of what a project says."""
+    names = [field.name for field in dataclasses.fields(kind) if field.name in said and field.name not in _NOT_KEPT]
     try:
         return kind(**{name: said[name] for name in names})
     except (SketchTreeError, TypeError):

@@ -18,7 +18,7 @@ from sketchtree.editing.settled import Depths, Settled
 from sketchtree.geometry.radii import PipeRadii
 from sketchtree.keys import root_key
 from sketchtree.options import TreeOptions
-from sketchtree.pipeline import LeafyTree, foliage, grow, weathered
+from sketchtree.pipeline import LeafyTree, foliage, grow, read_obstacles, weathered
 from sketchtree.propagate.after.cutting import bears
 from sketchtree.similarity import Similarity
 from sketchtree.studio import messages
@@ -85,7 +85,7 @@ def leafy_tree(bench: Bench, document: Document, drawn: DrawnTree, watch: Watch)
     at_grown = signature(at, [getattr(options, name) for name in _GROWING])
     if bench.grown is None or bench.grown[0] != at_grown:
         with watch("propagate"):
-            bench.grown = at_grown, grow(drawn, options, key=key)
+            bench.grown = at_grown, grow(drawn, options, read_obstacles(options), key=key, pulse=lambda: watch.on_part(0.1))
     watch.on_part(0.4)
     at_standing = signature(at_grown, options.sag, options.shed, options.shed_twigs, options.untangle, options.prune)
     if bench.standing is None or bench.standing[0] != at_standing:
