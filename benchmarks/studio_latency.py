@@ -38,7 +38,7 @@ def drawing(graph: SketchGraph) -> Sketch:
     for limb in range(len(graph.limb_id)):
         rows = np.flatnonzero((graph.limb == limb) & ~graph.is_base)
         points = np.concatenate([graph.curve(rows[0])[:1], *[graph.curve(row)[1:] for row in rows]])
-        strokes.append(Stroke(f"limb {limb}", points * scale))
+        strokes.append(Stroke(f"limb {limb}", points * scale, labelled=True))  # as the page's pen draws them
     return Sketch(tuple(strokes))
 
 

@@ -16,7 +16,7 @@ from sketchtree.editing.part import part_of, reachable
 from sketchtree.editing.settled import Settled
 from sketchtree.editing.touched import carried, touched
 from sketchtree.mrf.factor_graph import FactorGraph
-from sketchtree.mrf.infer import Fit, infer
+from sketchtree.mrf.infer import Fit, Run, infer
 from sketchtree.mrf.measure import measured_theta
 from sketchtree.mrf.prior import Prior
 from sketchtree.mrf.sampling.locks import STEEPEST
@@ -62,9 +62,22 @@ def settle(
     begin = near[rows] if np.isfinite(start[~graph.is_base]).any() else None
     options = {"start": begin, "locked": {place[row]: float(near[row]) for row in locked if row in place}}
     if quick:
-        options |= QUICK
-    fit = infer(part, prior, dataclasses.replace(solver, **options), key=key, alternatives=alternatives, throw=False)
-    return Settling(_merged(fit, factors, prior, rows, locked, start, lines, settled, moving, whole), moving, warnings)
+        fit = _hurried(part, prior, dataclasses.replace(solver, **options, **QUICK), key)
+    else:
+        fit = infer(part, prior, dataclasses.replace(solver, **options), key=key, alternatives=alternatives, throw=False)
+    return Settling(_merged(fit, factors, prior, rows, locked, start, lines, settled, moving, whole, quick), moving, warnings)
+
+
+def _hurried(part: FactorGraph, prior: Prior, solver, key: Key[Array, ""]) -> Fit:
+    """As `infer`, without what only a person who looks closely asks for: other readings, samples, Θ."""
+    run = Run(part, prior, solver, key, compile_first=False)
+    for _ in run:
+        pass
+    depth = np.asarray(solver.depth(part, run.state), np.float64)
+    finite = np.isfinite(depth)
+    result = RESULTS.converged if finite.all() else RESULTS.not_finite
+    sd = np.asarray(solver.depth_sd(part, run.state), np.float64) * part.scale
+    return Fit(np.where(finite, depth, 0.0) * part.scale, sd, prior.theta, prior.theta, result, None, len(run.rows), 0.0, solver.name)
 
 
 def _locks(lines: LimbLines, edits: Edits, moving, start, scale: float):
@@ -124,7 +137,7 @@ def _as_fit(factors: FactorGraph, prior: Prior, depth, lines: LimbLines, settled
     return Fit(depth, _sd(lines, settled), theta, prior.theta, RESULTS.converged, None, 0, 0.0, solver.name)
 
 
-def _merged(fit: Fit, factors, prior, rows, locked, start, lines, settled, moving, whole) -> Fit:
+def _merged(fit: Fit, factors, prior, rows, locked, start, lines, settled, moving, whole, hurried) -> Fit:
     """The fit of a part as one of the whole drawing: what is locked is where it is to be, to the last bit, and what is free rises from there."""
     free = np.isin(lines.graph.limb_id[lines.graph.limb], list(moving))
     depth, sd = np.where(np.isfinite(start), start, 0.0), _sd(lines, settled)
@@ -137,7 +150,7 @@ def _merged(fit: Fit, factors, prior, rows, locked, start, lines, settled, movin
         else:
             depth[row] = depth[above] + found[row] - found[above]
     sd[rows] = np.where(free[rows], fit.depth_sd, sd[rows])
-    theta = measured_theta(factors, depth / factors.scale, prior.theta)
+    theta = prior.theta if hurried else measured_theta(factors, depth / factors.scale, prior.theta)
     others = tuple(reading._replace(depth=_with_locks(reading.depth, rows, locked)) for reading in fit.alternatives)
     return dataclasses.replace(
         fit, depth=depth, depth_sd=sd, theta=theta, posterior=fit.posterior if whole else None, overlaps=rows[fit.overlaps], alternatives=others

@@ -22,7 +22,7 @@ from sketchtree.pipeline import LeafyTree, foliage, grow, read_obstacles, weathe
 from sketchtree.propagate.after.cutting import bears
 from sketchtree.similarity import Similarity
 from sketchtree.studio import messages
-from sketchtree.studio.making.chunks import Chunks, chunks_of, owners
+from sketchtree.studio.making.chunks import DETAIL, Chunks, chunks_of, owners
 from sketchtree.studio.making.frames import Arrays
 from sketchtree.studio.making.limb_table import limb_table
 from sketchtree.studio.making.watching import Stopped
@@ -33,6 +33,7 @@ _GROWING = ("generations", "fill", "max_segments", "density", "light", "obstacle
 
 
 _MOST = 16  # limbs that are hurried; more of them come with the full tree, which takes hardly longer
+_COARSE = DETAIL.coarser(2.0)
 _SAME = 0.003  # of the height: a limb that moved less stays as it is shown until the full tree comes
 
 
@@ -169,7 +170,7 @@ def hurried(bench: Bench, document: Document, basis: Basis | None, watch: Watch)
         leaves, flowers = foliage(part, dress, key=key)
     tree = LeafyTree(part, leaves, flowers, dress, ())
     with watch("mesh"):
-        chunks = chunks_of(tree, key=key, only=touched) if touched else Chunks((), (), (), {}, (0, 0))
+        chunks = chunks_of(tree, key=key, only=touched, detail=_COARSE) if touched else Chunks((), (), (), {}, (0, 0))
     return drawn, tree, chunks
 
 
