@@ -84,7 +84,7 @@ function fill(view: View, store: Store): TreeViews {
   followPage(view, store, ink);
   labels.renew();
   watchContext(view.root, stage.canvas, () => stage.shadows());
-  mountBench(view, () => ({ wood: scenery.meshes.filter((mesh) => mesh.userData.wood), leaves: scenery.meshes.filter((mesh) => !mesh.userData.wood) }));
+  mountBench(view, () => ({ wood: scenery.meshes.filter((mesh) => mesh.userData.wood), leaves: scenery.meshes.filter((mesh) => !mesh.userData.wood) }), store);
   const tidy: Tidy = (transparent) => {
     if (transparent) weather.visible = ground.visible = ink.visible = figure.group.visible = false;
     return () => {

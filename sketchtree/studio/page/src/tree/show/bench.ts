@@ -1,10 +1,20 @@
-// How many frames a second? Asked only by benchmarks, with `?bench` in the address: `await window.__studio.fps(3)`.
+// How many frames a second, and how soon after the pen is up is there another tree? Asked only by benchmarks, with `?bench` in the address.
 
+import type { Store } from "../../store";
 import type { View } from "../view";
 
 export interface Bench {
   fps: (seconds?: number, part?: "all" | "wood" | "leaves" | "none") => Promise<{ fps: number; p95: number; ratio: number; software: boolean }>;
+  lifted: () => Lifted[]; // since it was asked last
   tree: () => { triangles: number; calls: number };
+}
+
+/** Milliseconds from pen up until the first tree has come, is taken in, and is on the screen. */
+export interface Lifted {
+  phase: string;
+  came: number;
+  taken: number;
+  shown: number;
 }
 
 declare global {
@@ -13,9 +23,11 @@ declare global {
   }
 }
 
-export function mountBench(view: View, parts: () => { wood: { visible: boolean }[]; leaves: { visible: boolean }[] }): void {
+export function mountBench(view: View, parts: () => { wood: { visible: boolean }[]; leaves: { visible: boolean }[] }, store: Store): void {
   if (!new URLSearchParams(location.search).has("bench")) return;
+  const lifted = listenForPen(view, store);
   window.__studio = {
+    lifted: () => lifted.splice(0),
     tree: () => ({ triangles: view.stage.renderer.info.render.triangles, calls: view.stage.renderer.info.render.calls }),
     fps: async (seconds = 3, part = "all") => {
       const { wood, leaves } = parts();
@@ -28,6 +40,26 @@ export function mountBench(view: View, parts: () => { wood: { visible: boolean }
       return { fps: 1000 / mean, p95: sorted[Math.floor(0.95 * (sorted.length - 1))]!, ratio: view.stage.renderer.getPixelRatio(), software: view.stage.pace.software };
     },
   };
+}
+
+function listenForPen(view: View, store: Store): Lifted[] {
+  const found: Lifted[] = [];
+  let up: number | null = null;
+  addEventListener("pointerup", () => { up = performance.now(); }, { capture: true });
+  const gl = view.stage.renderer.getContext();
+  store.on("frame", () => {
+    if (up === null || store.frame === null) return;
+    const [began, came, phase] = [up, performance.now(), store.frame.head.phase];
+    up = null;
+    setTimeout(() => {
+      const taken = performance.now();
+      requestAnimationFrame(() => requestAnimationFrame(() => {
+        gl.readPixels(0, 0, 1, 1, gl.RGBA, gl.UNSIGNED_BYTE, new Uint8Array(4));
+        found.push({ phase, came: came - began, taken: taken - began, shown: performance.now() - began });
+      }));
+    });
+  });
+  return found;
 }
 
 /** Milliseconds of every frame of a turn. Reading a pixel back waits until it is really drawn. */
