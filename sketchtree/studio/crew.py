@@ -9,9 +9,7 @@ Each begins when it is first needed, and is begun again should it end. The newes
 
 import asyncio
 import dataclasses
-import multiprocessing
 import sys
-import threading
 import traceback
 from collections.abc import Callable
 from pathlib import Path
@@ -21,104 +19,11 @@ from sketchtree.editing.settled import Settled
 from sketchtree.errors import SketchTreeError
 from sketchtree.studio import messages
 from sketchtree.studio.engine import Outcome
+from sketchtree.studio.hand import Ended, Fault, Hand
 
 _ROLES = ("quick", "full", "side")
 _SMALL, _LINES = 1_000_000, (".svg", ".json", ".excalidraw", ".inkml")  # bytes, and kinds, of drawings that are read at once
 _PAUSE = 0.1  # seconds between two tellings of how far a stage is
-
-
-class Hand:
-    """One process, as the event loop sees it."""
-
-    def __init__(self, role: str, database: Path | None, tell: Callable[[int, object], None]):
-        self.role, self._database, self._tell = role, database, tell
-        self._loop = asyncio.get_running_loop()
-        self._waiting: dict[int, asyncio.Future] = {}
-        self._number, self._pipe, self._process = 0, None, None
-
-    def begin(self) -> None:
-        """Start the process."""
-        context = multiprocessing.get_context("spawn")
-        self._pipe, theirs = context.Pipe()
-        from sketchtree.studio.making.worker import main
-
-        self._process = context.Process(target=main, args=(theirs, None if self._database is None else str(self._database), self.role), daemon=True)
-        self._process.start()
-        theirs.close()
-        threading.Thread(target=self._listen, args=(self._pipe,), daemon=True).start()
-
-    @property
-    def runs(self) -> bool:
-        """Whether the process is there."""
-        return self._process is not None and self._process.is_alive()
-
-    def ready(self) -> None:
-        """Start the process, unless it runs."""
-        if not self.runs:
-            self.begin()
-
-    def ask(self, kind: str, *arguments: object) -> tuple[int, asyncio.Future]:
-        """(the job's number, its answer to be). None is answered to a job that was stopped."""
-        self.ready()
-        self._number += 1
-        answer = self._loop.create_future()
-        self._waiting[self._number] = answer
-        try:
-            self._pipe.send((self._number, kind, arguments))
-        except (BrokenPipeError, OSError):
-            self._ended()
-        return self._number, answer
-
-    def stop(self) -> None:
-        """Let what runs end, and drop what waits, of kinds of which the newest wins."""
-        if self.runs:
-            self._pipe.send((self._number, "stop", ()))
-
-    def end(self) -> None:
-        """End the process."""
-        if self._process is not None:
-            self._process.kill()
-            self._process.join(2)
-
-    def _listen(self, pipe) -> None:
-        try:
-            while True:
-                number, what, value = pipe.recv()
-                self._loop.call_soon_threadsafe(self._came, number, what, value)
-        except (EOFError, OSError, RuntimeError):
-            try:
-                self._loop.call_soon_threadsafe(self._ended)
-            except RuntimeError:
-                pass  # the loop is closed: the studio ends
-
-    def _came(self, number: int, what: str, value: object) -> None:
-        if what == "event":
-            self._tell(number, value)
-            return
-        answer = self._waiting.pop(number, None)
-        if answer is None or answer.done():
-            return
-        if what == "trouble":
-            message, remedy, stroke = value
-            error = SketchTreeError(message, remedy=remedy)
-            error.stroke = stroke
-            answer.set_exception(error)
-        elif what == "fault":
-            print(value, file=sys.stderr)
-            answer.set_exception(Fault("Something went wrong in the program.", remedy="Undo the last step; the terminal that runs the studio has the details."))
-        else:
-            answer.set_result(value if what == "done" else None)
-
-    def _ended(self) -> None:
-        """The process is gone; what was asked of it can be asked again."""
-        waiting, self._waiting, self._process = self._waiting, {}, None
-        for answer in waiting.values():
-            if not answer.done():
-                answer.set_exception(Fault("A process that makes the tree ended.", remedy="It is begun again with the next step."))
-
-
-class Fault(SketchTreeError):
-    """A fault of ours."""
 
 
 class Crew:
@@ -132,6 +37,8 @@ class Crew:
         self._known: dict[str, str] = {}  # owner → digest of the chunk that the pages have
         self._basis = None
         self._revision, self._full_number, self._glancing = 0, 0, False
+        self._document = Document()
+        self._made, self._revived = -1, -1  # revisions: of the newest full tree, and of the last for which the process of full trees had to be begun again
         self._told = (0.0, "")
         self._catalogue: messages.Welcome | None = None
 
@@ -139,7 +46,7 @@ class Crew:
         """Begin the processes."""
         self._loop = asyncio.get_running_loop()
         for role in _ROLES:
-            self._hands[role] = Hand(role, self._database, self._event if role == "full" else lambda number, value: None)
+            self._hands[role] = Hand(role, self._database, self._event if role == "full" else lambda number, value: None, self._full_ended if role == "full" else lambda: None)
         for role in ("side", "full"):  # the quick one begins when there is a tree to hurry after
             self._hands[role].begin()
 
@@ -152,10 +59,10 @@ class Crew:
 
     def make(self, revision: int, document: Document) -> None:
         """As `Engine.make`."""
-        self._revision, document = revision, document.replace(underlay=None)  # no tree hangs on the picture, which may be large
+        self._revision, self._document = revision, document.replace(underlay=None)  # no tree hangs on the picture, which may be large
         self._hands["full"].stop()
         self._say(messages.Working(state="working", revision=revision, stage="read"))
-        self._run(self._make(revision, document))
+        self._run(self._make(revision, self._document))
 
     async def _make(self, revision: int, document: Document) -> None:
         if not document.strokes:
@@ -163,21 +70,42 @@ class Crew:
             return
         if self._hands["quick"].runs:
             document = await self._hurry(revision, document)
-        if revision != self._revision:
-            return
+        if revision == self._revision:
+            await self._whole(revision, document)
+
+    async def _whole(self, revision: int, document: Document) -> None:
         self._full_number, answer = self._hands["full"].ask("full", revision, document, dict(self._known))
         try:
             found = await answer
+        except Ended as error:
+            if revision == self._revision and self._revive(revision, error):
+                await self._whole(revision, document)
+            return
         except SketchTreeError as error:
             self._trouble(revision, error)
             return
         if found is None or revision != self._revision:
             return
         frame, digests, basis = found
-        self._known, self._basis = digests, basis
+        self._known, self._basis, self._made = digests, basis, revision
         self._hands["quick"].ready()
         self.on_outcome(Outcome(revision, frame, settled=basis.settled))
         self._say(messages.Working(state="idle", revision=revision))
+
+    def _revive(self, revision: int, error: Ended) -> bool:
+        """The process of full trees ended: once a revision it is begun again for it."""
+        if self._revived == revision:
+            self._trouble(revision, Ended(error.message, remedy="It ended twice at this step: undo it. Should that not help, save, and start the studio again."))
+            return False
+        self._revived = revision
+        again = messages.Trouble(message=error.message, remedy="It is begun again by itself; nothing of the drawing is lost.", about="program")
+        self.on_outcome(Outcome(revision, again))
+        return True
+
+    def _full_ended(self) -> None:
+        """It ended while it had nothing to do: pages that join, and who picks a limb, need the tree that it knew."""
+        if self._made == self._revision and self._basis is not None and self._revive(self._revision, Ended("A process that makes the tree ended.", remedy="")):
+            self._run(self._whole(self._revision, self._document.replace(settled=self._basis.settled)))
 
     async def _hurry(self, revision: int, document: Document) -> Document:
         """What was touched, first; returns the document with what that settled for now: the full tree begins there."""
@@ -266,21 +194,28 @@ class Crew:
 
     async def project(self, document: Document) -> bytes:
         """As `Engine.project`."""
-        return await self._hands["side"].ask("project", document)[1]
+        return await self._surely("project", document)
 
     async def texture(self, key: str, kind: str) -> bytes | None:
         """As `Engine.texture`."""
-        return await self._hands["side"].ask("texture", key, kind)[1]
+        return await self._surely("texture", key, kind)
 
     async def picture(self, what: str, name: str) -> bytes | None:
         """As `Engine.picture`."""
-        return await self._hands["side"].ask("picture", what, name)[1]
+        return await self._surely("picture", what, name)
 
     async def catalogue(self) -> messages.Welcome:
         """As `Engine.catalogue`."""
         if self._catalogue is None:
-            self._catalogue = await self._hands["side"].ask("catalogue")[1]
+            self._catalogue = await self._surely("catalogue")
         return self._catalogue
+
+    async def _surely(self, kind: str, *arguments: object):
+        """Asked aside; once more, should the process end meanwhile."""
+        try:
+            return await self._hands["side"].ask(kind, *arguments)[1]
+        except Ended:
+            return await self._hands["side"].ask(kind, *arguments)[1]
 
     def _nothing(self, revision: int) -> None:
         """There is no stroke: no tree."""

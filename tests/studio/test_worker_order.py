@@ -1,8 +1,12 @@
 """What a worker does first."""
 
 import asyncio
+import multiprocessing
+import subprocess
+import sys
 
-from sketchtree.studio.crew import Hand
+from sketchtree.studio.hand import Hand
+from sketchtree.studio.making.worker import Desk
 
 
 def test_what_the_tree_wears_goes_before_pictures_of_what_it_might_wear():
@@ -20,3 +24,15 @@ def test_what_the_tree_wears_goes_before_pictures_of_what_it_might_wear():
 
     order = asyncio.run(answered_in_order())
     assert len(order) == 5 and order.index("texture") <= 1  # one picture may have been begun
+
+
+def test_what_the_server_keeps_between_two_jobs_imports_nothing_of_what_makes_trees():
+    said = "import sys, sketchtree.studio.making.basis, sketchtree.studio.crew; print('jax' in sys.modules)"
+    assert subprocess.run([sys.executable, "-c", said], capture_output=True, text=True, check=True).stdout == "False\n"
+
+
+def test_the_thread_that_listens_unpickles_no_argument():
+    ours, theirs = multiprocessing.Pipe()
+    desk = Desk(theirs)
+    ours.send((1, "full", b"no pickle"))
+    assert desk.jobs.get(timeout=60) == (False, 1, "full", b"no pickle")

@@ -11,8 +11,9 @@ from sketchtree.limb_ids import stroke_limb_id
 from sketchtree.similarity import Similarity
 from sketchtree.skeleton import Kind
 from sketchtree.studio import messages
+from sketchtree.studio.making.basis import Basis
 from sketchtree.studio.making.frames import Arrays
-from sketchtree.studio.making.work import Basis, Bench
+from sketchtree.studio.making.work import Bench
 from sketchtree.studio.wire import stroke_in
 
 _MOST = 60  # limbs that a ghost shows

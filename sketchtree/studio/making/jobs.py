@@ -40,6 +40,10 @@ class Jobs:
 
         return Bench(self.templates)
 
+    def import_all(self) -> None:
+        """What trees are made with."""
+        from sketchtree.studio.making import chunks, ghosts, remarks, warm, work  # noqa: F401
+
     def warm_up(self, quick: bool) -> None:
         """Compile what every drawing needs, before it is asked for."""
         from sketchtree.studio.making.warm import warm_up
@@ -161,7 +165,7 @@ class Jobs:
 
 
 def _basis(drawn, tree, chunks, digests: dict[str, str]):
-    from sketchtree.studio.making.work import Basis
+    from sketchtree.studio.making.basis import Basis
 
     points = tree.skeleton.tip
     return Basis(

@@ -22,6 +22,7 @@ from sketchtree.pipeline import LeafyTree, foliage, grow, read_obstacles, weathe
 from sketchtree.propagate.after.cutting import bears
 from sketchtree.similarity import Similarity
 from sketchtree.studio import messages
+from sketchtree.studio.making.basis import Basis
 from sketchtree.studio.making.chunks import DETAIL, Chunks, chunks_of, owners
 from sketchtree.studio.making.frames import Arrays
 from sketchtree.studio.making.limb_table import limb_table
@@ -35,22 +36,6 @@ _GROWING = ("generations", "fill", "max_segments", "density", "light", "obstacle
 _MOST = 16  # limbs that are hurried; more of them come with the full tree, which takes hardly longer
 _COARSE = DETAIL.coarser(2.0)
 _SAME = 0.003  # of the height: a limb that moved less stays as it is shown until the full tree comes
-
-
-@dataclass(frozen=True)
-class Basis:
-    """What the pages have of the tree, for a hurried answer to fit in with."""
-
-    scale: float
-    translate: tuple[float, float, float]
-    owners: tuple[str, ...]
-    settled: Settled
-    height: float  # metres
-    low: tuple[float, float, float]
-    high: tuple[float, float, float]
-    segments: int
-    leaves: int
-    triangles: tuple[int, int]
 
 
 @dataclass(eq=False)

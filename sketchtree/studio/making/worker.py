@@ -1,12 +1,14 @@
 """One process that makes trees: jobs come in, outcomes go out.
 
-A job is (number, kind, arguments), an outcome (number, what, value): "event" (an event or a frame, with what is settled), "done" (the answer), "trouble" (a SketchTreeError),
+A job is (number, kind, pickled arguments), an outcome (number, what, value): "event" (an event or a frame, with what is settled), "done" (the answer), "trouble" (a SketchTreeError),
 "stopped", "fault" (a fault of ours, as text). Of kinds in `NEWEST` only the newest job matters: an older one that waits is dropped, one that runs ends at its next step.
 `LAST` wait for all others: what the tree wears goes before pictures of what it might wear.
-The pipe is private to the two processes.
+The pipe is private to the two processes. Arguments are unpickled, which imports what they are made of, where the jobs are done: imports on two threads at once
+may see a module that is half there.
 """
 
 import os
+import pickle
 import queue
 import signal
 import threading
@@ -61,6 +63,7 @@ def main(pipe: Connection, database: str | None, role: str) -> None:
 
     jobs = Jobs(None if database is None else Path(database), desk)
     if role != "side":
+        jobs.import_all()  # before there is another thread
         threading.Thread(target=jobs.warm_up, args=(role == "quick",), daemon=True).start()
     while True:
         _, number, kind, arguments = desk.jobs.get()
@@ -70,11 +73,11 @@ def main(pipe: Connection, database: str | None, role: str) -> None:
         _do(jobs, desk, number, kind, arguments)
 
 
-def _do(jobs, desk: Desk, number: int, kind: str, arguments: tuple) -> None:
+def _do(jobs, desk: Desk, number: int, kind: str, arguments: bytes) -> None:
     from sketchtree.studio.making.watching import Stopped
 
     try:
-        desk.say(number, "done", jobs.do(number, kind, arguments))
+        desk.say(number, "done", jobs.do(number, kind, pickle.loads(arguments)))
     except Stopped:
         desk.say(number, "stopped")
     except SketchTreeError as error:

@@ -1,0 +1,121 @@
+"""How does the event loop speak with one process that makes trees? It asks, and has an answer to come; a process that ends is begun again when it is asked next."""
+
+import asyncio
+import multiprocessing
+import pickle
+import sys
+import threading
+from collections.abc import Callable
+from pathlib import Path
+
+from sketchtree.errors import SketchTreeError
+
+
+class Fault(SketchTreeError):
+    """A fault of ours."""
+
+
+class Ended(Fault):
+    """A process ended before it had answered."""
+
+
+class Hand:
+    """One process, as the event loop sees it."""
+
+    def __init__(self, role: str, database: Path | None, tell: Callable[[int, object], None], ended: Callable[[], None] = lambda: None):
+        self.role, self._database, self._tell, self._on_end = role, database, tell, ended
+        self._loop = asyncio.get_running_loop()
+        self._waiting: dict[int, asyncio.Future] = {}
+        self._number, self._pipe, self._process = 0, None, None
+
+    def begin(self) -> None:
+        """Start the process."""
+        self._lose()
+        context = multiprocessing.get_context("spawn")
+        self._pipe, theirs = context.Pipe()
+        from sketchtree.studio.making.worker import main
+
+        self._process = context.Process(target=main, args=(theirs, None if self._database is None else str(self._database), self.role), daemon=True)
+        self._process.start()
+        theirs.close()
+        threading.Thread(target=self._listen, args=(self._pipe,), daemon=True).start()
+
+    @property
+    def runs(self) -> bool:
+        """Whether the process is there."""
+        return self._process is not None and self._process.is_alive()
+
+    def ready(self) -> None:
+        """Start the process, unless it runs."""
+        if not self.runs:
+            self.begin()
+
+    def ask(self, kind: str, *arguments: object) -> tuple[int, asyncio.Future]:
+        """(the job's number, its answer to be). None is answered to a job that was stopped."""
+        self.ready()
+        self._number += 1
+        answer = self._loop.create_future()
+        self._waiting[self._number] = answer
+        self._send(kind, arguments)
+        return self._number, answer
+
+    def stop(self) -> None:
+        """Let what runs end, and drop what waits, of kinds of which the newest wins."""
+        if self.runs:
+            self._send("stop", ())
+
+    def _send(self, kind: str, arguments: tuple) -> None:
+        try:
+            self._pipe.send((self._number, kind, pickle.dumps(arguments)))
+        except OSError:  # it ended a moment ago
+            self._ended(self._pipe)
+
+    def end(self) -> None:
+        """End the process."""
+        process, self._process = self._process, None
+        if process is not None:
+            process.kill()
+            process.join(2)
+
+    def _listen(self, pipe) -> None:
+        try:
+            while True:
+                number, what, value = pipe.recv()
+                self._loop.call_soon_threadsafe(self._came, number, what, value)
+        except (EOFError, OSError, RuntimeError):
+            try:
+                self._loop.call_soon_threadsafe(self._ended, pipe)
+            except RuntimeError:
+                pass  # the loop is closed: the studio ends
+
+    def _came(self, number: int, what: str, value: object) -> None:
+        if what == "event":
+            self._tell(number, value)
+            return
+        answer = self._waiting.pop(number, None)
+        if answer is None or answer.done():
+            return
+        if what == "trouble":
+            message, remedy, stroke = value
+            error = SketchTreeError(message, remedy=remedy)
+            error.stroke = stroke
+            answer.set_exception(error)
+        elif what == "fault":
+            print(value, file=sys.stderr)
+            answer.set_exception(Fault("Something went wrong in the program.", remedy="Undo the last step; the terminal that runs the studio has the details."))
+        else:
+            answer.set_result(value if what == "done" else None)
+
+    def _ended(self, pipe) -> None:
+        """The process at the other end is gone; another may have been begun since."""
+        if pipe is self._pipe and self._process is not None:
+            self._process = None
+            self._lose()
+            self._on_end()
+
+    def _lose(self) -> None:
+        """What was asked of a process that is gone can be asked again."""
+        waiting, self._waiting = self._waiting, {}
+        for answer in waiting.values():
+            if not answer.done():
+                answer.set_exception(Ended("A process that makes the tree ended.", remedy="It is begun again with the next step."))
