@@ -55,6 +55,11 @@ export class PageCamera {
     this.fitted = box;
   }
 
+  /** Everything is shown, and no hand has moved the page since. */
+  get showsAll(): boolean {
+    return this.fitted !== null;
+  }
+
   /** Something stands over the canvas's top, or foot. Where all was shown, and more of it is hidden now, it is shown again; what goes moves nothing. */
   cover(what: "head" | "foot", pixels: number): void {
     const more = pixels > this[what];

@@ -1,9 +1,11 @@
 // What does the page do by itself? It shows all of a drawing that was opened, keeps what one draws where it is, and lights the stroke that made trouble.
 
 import type { PageCamera } from "./camera";
-import type { Desk } from "./desk";
+import { type Desk, isSamePage } from "./desk";
 import type { Stroke } from "../messages";
+import type { Store } from "../store";
 import { around } from "./line/nearness";
+import { projected } from "./turned";
 
 export const PEN = 4; // CSS pixels: width of the pen on a drawing just opened
 const EMPTY = { left: 0.5, top: 0.86 }; // where on an empty page the tree's root is to be
@@ -15,7 +17,7 @@ export function followDrawing(desk: Desk): void {
 
   /** All of the drawing, and the ground below it. */
   const fit = (): boolean => {
-    const box = around(store.known.strokes.values());
+    const box = everything(store);
     if (!box || camera.width < 2) return false;
     camera.fit(box);
     return true;
@@ -33,6 +35,7 @@ export function followDrawing(desk: Desk): void {
     if (!opened || (alone && inSight(camera, store.known.strokes.values())) || !fit()) return;
     store.set("width", Number((PEN / camera.scale).toPrecision(2)));
   });
+  store.on("turn", () => { if (camera.showsAll) fit(); }); // from another side a tree is wider, or narrower
   let wrongAt = -1;
   store.on("trouble", () => {
     desk.trouble = store.known.trouble?.stroke ?? null;
@@ -59,9 +62,17 @@ function inSight(camera: PageCamera, strokes: Iterable<Stroke>): boolean {
 
 /** All of the drawing on screen, or the empty page as it was at first. */
 export function showAll({ camera, store }: Pick<Desk, "camera" | "store">): void {
-  const box = around(store.known.strokes.values());
+  const box = everything(store);
   if (box) camera.fit(box);
   else showEmpty(camera);
+}
+
+/** Where on the page, as it is turned now, there is something: its own strokes, and limbs of other sides as they are seen from here. */
+function everything(store: Store): ReturnType<typeof around> {
+  const { tree, limbs, strokes } = store.known;
+  const seen = [...strokes.values()].filter((stroke) => isSamePage(stroke.view_deg, store.ui.turn)).map(({ xy }) => ({ xy }));
+  if (tree) for (const limb of limbs) if (!isSamePage(limb.view_deg, store.ui.turn)) seen.push({ xy: projected(limb, tree, store.ui.turn) });
+  return around(seen.length ? seen : strokes.values());
 }
 
 /** A page on which nothing is drawn yet: its units are CSS pixels, and the root's place is below the middle. */

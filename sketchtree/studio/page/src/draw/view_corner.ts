@@ -12,7 +12,8 @@ const SIDES: Record<string, string> = { 0: "Front", 90: "From the right", 180: "
 
 /** An azimuth in words. */
 export function sideName(turn: number): string {
-  return SIDES[String(Math.round(turn))] ?? `Turned ${Math.round(turn)}°`;
+  const degrees = Math.round(turn);
+  return SIDES[String(degrees)] ?? `${Math.abs(degrees)}° from the ${degrees > 0 ? "right" : "left"}`;
 }
 
 export function mountViewCorner(desk: Desk): HTMLElement {

@@ -11,6 +11,7 @@ import { emptyTree } from "./first/empty_tree";
 import { goneBanner } from "./first/gone";
 import { hintCard } from "./first/hint";
 import { hintButton } from "./first/hint_button";
+import { turnedNote } from "./first/turned_note";
 import { welcomeBack } from "./first/welcome_back";
 import { mountSide } from "./side/mount";
 import { mountStatus } from "./status/mount";
@@ -44,7 +45,7 @@ export function mountPanels(roots: PanelRoots, store: Store, views: Views): void
   const hint = hintCard(store, () => newPage(store));
   const words = document.createElement("div");
   words.className = "page-words";
-  words.append(goneBanner(store), troubleCard(store), hint.root);
+  words.append(goneBanner(store), troubleCard(store), hint.root, turnedNote(store));
   const covered = (): void => camera.cover("head", store.ui.layout === "beside" && words.offsetHeight ? words.offsetTop + words.offsetHeight : 0); // else there is room beside them
   new ResizeObserver(covered).observe(words);
   store.on("layout", covered);

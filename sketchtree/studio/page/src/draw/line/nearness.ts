@@ -61,9 +61,9 @@ export function isCaught(stroke: Stroke, lasso: readonly number[]): boolean {
   return inside > stroke.xy.length / 4;
 }
 
-const boxes = new WeakMap<Stroke, Box>();
+const boxes = new WeakMap<Pick<Stroke, "xy">, Box>();
 
-export function boxOf(stroke: Stroke): Box {
+export function boxOf(stroke: Pick<Stroke, "xy">): Box {
   let box = boxes.get(stroke);
   if (!box) {
     let [left, top, right, bottom] = [Infinity, Infinity, -Infinity, -Infinity];
@@ -79,7 +79,7 @@ export function boxOf(stroke: Stroke): Box {
   return box;
 }
 
-export function around(strokes: Iterable<Stroke>): Box | null {
+export function around(strokes: Iterable<Pick<Stroke, "xy">>): Box | null {
   let [left, top, right, bottom] = [Infinity, Infinity, -Infinity, -Infinity];
   for (const stroke of strokes) {
     const box = boxOf(stroke);

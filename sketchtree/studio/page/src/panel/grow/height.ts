@@ -20,7 +20,7 @@ export function height(store: Store): HTMLElement {
   label.htmlFor = id;
   const follow = (): void => {
     const { options, tree } = store.known;
-    if (tree?.phase !== "quick") field.placeholder = tree ? `${plain(tree.height, 1)} (auto)` : "auto";
+    if (tree?.phase !== "quick") field.placeholder = tree && tree.height > 0 ? `${plain(tree.height, 1)} (auto)` : "auto";
     if (options && document.activeElement !== field) field.value = options.height === null ? "" : plain(options.height, 2);
   };
   field.addEventListener("change", () => {

@@ -16,7 +16,7 @@ export function mountStrip(root: HTMLElement, store: Store): void {
   const find = search("Find a template", (typed) => strip.find(typed));
   root.append(element("div", { class: "strip-head" }, element("h2", {}, "Template"), strip.words, find), strip.list);
   onList(store, (welcome) => welcome.templates, () => strip.fill());
-  store.on(["matches", "options", "tree"], () => strip.show());
+  store.on(["matches", "options", "tree", "strokes"], () => strip.show());
 }
 
 class Strip {
@@ -65,7 +65,7 @@ class Strip {
   show(): void {
     const { welcome, options, matches } = this.store.known;
     if (!welcome || this.cards.size === 0) return;
-    const used = matches?.used ?? null;
+    const used = this.store.known.strokes.size ? (matches?.used ?? null) : null; // an empty page wears none
     const chosen = options?.template ?? "auto";
     const bars = new Map(rank(welcome.templates, matches?.ranked ?? []).map((one) => [one.choice.name, one.bar]));
     for (const [name, one] of this.cards) {

@@ -36,7 +36,7 @@ export function turnDial(view: View, store: Store): void {
     const now = Math.round(shortest(store.ui.turn));
     hand.style.transform = `rotate(${-now}deg)`;
     dial.setAttribute("aria-valuenow", String(now));
-    value.textContent = now === 0 ? "Page: front" : `Page: ${now}°`;
+    value.textContent = now === 0 ? "Page: front" : `Page: ${Math.abs(now)}° ${now === 180 ? "" : now > 0 ? "right" : "left"}`;
   };
   store.on("turn", follow);
   follow();
