@@ -98,7 +98,7 @@ def _with_stroke(drawing: Drawing, number: int, stroke: Stroke, hanging: Hanging
     limb, parent = stroke_limb_id(stroke.id), int(drawing.tree.limb[foot])
     before = hanging.settled.limbs.get(limb)
     course = _course(points, along)
-    fresh = before is None or before.rough or before.parent != parent or bool(np.abs((course - course[0]) - (before.course - before.course[0])).max() > SAME_COURSE * height)
+    fresh = before is None or before.rough or before.parent != parent or _runs_elsewhere(course, before.course, SAME_COURSE * height)
     if fresh:
         drawing_with = _joined(drawing, foot, points, marks, np.full(len(points), start[2]), limb, number, hanging, view)
         begin = None if before is None else depth_at(before, share) - before.depth[0]
@@ -122,6 +122,11 @@ def _from_foot(points, foot, height: float):
 def _course(points, along):
     even = np.linspace(0.0, along[-1], COURSE)
     return np.stack([np.interp(even, along, points[:, axis]) for axis in (0, 1)], axis=1)
+
+
+def _runs_elsewhere(course, before, near: float) -> bool:
+    """Whether a course is another, wherever it starts: it moves with what it grows on."""
+    return bool(np.abs((course - course[0]) - (before - before[0])).max() > near)
 
 
 def _joined(drawing: Drawing, foot: int, points, marks, depth, limb: int, number: int, hanging: Hanging, view: float) -> Drawing:

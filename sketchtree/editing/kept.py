@@ -2,7 +2,8 @@
 
     edits     [{"op": "hold", "limb": "…", "share": […], "depth": […], "whole": false}, {"op": "clear", "limb", "path": [[x, y, z], …], "radius"},
                {"op": "adopt", "limb", "parent", "share", "path", "radius", "was"}, …]       limb ids are decimal text; sketch units, y up
-    settled   {"template", "asked", "manner": {"theta", "blocks", "limbs", "scale"}, "axis", "limbs": {id: {"share", "depth", "sd", "course", "parent", "strokes", "view_deg"}}}
+    settled   {"template", "asked", "manner": {"theta", "blocks", "limbs", "scale"}, "axis",
+               "limbs": {id: {"share", "depth", "sd", "course", "parent", "strokes", "view_deg"}}}
 
 Numbers are written so that they read back to the last bit; an sd that is not known is null.
 """
@@ -28,7 +29,10 @@ def edits_as_json(edits: Edits) -> list[dict]:
     held = [{"op": "hold", "limb": str(one.limb), "share": _list(one.share), "depth": _list(one.depth), "whole": one.whole} for one in edits.held.values()]
     cleared = [{"op": "clear", "limb": str(one.limb), "path": _list(one.path), "radius": float(one.radius)} for one in edits.cleared.values()]
     adopted = [
-        {"op": "adopt", "limb": str(one.limb), "parent": str(one.parent), "share": float(one.share), "path": _list(one.path), "radius": float(one.radius), "was": str(one.was)}
+        {
+            "op": "adopt", "limb": str(one.limb), "parent": str(one.parent), "share": float(one.share), "path": _list(one.path),
+            "radius": float(one.radius), "was": str(one.was),
+        }  # fmt: skip
         for one in edits.adopted.values()
     ]
     return [*held, *cleared, *adopted]

@@ -49,8 +49,9 @@ class LimbLines:
     @classmethod
     def of(cls, graph: SketchGraph) -> "LimbLines":
         """Those of a graph; limbs without a segment are left out."""
-        count = np.diff(graph.curve_start)
-        _, page_length = along_curves(graph, np.repeat(np.arange(len(graph)), count)) if len(graph.curve_points) else (None, np.linalg.norm(graph.xy - graph.start, axis=1))
+        page_length = np.linalg.norm(graph.xy - graph.start, axis=1)
+        if len(graph.curve_points):
+            _, page_length = along_curves(graph, np.repeat(np.arange(len(graph)), np.diff(graph.curve_start)))
         lines = []
         for rows in limb_chains(graph.parent, graph.limb):
             rows = rows[~graph.is_base[rows]]

@@ -11,6 +11,7 @@ from sketchtree.editing import kept
 from sketchtree.editing.edits import Edits
 from sketchtree.editing.settled import Settled
 from sketchtree.errors import SketchError
+from sketchtree.sketch.files.project import column
 
 _SIGNATURE = b"\x89HDF\r\n\x1a\n"
 
@@ -29,8 +30,8 @@ def hand_work(path: str | Path) -> tuple[Edits, Settled] | None:
         with h5py.File(path, "r") as file:
             if "edits" not in file:
                 return None
-            edits = json.loads(file["edits"][()].tobytes())
-            settled = json.loads(file["settled"][()].tobytes()) if "settled" in file else {}
+            edits = json.loads(column(file, "edits").tobytes())
+            settled = json.loads(column(file, "settled").tobytes()) if "settled" in file else {}
         return kept.reading(kept.edits_from_json, edits), kept.reading(kept.settled_from_json, settled)
     except (OSError, RuntimeError, ValueError, RecursionError, AttributeError, KeyError, TypeError) as error:
         raise SketchError(

@@ -10,12 +10,13 @@ import numpy as np
 
 from sketchtree.drawing import read_hand_work
 from sketchtree.editing.document import Document, Underlay
-from sketchtree.errors import SketchTreeError
+from sketchtree.errors import SketchError, SketchTreeError
 from sketchtree.options import ReadingOptions, TreeOptions
 from sketchtree.propagate.after.shears import HOLE, plane
+from sketchtree.skeleton_hdf5 import SCHEMA
+from sketchtree.sketch.files.project import SIGNATURE, column
 from sketchtree.sketch.formats import read_sketch
 
-_SIGNATURE = b"\x89HDF\r\n\x1a\n"
 _NOT_KEPT = ("max_strokes", "max_mb", "max_megapixels", "samples", "alternatives")  # limits of a reading, and questions that were answered then
 
 
@@ -29,23 +30,30 @@ def document_of(data: bytes, name: str) -> Document:
             by_hand = read_hand_work(path)
         except SketchTreeError as error:
             raise type(error)(error.message.replace(f"{folder}/", ""), remedy=error.remedy) from error
-    document = Document(
-        {stroke.id: stroke for stroke in sketch.strokes}, by_hand.edits, by_hand.settled, name=Path(name).stem, units=sketch.units, page=sketch.page, warnings=sketch.warnings
-    )
-    return _with_choices(document, data) if data.startswith(_SIGNATURE) else document
+    strokes = {stroke.id: stroke for stroke in sketch.strokes}
+    document = Document(strokes, by_hand.edits, by_hand.settled, name=Path(name).stem, units=sketch.units, page=sketch.page, warnings=sketch.warnings)
+    if not data.startswith(SIGNATURE):
+        return document
+    try:
+        return _with_choices(document, data, name)
+    except (OSError, RuntimeError, ValueError, TypeError, KeyError, AttributeError, RecursionError) as error:
+        raise SketchError(f"{name} is damaged ({error}).", remedy="Open an older copy of it.") from error
 
 
-def _with_choices(document: Document, data: bytes) -> Document:
+def _with_choices(document: Document, data: bytes, name: str) -> Document:
     """The document with a project's options, seed and picture. What this version does not know is as by default; meshes that are not there any more are said."""
     import h5py
 
     with h5py.File(io.BytesIO(data), "r") as file:
-        said = json.loads(file["options"][()].tobytes()) if "options" in file else {}
+        schema = int(file.attrs.get("schema", SCHEMA))
+        if schema > SCHEMA:
+            raise SketchError(f"{name} has project schema {schema}; this version reads {SCHEMA}.", remedy="Update sketchtree.")
+        said = json.loads(column(file, "options").tobytes()) if "options" in file else {}
         seed = int(file.attrs.get("seed", 0))
         underlay = None
         if "underlay" in file:
             at = file["underlay"].attrs
-            underlay = Underlay(file["underlay"][()].astype(np.uint8).tobytes(), *(float(at[name]) for name in ("x", "y", "width", "height", "opacity")))
+            underlay = Underlay(column(file, "underlay").astype(np.uint8).tobytes(), *(float(at[one]) for one in ("x", "y", "width", "height", "opacity")))
     said, gone = _without_meshes(said)
     told = tuple(f"{name} is not there any more; the tree is made without it." for name in gone)
     return document.replace(
