@@ -109,17 +109,23 @@ class Journal:
         return None if player.history is None or not player.steps else Recovered(player.history, 0 if player.saved else None, player.signature, player.pictures)
 
     def write(self, *what: lines.Line) -> None:
-        """Lines, on the disk when this returns. Raises OSError."""
+        """Lines, on the disk when this returns. Raises OSError: then none of them is in the file."""
         if self._file is None:
-            self._file = open(self.path, "ab", opener=lambda path, flags: os.open(path, flags, 0o600))  # noqa: SIM115
-        for line in what:
-            if isinstance(line, lines.Picture):
-                if line.digest in self._pictures:
-                    continue
-                self._pictures.add(line.digest)
-            self._file.write(lines.encode(line))
-        self._file.flush()
-        os.fsync(self._file.fileno())
+            self._file = open(self.path, "ab", buffering=0, opener=lambda path, flags: os.open(path, flags, 0o600))  # noqa: SIM115
+        known = frozenset(self._pictures)
+        before = self._file.seek(0, os.SEEK_END)
+        try:
+            for line in what:
+                if isinstance(line, lines.Picture):
+                    if line.digest in self._pictures:
+                        continue
+                    self._pictures.add(line.digest)
+                _write_all(self._file, lines.encode(line))
+            os.fsync(self._file.fileno())
+        except OSError:
+            self._pictures.intersection_update(known)
+            self._file.truncate(before)  # no line that is torn stands before others
+            raise
 
     def clear(self) -> None:
         """All of it is safe elsewhere."""
@@ -147,6 +153,12 @@ class Journal:
         shutil.copyfile(self.path, kept)
         which = "A journal of an earlier session" if whole else "The last part of a journal of an earlier session"
         self.notes.append(f"{which} can't be read; it is kept as {kept}.")
+
+
+def _write_all(file, data: bytes) -> None:
+    rest = memoryview(data)
+    while rest:
+        rest = rest[file.write(rest) :]
 
 
 class _Player:

@@ -1,4 +1,7 @@
-"""How is a step in the journal before it is answered, and nobody waits? Lines that come while others are being written go to the disk with one flush."""
+"""How is a step in the journal before it is answered, and nobody waits? Lines that come while others are being written go to the disk with one flush.
+
+Lines that could not be written, as on a full disk, are kept, and go before the next ones: a journal without them would not make sense.
+"""
 
 import asyncio
 from collections.abc import Callable
@@ -19,7 +22,7 @@ class Scribe:
         self._task: asyncio.Task | None = None
         self._room = asyncio.Event()
         self._room.set()
-        self._failed = False
+        self._owed: list[Line] = []  # could not be written yet
 
     @property
     def journal(self) -> Journal | None:
@@ -42,25 +45,28 @@ class Scribe:
         await self._room.wait()
 
     async def rest(self) -> None:
-        """Wait until all is written."""
+        """Wait until all is written; what could not be is tried once more."""
+        if self._owed and (self._task is None or self._task.done()):
+            self.write((), lambda: None)
         while self._task is not None and not self._task.done():
             await asyncio.shield(self._task)
 
     async def turn_to(self, journal: Journal | None) -> None:
         """Write elsewhere from now on."""
         await self.rest()
-        self._journal = journal
+        self._journal, self._owed = journal, []
 
     async def _work(self) -> None:
         while self._waiting:
             batch, self._waiting = self._waiting, []
             self._room.set()
+            lines = [*self._owed, *(line for lines, _ in batch for line in lines)]
             try:
-                await asyncio.to_thread(self._journal.write, *(line for lines, _ in batch for line in lines))
-                self._failed = False
+                await asyncio.to_thread(self._journal.write, *lines)
+                self._owed = []
             except OSError as error:
-                if not self._failed:
+                if not self._owed:
                     self._on_failure(error)
-                self._failed = True
+                self._owed = lines
             for _, then in batch:
                 then()

@@ -12,6 +12,7 @@ Nothing here knows of HTTP. All is called on one event loop; `session.document` 
 
 import asyncio
 import time
+import traceback
 from collections.abc import Awaitable, Callable
 from pathlib import Path
 
@@ -25,6 +26,7 @@ from sketchtree.studio.folder import Folder
 from sketchtree.studio.outbox import Outbox
 from sketchtree.studio.recovery import Journal, Recovered
 
+_FAULT = "Something went wrong in the program; nothing of the drawing is different."
 Send = Callable[[bytes | str], Awaitable[None] | None]
 
 
@@ -62,6 +64,9 @@ class Session:
             await do(self.desk, page, request)
         except SketchTreeError as error:
             page.outbox.put(trouble_of(error))
+        except Exception as error:  # noqa: BLE001 - whatever it is, the page must not lose its line, and say the same again when it has another
+            traceback.print_exception(error)
+            page.outbox.put(messages.Trouble(message=_FAULT, remedy="The terminal that runs the studio has the details.", about="program"))
         await self.desk.scribe.room()
         await asyncio.sleep(0)  # what there is to send goes first
 

@@ -225,6 +225,48 @@ def test_a_full_disk_is_told_once_and_drawing_goes_on(monkeypatch):
     asyncio.run(test())
 
 
+def test_steps_of_the_time_when_the_disk_was_full_are_kept_once_there_is_room(monkeypatch):
+    """As on a real disk: of the line that finds it full a part is written."""
+    write, room = recovery._write_all, []
+
+    def filling(file, data):
+        if room:
+            return write(file, data)
+        write(file, data[: len(data) // 2])
+        raise OSError(28, "No space left on device")
+
+    async def test():
+        journal = journal_of(None)
+        async with talking(journal=journal) as talk:
+            room.append(True)
+            await talk.say(drawn("a"))
+            room.clear()
+            monkeypatch.setattr(recovery, "_write_all", filling)
+            await talk.say(drawn("b"), drawn("c"))
+            assert journal.path.read_bytes().endswith(b"}\n") and b'"b"' not in journal.path.read_bytes()
+            room.append(True)
+            await talk.say(drawn("d"))
+        return journal_of(None).play()
+
+    assert list(asyncio.run(test()).history.document.strokes) == ["a", "b", "c", "d"]
+
+
+def test_what_the_full_disk_did_not_take_is_tried_again_at_the_end(monkeypatch):
+    fsync = recovery.os.fsync
+
+    def full(_):
+        raise OSError(28, "No space left on device")
+
+    async def test():
+        async with talking(journal=journal_of(None)) as talk:
+            monkeypatch.setattr(recovery.os, "fsync", full)
+            await talk.say(drawn("a"))
+            monkeypatch.setattr(recovery.os, "fsync", fsync)
+        return journal_of(None).play()
+
+    assert list(asyncio.run(test()).history.document.strokes) == ["a"]
+
+
 def test_a_shelf_that_cannot_be_made_is_told(tmp_path, monkeypatch):
     (tmp_path / "file").write_text("")
     monkeypatch.setenv("SKETCHTREE_RECOVERY", str(tmp_path / "file" / "shelf"))

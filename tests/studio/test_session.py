@@ -7,6 +7,7 @@ import pytest
 from fake_engine import FakeEngine, frame, settled
 from talking import Talk, drawn, stroke, talking
 
+from sketchtree.editing import operations
 from sketchtree.editing.document import Document
 from sketchtree.sketch.strokes import Stroke
 from sketchtree.studio import messages
@@ -327,3 +328,22 @@ def test_a_zero_is_no_negative_zero_on_the_way():
     from sketchtree.studio.wire import flipped
 
     assert not np.signbit(flipped(np.zeros((1, 2)))).any()
+
+
+def test_a_fault_of_the_program_is_told_and_the_page_keeps_its_line(monkeypatch, capsys):
+    async def test():
+        async with talking() as talk:
+
+            def faulty(*_, **__):
+                raise ZeroDivisionError("a fault")
+
+            monkeypatch.setattr(operations, "mirror", faulty)
+            await talk.say(messages.Mirror(), drawn("a"))
+            trouble = talk.last("trouble")
+            assert (trouble["message"], trouble["remedy"], trouble["about"]) == (
+                "Something went wrong in the program; nothing of the drawing is different.", "The terminal that runs the studio has the details.", "program",
+            )  # fmt: skip
+            assert talk.strokes() == ["a"]
+
+    asyncio.run(test())
+    assert "ZeroDivisionError: a fault" in capsys.readouterr().err
