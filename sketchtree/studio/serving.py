@@ -19,6 +19,7 @@ from sketchtree.studio.desk import trouble_of
 from sketchtree.studio.engine import Engine
 from sketchtree.studio.folder import PROJECT, Folder
 from sketchtree.studio.messages import MAX_MESSAGE
+from sketchtree.studio.patience import Patient
 from sketchtree.studio.recovery import Journal, journal_of
 from sketchtree.studio.security import ADDRESS, Guard
 from sketchtree.studio.server import Studio
@@ -116,7 +117,7 @@ def _tells(record: logging.LogRecord) -> bool:
 async def _run(app: ASGIApp, listening: socket.socket, told: Callable[[], None], stop: asyncio.Event) -> None:
     """Answer requests until a signal comes, or `stop`."""
     config = uvicorn.Config(
-        app, loop="asyncio", lifespan="off", log_config=None, access_log=False, server_header=False, date_header=False, proxy_headers=False,
+        app, http=Patient, loop="asyncio", lifespan="off", log_config=None, access_log=False, server_header=False, date_header=False, proxy_headers=False,
         ws="websockets-sansio", ws_max_size=MAX_MESSAGE, ws_per_message_deflate=False, ws_ping_interval=None, timeout_graceful_shutdown=_PATIENCE,
     )  # fmt: skip
     server = uvicorn.Server(config)

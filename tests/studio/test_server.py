@@ -5,6 +5,7 @@ import json
 import socket
 import time
 import zipfile
+from contextlib import ExitStack
 
 import pytest
 from running import running
@@ -12,7 +13,7 @@ from talking import drawn, stroke
 from websockets.exceptions import ConnectionClosed, InvalidStatus
 
 from sketchtree.errors import OptionError
-from sketchtree.studio import messages
+from sketchtree.studio import messages, patience
 from sketchtree.studio.outbox import encode
 from sketchtree.studio.recovery import journal_of
 from sketchtree.studio.server import Studio
@@ -118,6 +119,48 @@ def test_every_answer_forbids_what_is_not_ours(studio, path, cookie):
     )
     assert headers["x-content-type-options"] == "nosniff" and headers["cache-control"] == "no-store" and headers["referrer-policy"] == "no-referrer"
     assert headers["cross-origin-opener-policy"] == headers["cross-origin-resource-policy"] == "same-origin" and "server" not in headers
+
+
+def test_who_opens_connections_and_says_nothing_or_half_a_request_is_not_waited_for(monkeypatch, tmp_path, shelf):
+    monkeypatch.setattr(patience, "SECONDS", 0.2)
+    with running(tmp_path) as server, ExitStack() as open_ones, server.page() as page:
+        idle = [open_ones.enter_context(socket.create_connection(("127.0.0.1", server.port), timeout=10)) for _ in range(50)]
+        for one in idle[::2]:
+            one.sendall(b"GET / HTTP/1.1\r\nHost: 127.0.0.1\r\nX: ")
+        assert all(_is_closed(one) for one in idle)
+        server.hello(page)
+        assert told(page, "welcome")  # a page is no such
+
+
+def _is_closed(one: socket.socket) -> bool:
+    try:
+        return one.recv(1) == b""
+    except ConnectionResetError:
+        return True
+
+
+@pytest.mark.parametrize(
+    "said",
+    [b"\x16\x03\x01\x02\x00\x01\x00", b"GET\r\n\r\n", b"GET / HTTP/9.9\r\n\r\n", b"X" * 200_000, b"GET /" + b"a" * 100_000 + b" HTTP/1.1\r\n",
+     b"GET / HTTP/1.1\r\nHost: x\r\nContent-Length: " + b"9" * 5000 + b"\r\n\r\n", b"GET / HTTP/1.1\r\n" + b"A: b\r\n" * 50_000,
+     b"POST / HTTP/1.1\r\nHost: x\r\nContent-Length: 3\r\nTransfer-Encoding: chunked\r\n\r\nabc", b"GET /ws HTTP/1.1\r\nHost: x\r\nUpgrade: h2c\r\nConnection: upgrade\r\n\r\n",
+     b"GET /ws HTTP/1.1\r\nHost: x\r\nUpgrade: websocket\r\nConnection: upgrade\r\n\r\n", b"\x00" * 1000],
+)  # fmt: skip
+def test_what_is_no_request_gets_an_error_or_nothing(studio, said):
+    with socket.create_connection(("127.0.0.1", studio.port), timeout=30) as line:
+        try:
+            line.sendall(said)
+            answer = line.recv(100)
+        except (ConnectionResetError, BrokenPipeError):
+            answer = b""
+    assert not answer or answer.startswith((b"HTTP/1.1 4", b"HTTP/1.0 4"))
+    assert studio.get("/").status_code == 200
+
+
+def test_no_message_is_unpacked(studio):
+    """Compressed messages are not negotiated: a small one can't become a large one."""
+    with studio.page(compression="deflate") as page:
+        assert "sec-websocket-extensions" not in page.response.headers
 
 
 # What is there
