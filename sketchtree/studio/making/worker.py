@@ -64,13 +64,17 @@ def main(pipe: Connection, database: str | None, role: str) -> None:
     jobs = Jobs(None if database is None else Path(database), desk)
     if role != "side":
         jobs.import_all()  # before there is another thread
-        threading.Thread(target=jobs.warm_up, args=(role == "quick",), daemon=True).start()
+    warm = threading.Thread(target=jobs.warm_up, args=(role == "quick",), daemon=True)
+    if role == "quick":
+        warm.start()
     while True:
         _, number, kind, arguments = desk.jobs.get()
         if desk.stopped(number, kind):
             desk.say(number, "stopped")
             continue
         _do(jobs, desk, number, kind, arguments)
+        if role == "full" and warm.ident is None:
+            warm.start()  # after the first tree, which somebody waits for
 
 
 def _do(jobs, desk: Desk, number: int, kind: str, arguments: bytes) -> None:
