@@ -21,6 +21,8 @@ from sketchtree.errors import SketchTreeError
 NEWEST = ("full", "quick", "ghost", "glance", "alternatives")
 LAST = ("picture",)
 
+_NICE = {"quick": 0, "full": 4, "side": 8}  # what a pen waits for goes before what a tree waits for, and that before pictures
+
 
 class Desk:
     """The worker's side of the pipe."""
@@ -58,6 +60,8 @@ class Desk:
 def main(pipe: Connection, database: str | None, role: str) -> None:
     """Work until the pipe closes, as one of the crew: quick, full or side."""
     signal.signal(signal.SIGINT, signal.SIG_IGN)
+    if hasattr(os, "nice"):
+        os.nice(_NICE[role])
     desk = Desk(pipe)
     from sketchtree.studio.making.jobs import Jobs
 
