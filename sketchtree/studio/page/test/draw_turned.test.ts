@@ -31,7 +31,7 @@ describe("a turned page", () => {
   });
 
   test("has a name", () => {
-    expect([0, 90, 180, -90, 45, -30].map(sideName)).toEqual(["Front", "From the right", "From behind", "From the left", "45° from the right", "30° from the left"]);
+    expect([0, 90, 180, -90, 45, -30].map(sideName)).toEqual(["Front", "From the right", "From behind", "From the left", "45° right", "30° left"]);
   });
 });
 

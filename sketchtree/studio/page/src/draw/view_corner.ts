@@ -13,7 +13,7 @@ const SIDES: Record<string, string> = { 0: "Front", 90: "From the right", 180: "
 /** An azimuth in words. */
 export function sideName(turn: number): string {
   const degrees = Math.round(turn);
-  return SIDES[String(degrees)] ?? `${Math.abs(degrees)}° from the ${degrees > 0 ? "right" : "left"}`;
+  return SIDES[String(degrees)] ?? `${Math.abs(degrees)}° ${degrees > 0 ? "right" : "left"}`;
 }
 
 export function mountViewCorner(desk: Desk): HTMLElement {

@@ -109,16 +109,20 @@ interface Standing {
 function followFrames(view: View, store: Store, { scenery, chosen, weather, ground, figure, ghosts }: Standing): void {
   const plants = new Plants();
   let stood = false; // there was a tree before
+  let scale = 0; // its metres a page unit
   store.on("frame", () => {
     if (!store.frame) return;
-    scenery.show(plants.take(store.frame.head, store.frame.arrays), store.frame.head.phase === "quick");
+    const { head } = store.frame;
+    if (stood && scale && head.scale !== scale) view.rescale(head.scale / scale);
+    scale = head.scale;
+    scenery.show(plants.take(head, store.frame.arrays), head.phase === "quick");
     view.box = scenery.box;
     if (!scenery.box.isEmpty()) {
       weather.light(scenery.box);
       ground.under(scenery.box, trunkOf(store));
       figure.beside(scenery.box);
       figure.stands = true;
-      if (store.frame.head.phase !== "glance") view.follow(!stood);
+      if (head.phase !== "glance") view.follow(!stood);
     }
     stood = !scenery.box.isEmpty();
     ground.bare = !stood;
@@ -194,7 +198,7 @@ function followHand(view: View, store: Store, chosen: Chosen): void {
     return [event.clientX - box.left, event.clientY - box.top];
   };
   listen(view.root, {
-    turn: (right, down) => view.look(byHand(view.eye, right, down)),
+    turn: (right, down) => view.look(byHand(view.eye, right, down), true),
     move: (right, down) => view.look(panned(view.eye, right, down, view.stage.high)),
     near: (factor, x, y) => view.look(zoomed(view.eye, factor, x, y, view.stage.high)),
     flung: (right, down) => { view.flight.fling(view.eye, right, down, performance.now()); view.stage.draw(true); },

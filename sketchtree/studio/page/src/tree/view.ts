@@ -37,11 +37,18 @@ export class View {
     return this.box && !this.box.isEmpty() ? Math.max(this.box.max.y, this.box.max.x - this.box.min.x, 1) : 10;
   }
 
-  look(eye: Eye): void {
+  look(eye: Eye, seesAll = false): void {
     this.flight.stop();
-    this.seesAll = false;
+    this.seesAll &&= seesAll;
     this.eye = eye;
     this.stage.draw(true);
+  }
+
+  /** The same drawing is a tree of other metres now: it looks as large as before. */
+  rescale(by: number): void {
+    const { target } = this.eye;
+    this.flight.stop();
+    this.eye = { ...this.eye, distance: this.eye.distance * by, target: [target[0] * by, target[1] * by, target[2] * by] };
   }
 
   fly(to: Eye): void {

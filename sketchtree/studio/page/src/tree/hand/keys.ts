@@ -21,7 +21,7 @@ export function listenKeys(view: View, store: Store, toolbar: Toolbar, handles: 
     return true;
   };
   const nearer = (factor: number) => () => view.look(zoomed(view.eye, factor, 0, 0, view.stage.high));
-  const turn = (right: number, up: number) => () => view.look(turned(view.eye, right, up));
+  const turn = (right: number, up: number) => () => view.look(turned(view.eye, right, up), true);
   const side = (azimuth: number, elevation: number) => () => view.showAll(azimuth, elevation);
   const chosen = (act: () => void) => () => { if (store.ui.selected !== null) act(); };
   const whole = (): void => view.showAll();
