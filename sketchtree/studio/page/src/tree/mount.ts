@@ -22,6 +22,7 @@ import { Sky, type Lighting } from "./plant/surface";
 import { Textures } from "./plant/textures";
 import { mountBench } from "./show/bench";
 import { filmOf, pictureOf, type PictureWish, type Tidy } from "./show/capture";
+import { firstTouch } from "./show/first_touch";
 import { Labels } from "./show/labels";
 import { legend } from "./show/legend";
 import { noWebgl, watchContext } from "./show/trouble";
@@ -75,6 +76,7 @@ function fill(view: View, store: Store): TreeViews {
   viewBar(view, store, shown, () => { ink.visible = shown.ink; ground.grid(shown.grid); stage.draw(); });
   turnDial(view, store);
   legend(view.root, store);
+  firstTouch(view.root, store);
   listenKeys(view, store, toolbar, handles);
   followHand(view, store, chosen);
   sayChosen(view, store, chosen);
