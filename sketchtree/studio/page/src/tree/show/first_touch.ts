@@ -6,7 +6,7 @@ import type { Store } from "../../store";
 const KEY = "sketchtree-limb-taken";
 
 export function firstTouch(root: HTMLElement, store: Store): void {
-  const line = element("p", { class: "tree-legend tree-first", "data-testid": "limb-hint" }, "Click a branch to bend, flip, keep or delete it");
+  const line = element("p", { class: "tree-legend tree-first", "data-testid": "limb-hint" }, "Click a branch to edit it");
   line.hidden = true;
   root.append(line);
   let taken = remembered();
