@@ -33,6 +33,6 @@ def test_what_the_server_keeps_between_two_jobs_imports_nothing_of_what_makes_tr
 
 def test_the_thread_that_listens_unpickles_no_argument():
     ours, theirs = multiprocessing.Pipe()
-    desk = Desk(theirs)
+    desk = Desk(theirs, gone=lambda: None)  # the usual way would end the tests, as if all were well
     ours.send((1, "full", b"no pickle"))
     assert desk.jobs.get(timeout=60) == (False, 1, "full", b"no pickle")

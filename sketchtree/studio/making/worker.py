@@ -13,6 +13,7 @@ import queue
 import signal
 import threading
 import traceback
+from collections.abc import Callable
 from multiprocessing.connection import Connection
 from pathlib import Path
 
@@ -27,8 +28,9 @@ _NICE = {"quick": 0, "full": 4, "side": 8}  # what a pen waits for goes before w
 class Desk:
     """The worker's side of the pipe."""
 
-    def __init__(self, pipe: Connection):
-        self.pipe, self.jobs = pipe, queue.PriorityQueue()
+    def __init__(self, pipe: Connection, gone: Callable[[], None] = lambda: os._exit(0)):
+        """`gone`: what is done when the server is."""
+        self.pipe, self.jobs, self.gone = pipe, queue.PriorityQueue(), gone
         self.newest: dict[str, int] = {}
         self.ended = -1  # jobs up to this number are to stop
         threading.Thread(target=self._listen, daemon=True).start()
@@ -43,7 +45,7 @@ class Desk:
                 self.newest[kind] = number
                 self.jobs.put((kind in LAST, number, kind, arguments))
         except (EOFError, OSError):
-            os._exit(0)  # the server is gone
+            self.gone()
 
     def stopped(self, number: int, kind: str) -> bool:
         """Is the job not wanted any more?"""
@@ -54,7 +56,7 @@ class Desk:
         try:
             self.pipe.send((number, what, value))
         except (BrokenPipeError, OSError):
-            os._exit(0)
+            self.gone()
 
 
 def main(pipe: Connection, database: str | None, role: str) -> None:
