@@ -10,7 +10,7 @@ from sketchtree.templates.exemplar import Exemplar
 from sketchtree.templates.matching.match import Match, match
 
 
-_LOYAL = 3.0  # nats that another exemplar must be likelier than the one in use before it takes its place
+_LOYAL = 1.0  # nats that another exemplar must be likelier than the one in use before it takes its place
 
 
 def choose_template(
