@@ -161,7 +161,8 @@ def _plain(value: Any) -> Any:
 
 def _array(kind: type, value: Any) -> Any:
     if isinstance(value, list):
-        return np.array(value, np.float64)  # what is unknown, NaN, is written as null, and comes back
+        of = getattr(kind, "dtypes", ())
+        return np.array(value, np.int64 if "int64" in of else np.bool_ if "bool" in of else np.float64)  # what is unknown, NaN, is written as null, and comes back
     raise TypeError(f"the journal has no {kind}")
 
 

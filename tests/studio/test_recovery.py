@@ -10,8 +10,11 @@ from fake_engine import FakeEngine
 from talking import drawn, talking
 
 from sketchtree.editing.document import Document, Underlay
+from sketchtree.editing.settled import Manner, Settled
+from sketchtree.parameters import GENERIC
+from sketchtree.propagate.blocks.block import Blocks
 from sketchtree.sketch.strokes import Stroke
-from sketchtree.studio import messages, recovery
+from sketchtree.studio import journal_lines, messages, recovery
 from sketchtree.studio.folder import Folder
 from sketchtree.studio.recovery import StudioError, journal_of
 
@@ -278,3 +281,17 @@ def test_journals_are_the_users_own(shelf):
     _, _, journal = told(drawn("a"))
     assert journal.path.stat().st_mode & 0o077 == 0 and shelf.stat().st_mode & 0o077 == 0
     assert FakeEngine  # the engine is not asked to recover anything
+
+
+def test_the_manner_of_growing_comes_back_as_it_was():
+    blocks = Blocks(
+        id=np.array([3]), order=np.array([0]), position=np.array([0.5]), zone=np.array([1.0]), start=np.array([0, 1]), apical=np.array([True]),
+        **{name: np.array([0.25]) for name in ("scale", "divergence", "orientation", "reach", "length", "droop")},
+    )  # fmt: skip
+    document = Document(settled=Settled({}, manner=Manner(GENERIC, blocks, frozenset({7}), 2.0)))
+    line = journal_lines.Keep(different=journal_lines.different(Document(), document))
+    found = journal_lines.differing(Document(), journal_lines.decode(journal_lines.encode(line)).different, {}).settled.manner
+    assert (found.theta, found.limbs, found.scale) == (GENERIC, frozenset({7}), 2.0)
+    for name in ("id", "order", "position", "zone", "start", "apical", "scale"):
+        one, other = getattr(found.blocks, name), getattr(blocks, name)
+        assert one.dtype == other.dtype and one.tolist() == other.tolist()
