@@ -13,6 +13,7 @@ import msgspec
 import numpy as np
 from msgspec import UNSET, UnsetType
 
+from sketchtree.editing import kept
 from sketchtree.editing.document import Document, Underlay
 from sketchtree.editing.edits import Edits
 from sketchtree.editing.settled import Depths, Settled
@@ -39,7 +40,7 @@ class _Placed(_Line):
 
 
 class _Resettled(_Line):
-    rest: Settled  # without its limbs
+    rest: dict[str, Any]  # all but its limbs, as a project has it
     put: dict[int, Depths] = {}
     gone: list[int] = []
 
@@ -123,7 +124,7 @@ def differing(document: Document, said: Different, pictures: Mapping[str, bytes]
     if said.settled is not UNSET:
         gone = set(said.settled.gone)
         limbs = {limb: depths for limb, depths in document.settled.limbs.items() if limb not in gone} | said.settled.put
-        others["settled"] = replace(said.settled.rest, limbs=limbs)
+        others["settled"] = replace(kept.reading(kept.settled_from_json, said.settled.rest), limbs=limbs)
     if said.underlay is not UNSET:
         place = said.underlay
         others["underlay"] = place and Underlay(pictures[place.digest], place.x, place.y, place.width, place.height, place.opacity)
@@ -143,7 +144,7 @@ def decode(text: bytes) -> Line:
 
 def _resettled(old: Settled, new: Settled) -> _Resettled:
     put = {limb: depths for limb, depths in new.limbs.items() if old.limbs.get(limb) is not depths}
-    return _Resettled(rest=replace(new, limbs={}), put=put, gone=[limb for limb in old.limbs if limb not in new.limbs])
+    return _Resettled(rest=kept.settled_as_json(replace(new, limbs={})), put=put, gone=[limb for limb in old.limbs if limb not in new.limbs])
 
 
 def _placed(underlay: Underlay | None) -> _Placed | None:
@@ -161,8 +162,7 @@ def _plain(value: Any) -> Any:
 
 def _array(kind: type, value: Any) -> Any:
     if isinstance(value, list):
-        of = getattr(kind, "dtypes", ())
-        return np.array(value, np.int64 if "int64" in of else np.bool_ if "bool" in of else np.float64)  # what is unknown, NaN, is written as null, and comes back
+        return np.array(value, np.float64)  # what is unknown, NaN, is written as null, and comes back
     raise TypeError(f"the journal has no {kind}")
 
 
