@@ -57,15 +57,15 @@ class Studio:
         environment = {**os.environ, "SKETCHTREE_RECOVERY": str(self.folder / "recovery"), "PYTHONUNBUFFERED": "1"}
         work = self.folder / "work"
         work.mkdir(parents=True, exist_ok=True)
-        self.said: queue.Queue[str] = queue.Queue()
+        said: queue.Queue[str] = queue.Queue()  # of this process: one that was killed may still be heard
         self.errors = open(self.folder / "stderr.txt", "ab")
         self.process = subprocess.Popen(
             [sys.executable, "-m", "sketchtree", "studio", "--no-browser", *self.arguments],
             cwd=work, env=environment, stdin=subprocess.DEVNULL, stdout=subprocess.PIPE, stderr=self.errors, text=True, start_new_session=True,
         )  # fmt: skip
-        threading.Thread(target=self._listen, args=(self.process.stdout,), daemon=True).start()
+        threading.Thread(target=self._listen, args=(self.process.stdout, said), daemon=True).start()
         try:
-            line = self.said.get(timeout=PATIENCE)
+            line = said.get(timeout=PATIENCE)
         except queue.Empty:
             line = ""
         if not line.startswith("Studio: http://127.0.0.1:"):
@@ -73,11 +73,12 @@ class Studio:
             raise AssertionError(f"the studio said {line!r} and {self.trouble()!r}")
         self.address = line.removeprefix("Studio: ").strip()
 
-    def _listen(self, stream) -> None:
+    @staticmethod
+    def _listen(stream, said: queue.Queue) -> None:
         with stream:
             for line in stream:
-                self.said.put(line)
-        self.said.put("")
+                said.put(line)
+        said.put("")
 
     def trouble(self) -> str:
         """What it wrote on stderr."""

@@ -28,6 +28,7 @@ class Ear:
         self._strokes: dict[str, dict] = {}
         self._others: dict = {"options": {}, "edits": [], "underlay": None}
         self._limbs: list[dict] = []
+        self._chunks: dict[str, dict] = {}
         self._counts: Counter = Counter()
         self._latest: dict[str, dict] = {}
         self._heard = 0.0
@@ -84,6 +85,52 @@ class Ear:
         """All that a project keeps."""
         return {"strokes": self.strokes, **self._others}
 
+    @property
+    def limbs(self) -> list[dict]:
+        """All that were drawn or adopted, as the page walks through them."""
+        return self._limbs
+
+    @property
+    def tree(self) -> dict:
+        """The head of the newest whole tree."""
+        return self._latest["full tree"]
+
+    @property
+    def undrawn(self) -> list[str]:
+        """Limbs that nobody drew, the first of them the largest of their chunks."""
+        owners = set(self.tree["owners"])
+        return [name for owner in self.tree["owners"] for wood in self._chunks[owner]["wood"] for name in wood["limbs"] if name not in owners]
+
+    @property
+    def readings(self) -> list[dict]:
+        """Of the newest `Alternatives`."""
+        return self._latest.get("alternatives", {}).get("readings", [])
+
+    @property
+    def undo(self) -> str | None:
+        """What undo would take back."""
+        return self._latest["changed"]["undo"]
+
+    def open(self, name: str) -> None:
+        """A file of the folder takes the place of the drawing, and its tree is there."""
+        self.ask({"type": "open", "name": name})
+        self.rest()
+
+    def put(self, *strokes: dict) -> None:
+        """Strokes as the page sends them; their tree is there."""
+        self.ask({"type": "strokes", "label": "branch", "put": list(strokes)})
+        self.rest()
+
+    def do(self, kind: str, **fields) -> None:
+        """Anything else, and its tree is there."""
+        self.ask({"type": kind, **fields})
+        self.rest()
+
+    def rest(self) -> None:
+        """Until all that was said is done."""
+        self.sync()
+        self.wait(lambda: self.quiet, "rest")
+
     def limb_of(self, stroke: str) -> dict:
         """The limb that this stroke drew."""
         return next(limb for limb in self._limbs if stroke in limb["strokes"])
@@ -104,8 +151,8 @@ class Ear:
         kind = event["type"]
         self._counts[kind] += 1
         self._latest[kind] = event
-        if kind == "tree" and event["limbs"] is not None:
-            self._limbs = event["limbs"]
+        if kind == "tree":
+            self._take_tree(event)
         if kind != "changed":
             return
         if event["since"] == 0:
@@ -118,3 +165,13 @@ class Ear:
         self._others |= {name: event[name] for name in ("options", "edits") if event[name] is not None}
         if event["underlay_changed"] or event["since"] == 0:
             self._others["underlay"] = event["underlay"]
+
+    def _take_tree(self, event: dict) -> None:
+        if event["phase"] == "glance":
+            self._counts["glance"] += 1
+            return
+        if event["limbs"] is not None:
+            self._limbs = event["limbs"]
+        self._chunks |= {chunk["owner"]: chunk for chunk in event["chunks"]}
+        if event["phase"] == "full":
+            self._latest["full tree"] = event
