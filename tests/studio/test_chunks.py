@@ -134,7 +134,7 @@ def test_a_project_keeps_the_picture_and_the_options():
     assert len(again.settled) == len(drawn.settled) and list(again.strokes) == ["trunk", "left"]
 
 
-def test_meshes_that_a_project_named_and_that_are_gone_are_said(tmp_path):
+def test_mesh_files_that_a_project_names_are_not_opened_and_that_is_said(tmp_path):
     from sketchtree.studio.making.documents import document_of
     from sketchtree.tree_output import Made, write_output
 
@@ -143,4 +143,6 @@ def test_meshes_that_a_project_named_and_that_are_gone_are_said(tmp_path):
     write_output(model, tmp_path / "tree.sketchtree", Made(0, {"obstacle": ["rock.obj"], "prune": ["y<4", "outside:hole.ply"], "wood": "tubes"}))
     again = document_of((tmp_path / "tree.sketchtree").read_bytes(), "tree.sketchtree")
     assert again.tree.prune == ("y<4",) and again.tree.obstacle == () and again.tree.wood == "tubes"
-    assert again.sketch.warnings == tuple(f"{name} is not there any more; the tree is made without it." for name in ("rock.obj", "outside:hole.ply"))
+    assert again.sketch.warnings == tuple(
+        f"The studio opens no file that a project names: the tree is made without {name}. `sketchtree build` takes it." for name in ("rock.obj", "outside:hole.ply")
+    )

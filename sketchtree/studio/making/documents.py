@@ -12,7 +12,7 @@ from sketchtree.drawing import read_hand_work
 from sketchtree.editing.document import Document, Underlay
 from sketchtree.errors import SketchError, SketchTreeError
 from sketchtree.options import ReadingOptions, TreeOptions
-from sketchtree.propagate.after.shears import HOLE, plane
+from sketchtree.propagate.after.shears import plane
 from sketchtree.skeleton_hdf5 import SCHEMA
 from sketchtree.sketch.files.project import SIGNATURE, column
 from sketchtree.sketch.formats import read_sketch
@@ -41,7 +41,7 @@ def document_of(data: bytes, name: str) -> Document:
 
 
 def _with_choices(document: Document, data: bytes, name: str) -> Document:
-    """The document with a project's options, seed and picture. What this version does not know is as by default; meshes that are not there any more are said."""
+    """The document with a project's options, seed and picture. What this version does not know is as by default; mesh files are left out, and said."""
     import h5py
 
     with h5py.File(io.BytesIO(data), "r") as file:
@@ -54,22 +54,25 @@ def _with_choices(document: Document, data: bytes, name: str) -> Document:
         if "underlay" in file:
             at = file["underlay"].attrs
             underlay = Underlay(column(file, "underlay").astype(np.uint8).tobytes(), *(float(at[one]) for one in ("x", "y", "width", "height", "opacity")))
-    said, gone = _without_meshes(said)
-    told = tuple(f"{name} is not there any more; the tree is made without it." for name in gone)
+    said, meshes = _without_meshes(said)
+    told = tuple(f"The studio opens no file that a project names: the tree is made without {name}. `sketchtree build` takes it." for name in meshes)
     return document.replace(
         reading=_options(ReadingOptions, said), tree=_options(TreeOptions, said), seed=seed, underlay=underlay, warnings=(*document.warnings, *told)
     )
 
 
 def _without_meshes(said: dict) -> tuple[dict, list[str]]:
-    """(the options without the mesh files that are gone, their names)."""
-    gone = []
-    for option in ("obstacle", "prune"):
-        named = [str(one) for one in said.get(option) or ()]
-        missing = [one for one in named if not (option == "prune" and plane(one)) and not Path(one.removeprefix(HOLE)).is_file()]
-        said = said | {option: tuple(one for one in named if one not in missing)}
-        gone += missing
-    return said, gone
+    """(the options without mesh files, their names): a project may come from anywhere, and a path in it lead anywhere."""
+    cuts, obstacles = ([str(one) for one in said.get(option) or ()] for option in ("prune", "obstacle"))
+    planes = [one for one in cuts if _is_plane(one)]
+    return said | {"prune": tuple(planes), "obstacle": ()}, [*obstacles, *(one for one in cuts if one not in planes)]
+
+
+def _is_plane(text: str) -> bool:
+    try:
+        return plane(text) is not None
+    except SketchTreeError:
+        return False
 
 
 def _options(kind: type, said: dict):
