@@ -34,6 +34,7 @@ class Crew:
         self._database = database
         self._hands: dict[str, Hand] = {}
         self._tasks: set[asyncio.Task] = set()
+        self._hurrying = False  # a hurried answer is under way
         self._known: dict[str, str] = {}  # owner → digest of the chunk that the pages have
         self._basis = None
         self._revision, self._full_number, self._glancing = 0, 0, False
@@ -62,16 +63,25 @@ class Crew:
         self._revision, self._document = revision, document.replace(underlay=None)  # no tree hangs on the picture, which may be large
         self._hands["full"].stop()
         self._say(messages.Working(state="working", revision=revision, stage="read"))
-        self._run(self._make(revision, self._document))
+        if not self._hurrying:
+            self._run(self._make())
 
-    async def _make(self, revision: int, document: Document) -> None:
+    async def _make(self) -> None:
+        """Hurried answers until one is of the newest drawing, then its whole tree. However many drawings come meanwhile, one at a time is made."""
+        self._hurrying = True
+        try:
+            while True:
+                revision, document = self._revision, self._document
+                if document.strokes and self._hands["quick"].runs:
+                    document = await self._hurry(revision, document)
+                if revision == self._revision:
+                    break
+        finally:
+            self._hurrying = False
         if not document.strokes:
             self._nothing(revision)
             return
-        if self._hands["quick"].runs:
-            document = await self._hurry(revision, document)
-        if revision == self._revision:
-            await self._whole(revision, document)
+        await self._whole(revision, document)
 
     async def _whole(self, revision: int, document: Document) -> None:
         self._full_number, answer = self._hands["full"].ask("full", revision, document, dict(self._known))
