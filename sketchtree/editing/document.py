@@ -22,6 +22,9 @@ class Underlay:
     opacity: float = 0.4
 
 
+BEGINNING = "english_oak"  # what an empty page grows by until the drawing says otherwise
+
+
 @dataclass(frozen=True, eq=False)
 class Document:
     """Immutable; `replace` makes the next. Strokes are told by their ids, in the order they were drawn."""
@@ -46,3 +49,8 @@ class Document:
     def sketch(self) -> Sketch:
         """The drawing; strokes of turned pages too (`Stroke.view_deg`)."""
         return Sketch(tuple(self.strokes.values()), name=self.name, units=self.units, page=self.page, warnings=self.warnings)
+
+    @classmethod
+    def blank(cls, **fields) -> "Document":
+        """An empty page."""
+        return cls(settled=Settled(template=BEGINNING), **fields)

@@ -236,7 +236,7 @@ class Crew:
             revision=revision, phase="full", scale=1.0, root=[0.0, 0.0], owners=[], chunks=[], cards=[], materials=[], limbs=[], segments=0, drawn=0, leaves=0,
             triangles=[0, 0], height=0.0, low=[0.0] * 3, high=[0.0] * 3, template=None, leaf=None, bark="", warnings=[], arrays=[],
         )  # fmt: skip
-        self.on_outcome(Outcome(revision, Arrays().frame(head), settled=Settled()))
+        self.on_outcome(Outcome(revision, Arrays().frame(head), settled=Settled(template=self._document.settled.template)))
         self._say(messages.Working(state="idle", revision=revision))
 
     def _trouble(self, revision: int, error: SketchTreeError) -> None:

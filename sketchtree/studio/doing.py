@@ -170,7 +170,7 @@ async def _cancel(desk: Desk, page: Page, request: messages.Cancel) -> None:
 
 async def _new(desk: Desk, page: Page, request: messages.New) -> None:
     async with desk.turn:
-        desk.step(Document(), "new")
+        desk.step(Document.blank(), "new")
 
 
 async def _open(desk: Desk, page: Page, request: messages.Open) -> None:

@@ -80,7 +80,7 @@ async def _begin(session: Session, journal: Journal, start: Start) -> None:
         _aside(session, _example(session, journal, start.seed))
         return
     if not start.file.exists():
-        session.begin(Document(name=start.file.stem, seed=start.seed), journal=journal)
+        session.begin(Document.blank(name=start.file.stem, seed=start.seed), journal=journal)
         return
     folder = session.desk.files.folder
     session.desk.files.signatures[start.file.name] = folder.signature(start.file.name)
@@ -94,7 +94,7 @@ async def _example(session: Session, journal: Journal, seed: int) -> None:
         document = await filing.read(session.desk, examples.data(examples.FIRST), examples.FIRST)
     except SketchTreeError as error:
         session.desk.notes.append(trouble_of(error, "file"))
-        document = Document()
+        document = Document.blank()
     session.begin(_seeded(document, seed), journal=journal, saved_as=examples.FIRST)
 
 

@@ -145,7 +145,7 @@ def draw(sketch: Sketch | Document | str | Path | None = None, **traits) -> Draw
 def document_of(sketch: Sketch | Document | str | Path | None) -> Document:
     """What the page begins with. Raises SketchTreeError."""
     if sketch is None:
-        return Document()
+        return Document.blank()
     if isinstance(sketch, Document):
         return sketch
     by_hand = None
