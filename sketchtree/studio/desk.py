@@ -216,12 +216,28 @@ class Desk:
     # What comes of it
 
     def on_outcome(self, outcome: Outcome) -> None:
-        """The engine has something to tell."""
+        """The engine has something to tell. Where the depths have come to is in the journal before a page shows it."""
+        lines = ()
         if outcome.settled is not None and self._settled_since <= outcome.revision <= self.revision:
-            self._settle(outcome.settled)
+            lines = self._settle(outcome.settled)
         if isinstance(outcome.event, messages.Trouble) or outcome.settled is not None:
             self._wrong = outcome.event if isinstance(outcome.event, messages.Trouble) else None
-        self.tell(outcome.event)
+        rests = isinstance(outcome.event, messages.Working) and outcome.event.state == "idle"
+        if lines:
+            self.scribe.write(lines, lambda: self._told(outcome.event))
+        elif rests:
+            self.scribe.after(lambda: self._rests(outcome.event))  # not before its tree
+        else:
+            self._told(outcome.event)
+
+    def _rests(self, event: messages.Working) -> None:
+        """Nothing is being worked at; unless somebody began anew meanwhile."""
+        working = self._kept.get(messages.Working)
+        if working is None or working.revision <= event.revision:
+            self._told(event)
+
+    def _told(self, event: messages.Event | bytes) -> None:
+        self.tell(event)
         self._came.set()
 
     async def settles(self, wanted: Callable[[Document], bool], seconds: float) -> bool:
@@ -238,15 +254,14 @@ class Desk:
                 return False
         return True
 
-    def _settle(self, settled: Settled) -> None:
+    def _settle(self, settled: Settled) -> tuple[journal_lines.Line, ...]:
+        """Keep where the depths have come to; what the journal is to be told of it."""
         before = self.document
         settled = sharing(settled, before.settled)
         if settled is before.settled:
-            return
+            return ()
         self.history.keep(before.replace(settled=settled))
-        lines = self.ledger.keep(before, self.document)
-        if lines:
-            self.scribe.write(lines, lambda: None)
+        return tuple(self.ledger.keep(before, self.document))
 
     def _remember_picture(self) -> None:
         if self.document.underlay is not None:

@@ -40,6 +40,13 @@ class Scribe:
         if self._task is None or self._task.done():
             self._task = asyncio.get_running_loop().create_task(self._work())
 
+    def after(self, do: Callable[[], None]) -> None:
+        """`do` is called after all that was given before is written; at once where nothing waits."""
+        if self._task is None or self._task.done():
+            do()
+        else:
+            self.write((), do)
+
     async def room(self) -> None:
         """Wait until the disk keeps up."""
         await self._room.wait()
