@@ -509,7 +509,13 @@ def test_text_is_read_on_its_ground(page, small_tree, theme):
     assert page.weak_contrasts() == []
 
 
-def test_a_killed_studio_loses_the_stroke_in_hand_and_nothing_else(page, small_tree, ear, studio, context):
+def test_a_killed_studio_loses_the_stroke_in_hand_and_nothing_else(browser, tmp_path):
+    (tmp_path / "work").mkdir()
+    (tmp_path / "work" / "small.json").write_text(json.dumps(SMALL))
+    own, context = Studio(tmp_path, "small.json"), browser.new_context(viewport={"width": 1280, "height": 720})
+    page = Page(context, own.address)
+    page.settle()
+    ear = Ear(own.address, context.cookies())
     ear.put(MORE)
     before, segments = ear.state, ear.tree["segments"]
     page.expect("WebSocket", "Failed to load resource", "net::ERR")
@@ -517,11 +523,12 @@ def test_a_killed_studio_loses_the_stroke_in_hand_and_nothing_else(page, small_t
     page.page.mouse.move(box["x"] + 0.5 * box["width"], box["y"] + 0.5 * box["height"])
     page.page.mouse.down()
     page.page.mouse.move(box["x"] + 0.6 * box["width"], box["y"] + 0.4 * box["height"], steps=5)
-    studio.kill()
-    studio.start()
-    again = Page(context, studio.address)
+    own.kill()
+    own.start()
+    again = Page(context, own.address)
     assert again.settle()["segments"] == segments
-    listener = Ear(studio.address, context.cookies())
+    listener = Ear(own.address, context.cookies())
     assert listener.state == before
     listener.close()
-    again.page.close()
+    context.close()
+    assert own.stop() == 0
