@@ -32,13 +32,14 @@ def start(folder: str) -> tuple[subprocess.Popen, str, float]:
 def one_start(browser) -> dict[str, float]:
     """Seconds of one start."""
     with tempfile.TemporaryDirectory() as folder:
+        page = browser.new_page(viewport={"width": 1280, "height": 720})
         process, address, began = start(folder)
         found = {"address": time.perf_counter() - began}
-        page = browser.new_page(viewport={"width": 1280, "height": 720})
         try:
             asked = time.perf_counter()
             page.goto(address, wait_until="commit")
-            page.wait_for_function("performance.getEntriesByName('first-contentful-paint').length > 0")
+            while not page.evaluate("performance.getEntriesByName('first-contentful-paint').length"):
+                page.wait_for_timeout(20)
             paint = page.evaluate("performance.getEntriesByName('first-contentful-paint')[0].startTime") / 1000
             found["paint"] = asked - began + paint
             status = page.locator('[data-testid="status"]')
