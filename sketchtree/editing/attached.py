@@ -17,7 +17,7 @@ from sketchtree.editing.edits import Adopted, Edits
 from sketchtree.editing.part import part_of, reachable
 from sketchtree.editing.rows import Drawing, nearest_place, on_other_page, place_at
 from sketchtree.editing.settle import QUICK
-from sketchtree.editing.settled import COURSE, Depths, Settled
+from sketchtree.editing.settled import Depths, Settled, course_of
 from sketchtree.editing.touched import SAME_COURSE, depth_at
 from sketchtree.editing.turning import in_front, on_page
 from sketchtree.keys import stage_key
@@ -97,7 +97,7 @@ def _with_stroke(drawing: Drawing, number: int, stroke: Stroke, hanging: Hanging
     share = along[marks] / along[-1]
     limb, parent = stroke_limb_id(stroke.id), int(drawing.tree.limb[foot])
     before = hanging.settled.limbs.get(limb)
-    course = _course(points, along)
+    course = course_of(points)
     fresh = before is None or before.rough or before.parent != parent or _runs_elsewhere(course, before.course, SAME_COURSE * height)
     if fresh:
         drawing_with = _joined(drawing, foot, points, marks, np.full(len(points), start[2]), limb, number, hanging, view)
@@ -117,11 +117,6 @@ def _from_foot(points, foot, height: float):
     rest = points[np.flatnonzero(apart > 1e-6 * height)[0] :] if (apart > 1e-6 * height).any() else points[-1:] + 1e-3 * height
     points = np.concatenate([foot[None], rest])
     return points[np.r_[True, np.linalg.norm(np.diff(points, axis=0), axis=1) > 1e-9 * height]]
-
-
-def _course(points, along):
-    even = np.linspace(0.0, along[-1], COURSE)
-    return np.stack([np.interp(even, along, points[:, axis]) for axis in (0, 1)], axis=1)
 
 
 def _runs_elsewhere(course, before, near: float) -> bool:
@@ -186,7 +181,7 @@ def _with_adopted(drawing: Drawing, adopted: Adopted, settled: dict[int, Depths]
     drawing = drawing.with_limb(foot, points[marks[1:]], curves, adopted.limb, NULL)
     along = np.r_[0.0, np.cumsum(np.linalg.norm(np.diff(points[:, :2], axis=0), axis=1))]
     share = along / max(along[-1], 1e-300)
-    return drawing, Depths(share, points[:, 2], np.zeros(len(points)), _course(points[:, :2], along), adopted.parent, ())
+    return drawing, Depths(share, points[:, 2], np.zeros(len(points)), course_of(points[:, :2]), adopted.parent, ())
 
 
 def sd_of_rows(drawing: Drawing, sd: Float[np.ndarray, " graph_row"], attached: dict[int, Depths]) -> Float[np.ndarray, " segment"]:

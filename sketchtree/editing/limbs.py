@@ -7,7 +7,7 @@ import numpy as np
 from jaxtyping import Float, Int
 
 from sketchtree.axes import NULL
-from sketchtree.editing.settled import COURSE, Depths
+from sketchtree.editing.settled import Depths, course_of
 from sketchtree.mrf.lift import along_curves
 from sketchtree.sketch.graph import SketchGraph
 from sketchtree.traverse import limb_chains
@@ -33,10 +33,7 @@ class LimbLine:
     def course(self, graph: SketchGraph) -> Float[np.ndarray, "place 2"]:
         """Where it runs, at even shares."""
         points = np.concatenate([graph.curve(row)[1:] for row in self.rows])
-        points = np.concatenate([graph.xy[self.foot][None], points])
-        along = np.r_[0.0, np.cumsum(np.linalg.norm(np.diff(points, axis=0), axis=1))]
-        even = np.linspace(0.0, along[-1], COURSE)
-        return np.stack([np.interp(even, along, points[:, axis]) for axis in (0, 1)], axis=1)
+        return course_of(np.concatenate([graph.xy[self.foot][None], points]))
 
 
 @dataclass(frozen=True, eq=False)

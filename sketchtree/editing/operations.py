@@ -10,7 +10,7 @@ import numpy as np
 
 from sketchtree.editing.document import Document
 from sketchtree.editing.edits import Adopted, Cleared, Edits, Held
-from sketchtree.editing.settled import COURSE, Depths, Settled
+from sketchtree.editing.settled import Depths, Settled, course_of
 from sketchtree.editing.turning import in_front
 from sketchtree.errors import OptionError
 
@@ -136,9 +136,7 @@ def adopted_depths(adopted: Adopted, settled: Settled) -> Depths:
     path = adopted.path + foot_on(settled, adopted.parent, adopted.share)
     along = np.r_[0.0, np.cumsum(np.linalg.norm(np.diff(path[:, :2], axis=0), axis=1))]
     share = along / max(along[-1], 1e-300)
-    even = np.linspace(0.0, 1.0, COURSE)
-    course = np.stack([np.interp(even, share, path[:, axis]) for axis in (0, 1)], axis=1)
-    return Depths(share, path[:, 2], np.zeros(len(path)), course, adopted.parent, ())
+    return Depths(share, path[:, 2], np.zeros(len(path)), course_of(path[:, :2]), adopted.parent, ())
 
 
 def _known(document: Document, limb: int) -> Depths:

@@ -12,6 +12,13 @@ from sketchtree.propagate.blocks.block import Blocks
 COURSE = 9  # places along a limb by which its course is told from another
 
 
+def course_of(points: Float[np.ndarray, "point 2"]) -> Float[np.ndarray, "place 2"]:
+    """Where a line on a page runs, at even shares of its length: as `Depths.course`."""
+    along = np.r_[0.0, np.cumsum(np.linalg.norm(np.diff(points, axis=0), axis=1))]
+    even = np.linspace(0.0, along[-1], COURSE)
+    return np.stack([np.interp(even, along, points[:, axis]) for axis in (0, 1)], axis=1)
+
+
 @dataclass(frozen=True, eq=False)
 class Depths:
     """One limb's, that was drawn or adopted."""

@@ -4,7 +4,7 @@ The server itself imports neither jax nor any stage: whoever answers here may ru
 wins, and what comes of an older one is not told.
 """
 
-from collections.abc import Callable, Mapping
+from collections.abc import Callable
 from dataclasses import dataclass
 from typing import Any, Protocol
 
@@ -20,7 +20,6 @@ class Outcome:
     revision: int
     event: bytes | messages.Event  # bytes: a binary frame, ready to be sent
     settled: Settled | None = None  # where the depths came to, with a full `Tree`
-    limb_paths: Mapping[int, Any] | None = None  # undrawn limb → Adopted, as `find` gives
 
 
 class Engine(Protocol):

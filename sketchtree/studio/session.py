@@ -14,7 +14,6 @@ import asyncio
 import time
 import traceback
 from collections.abc import Awaitable, Callable
-from pathlib import Path
 
 from sketchtree.editing.document import Document
 from sketchtree.errors import SketchTreeError
