@@ -65,7 +65,7 @@ def read_sketch(
     data = inflate(read_bytes(path, max_mb=max_mb), path.name, max_mb=max_mb)
     if not data.strip(b"\xef\xbb\xbf\xff\xfe\x00 \t\r\n"):
         raise SketchError(f"{path.name} is empty.", remedy="Save the drawing again.")
-    data = drawing_in_project(data) or data
+    data = drawing_in_project(data, path.name) or data
     what = recognise(data)
     if what is None or isinstance(what, Unreadable):
         raise _no_reader(path, what)

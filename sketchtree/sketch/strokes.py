@@ -38,6 +38,7 @@ class Stroke:
         points = np.array(self.points, np.float64).reshape(-1, 2)
         points.flags.writeable = False
         object.__setattr__(self, "points", points)
+        object.__setattr__(self, "view_deg", float(self.view_deg) + 0.0)  # not turned is 0.0, never -0.0
         if len(points) == 0:
             raise SketchError("it has no points.", stroke=self.id, remedy="Delete it or draw it again.")
         if not np.isfinite(self.view_deg):

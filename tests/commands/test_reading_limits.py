@@ -2,6 +2,8 @@
 
 from pathlib import Path
 
+import h5py
+import numpy as np
 import pytest
 
 from benchmarks import little_tree
@@ -30,6 +32,20 @@ def test_a_limit_refuses_with_2_and_names_the_option(command, limit, drawings, c
     assert run([command, name, *READING[command], *limit.split()]) == 2
     said = capfd.readouterr().err
     assert message in said and option in said and not list(drawings.glob("out.*"))
+
+
+@pytest.mark.parametrize("command", READING)
+@pytest.mark.parametrize(
+    ("schema", "message"),
+    [(9, "later.sketchtree has project schema 9; this version reads 1. Update sketchtree."), ("x", "later.sketchtree is damaged (invalid literal for int() with base 10: 'x')")],
+)  # fmt: skip
+def test_a_project_of_a_newer_version_is_refused_with_2(command, schema, message, drawings, capfd):
+    with h5py.File(drawings / "later.sketchtree", "w") as file:
+        file.attrs["format"], file.attrs["schema"] = "SketchTree project", schema
+        file["sketch"] = np.frombuffer((drawings / "tree.json").read_bytes(), np.uint8)
+    assert run([command, "later.sketchtree", *READING[command]]) == 2
+    said = capfd.readouterr().err
+    assert message in " ".join(said.split()) and "Traceback" not in said and not list(drawings.glob("out.*"))
 
 
 def test_templates_are_matched_under_the_same_limits(drawings, capfd):

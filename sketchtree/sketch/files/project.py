@@ -4,22 +4,37 @@ import io
 
 import numpy as np
 
+from sketchtree.errors import SketchError
+from sketchtree.skeleton_hdf5 import SCHEMA
 from sketchtree.sketch.files.limits import MAX_MB
 
 SIGNATURE = b"\x89HDF\r\n\x1a\n"
 
 
-def drawing_in_project(data: bytes) -> bytes | None:
-    """The sketch JSON that a project holds. None for any other file, another HDF5 file too."""
+def drawing_in_project(data: bytes, name: str) -> bytes | None:
+    """The sketch JSON that a project holds. None for any other file, another HDF5 file too. Raises SketchError for a project of a newer version of this program."""
     if not data.startswith(SIGNATURE):
         return None
     import h5py
 
     try:
         with h5py.File(io.BytesIO(data), "r") as file:
-            return column(file, "sketch").tobytes() if "sketch" in file else None
+            if "sketch" not in file:
+                return None
+            check_schema(file, name)
+            return column(file, "sketch").tobytes()
     except (OSError, RuntimeError, ValueError, TypeError, KeyError, AttributeError):
         return None
+
+
+def check_schema(file, name: str) -> None:
+    """Raise SketchError for an open project that a newer version wrote: what it holds may mean something else there."""
+    try:
+        schema = int(file.attrs.get("schema", SCHEMA))
+    except (ValueError, TypeError) as error:
+        raise SketchError(f"{name} is damaged ({error}).", remedy="Open an older copy of it.") from error
+    if schema > SCHEMA:
+        raise SketchError(f"{name} has project schema {schema}; this version reads {SCHEMA}.", remedy="Update sketchtree.")
 
 
 def column(file, name: str) -> np.ndarray:

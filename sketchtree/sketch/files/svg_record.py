@@ -1,8 +1,8 @@
 """What of a sketch has no place in SVG? It rides along in attributes of our own namespace, and yields to later edits.
 
     sketchtree:sketch   on the root: {"version": 1, "units", "view_deg", "page", "viewBox"}
-    sketchtree:stroke   on every path: {"row", "id", "kind", "labelled", "layer", "width", "wood", "pressure", "time",
-                        "as": {"id", "group", "pen"}}
+    sketchtree:stroke   on every path: {"row", "id", "kind", "labelled", "layer", "width", "wood", "view_deg", "pressure",
+                        "time", "as": {"id", "group", "pen"}}; `view_deg` only of a stroke drawn on a turned page
 
 `as` is what the file itself said when it was written: the path's id, its group's name, its line width. Where a drawing
 program has since changed one of these, what the file says now counts and the record's value does not; pressure and time
@@ -37,6 +37,7 @@ class StrokeRecord(NamedTuple):
     layer: str | None
     width: float | None
     wood: bool
+    view_deg: float
     pressure: Float[np.ndarray, " point"] | None
     time: Float[np.ndarray, " point"] | None
     as_id: str
@@ -57,6 +58,7 @@ def stroke_text(stroke: Stroke, row: int, *, as_id: str, as_group: str, as_pen: 
     """The record of one stroke as the attribute's text."""
     record: dict[str, Any] = {"row": row, "id": stroke.id, "kind": str(stroke.kind), "labelled": bool(stroke.labelled)}
     record |= {"layer": stroke.layer, "width": None if stroke.width is None else float(stroke.width), "wood": bool(stroke.wood)}
+    record |= {"view_deg": float(stroke.view_deg)} if stroke.view_deg else {}
     for name in ("pressure", "time"):
         values = getattr(stroke, name)
         record[name] = None if values is None else np.asarray(values, float).tolist()
@@ -80,7 +82,8 @@ def stroke_record(element: Element) -> StrokeRecord | None:
     texts = [record.get("id"), *(seen.get(key) for key in ("id", "group", "pen")), layer or ""]
     flags = [record.get(key, False) for key in ("labelled", "wood")]
     plain = all(isinstance(part, str) for part in texts) and all(isinstance(flag, bool) for flag in flags)
-    if not plain or not _is_row(record.get("row")) or not (width is None or (_is_number(width) and width >= 0)):
+    fitting = _is_row(record.get("row")) and _is_number(record.get("view_deg", 0.0)) and (width is None or (_is_number(width) and width >= 0))
+    if not plain or not fitting:
         raise ValueError("a record holds something else than was written")
     return StrokeRecord(
         record["row"],
@@ -90,6 +93,7 @@ def stroke_record(element: Element) -> StrokeRecord | None:
         layer,
         None if width is None else float(width),
         flags[1],
+        float(record.get("view_deg", 0.0)),
         _column(record.get("pressure")),
         _column(record.get("time")),
         seen["id"],
@@ -115,7 +119,8 @@ def restored(stroke: Stroke, shape) -> tuple[Stroke, bool]:
     """(a stroke as it was before it was written, whether its pressure or time is lost). `stroke` is what the file itself says
     now; where that differs from what it said then, it is left as it is."""
     record: StrokeRecord = shape.record
-    kept: dict[str, Any] = {"closed": shape.drawn[1]} if shape.drawn is not None else {}
+    kept: dict[str, Any] = {"view_deg": record.view_deg}
+    kept |= {"closed": shape.drawn[1]} if shape.drawn is not None else {}
     if shape.group == record.as_group:
         kept |= {"kind": record.kind, "labelled": record.labelled, "layer": record.layer}
     if shape.pen == record.as_pen:

@@ -13,7 +13,6 @@ from sketchtree.editing.document import Document, Underlay
 from sketchtree.errors import SketchError, SketchTreeError
 from sketchtree.options import ReadingOptions, TreeOptions
 from sketchtree.propagate.after.shears import plane
-from sketchtree.skeleton_hdf5 import SCHEMA
 from sketchtree.sketch.files.project import SIGNATURE, column
 from sketchtree.sketch.formats import read_sketch
 
@@ -45,9 +44,6 @@ def _with_choices(document: Document, data: bytes, name: str) -> Document:
     import h5py
 
     with h5py.File(io.BytesIO(data), "r") as file:
-        schema = int(file.attrs.get("schema", SCHEMA))
-        if schema > SCHEMA:
-            raise SketchError(f"{name} has project schema {schema}; this version reads {SCHEMA}.", remedy="Update sketchtree.")
         said = json.loads(column(file, "options").tobytes()) if "options" in file else {}
         seed = int(file.attrs.get("seed", 0))
         underlay = None

@@ -35,6 +35,7 @@ def strokes(draw, stroke_id):
         time=draw(clock),
         width=draw(WIDTH),
         layer=draw(st.none() | NAME | WORDS),
+        view_deg=draw(st.just(0.0) | NUMBER),
         **{flag: draw(st.booleans()) for flag in ("labelled", "closed", "filled", "wood")},
     )
 
@@ -170,6 +171,15 @@ def test_a_stroke_renamed_elsewhere_has_its_new_name_and_a_copy_its_own():
     assert [s.id for s in back.strokes] == ["trunk", "outline", "arm", "path9", "wall"]
 
 
+def test_a_stroke_of_a_turned_page_stays_so_and_others_say_nothing_of_it():
+    turned = Sketch((Stroke("trunk", [[0, 0], [0, 9]]), Stroke("arm", [[0, 4], [3, 6]], view_deg=90)), name="t")
+    text = sketch_svg(turned)
+    assert [stroke.view_deg for stroke in read_svg(text.encode(), "t").strokes] == [0.0, 90.0]
+    assert text.count("view_deg") == 2, "of the sketch and of the arm"
+    redrawn = text.replace('d="M0.0,-4.0 3.0,-6.0"', 'd="M0,-4 5,-8"')
+    assert redrawn != text and read_svg(redrawn.encode(), "t").strokes[1].view_deg == 90.0
+
+
 def test_strokes_drawn_elsewhere_follow_ours():
     back = edited("</svg>", '<path id="new" d="M1 1L2 2" stroke="red"/></svg>')
     assert [s.id for s in back.strokes] == ["trunk", "outline", "arm", "wall", "new"]
@@ -179,7 +189,11 @@ def test_a_page_resized_elsewhere_wins():
     assert edited('viewBox="[^"]*"', 'viewBox="0 -200 100 200"').page == (0.0, 0.0, 100.0, 200.0)
 
 
-@pytest.mark.parametrize("spoilt", ["{", "[]", "{}", '{"row": "x"}', "[" * 9000, '{"row": 0, "id": "a", "kind": "leaf", "as": {"id": "", "group": "", "pen": ""}}'])
+@pytest.mark.parametrize(
+    "spoilt",
+    ["{", "[]", "{}", '{"row": "x"}', "[" * 9000, '{"row": 0, "id": "a", "kind": "leaf", "as": {"id": "", "group": "", "pen": ""}}',
+     '{"row": 0, "id": "a", "kind": "branch", "view_deg": "x", "as": {"id": "", "group": "", "pen": ""}}'],
+)  # fmt: skip
 def test_a_spoilt_record_is_left_out_and_counted(spoilt):
     text = spoilt.replace('"', "&quot;")
     back = edited("sketchtree:stroke=('[^']*'|\"[^\"]*\")", f'sketchtree:stroke="{text}"')
