@@ -7,7 +7,6 @@ from pathlib import Path
 
 from sketchtree.errors import ExportError, SketchError
 from sketchtree.export.files import write_whole
-from sketchtree.sketch.formats import READABLE
 from sketchtree.studio.messages import MAX_UPLOAD
 
 PROJECT = ".sketchtree"
@@ -30,6 +29,8 @@ class Folder:
 
     def files(self) -> list[str]:
         """Names of the drawings and projects in it, the newest first."""
+        from sketchtree.sketch.formats import READABLE  # every reader comes with it; the page is there before
+
         found = []
         try:
             with os.scandir(self.path) as entries:

@@ -8,7 +8,6 @@ from pathlib import Path
 
 import numpy as np
 
-from sketchtree.drawing import read_hand_work
 from sketchtree.editing.document import Document, Underlay
 from sketchtree.errors import SketchError, SketchTreeError
 from sketchtree.options import ReadingOptions, TreeOptions
@@ -26,17 +25,25 @@ def document_of(data: bytes, name: str) -> Document:
         path.write_bytes(data)
         try:
             sketch = read_sketch(path)
-            by_hand = read_hand_work(path)
+            by_hand = _by_hand(path) if data.startswith(SIGNATURE) else {}
         except SketchTreeError as error:
             raise type(error)(error.message.replace(f"{folder}/", ""), remedy=error.remedy) from error
     strokes = {stroke.id: stroke for stroke in sketch.strokes}
-    document = Document(strokes, by_hand.edits, by_hand.settled, name=Path(name).stem, units=sketch.units, page=sketch.page, warnings=sketch.warnings)
+    document = Document(strokes, name=Path(name).stem, units=sketch.units, page=sketch.page, warnings=sketch.warnings)
     if not data.startswith(SIGNATURE):
         return document
     try:
-        return _with_choices(document, data, name)
+        return _with_choices(document.replace(**by_hand), data, name)
     except (OSError, RuntimeError, ValueError, TypeError, KeyError, AttributeError, RecursionError) as error:
         raise SketchError(f"{name} is damaged ({error}).", remedy="Open an older copy of it.") from error
+
+
+def _by_hand(path: Path) -> dict:
+    """What was done to a project's tree by hand, by the fields of a document. Imported here: the server reads small drawings of lines before it has anything else to do."""
+    from sketchtree.drawing import read_hand_work
+
+    found = read_hand_work(path)
+    return {"edits": found.edits, "settled": found.settled}
 
 
 def _with_choices(document: Document, data: bytes, name: str) -> Document:

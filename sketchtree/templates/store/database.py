@@ -23,9 +23,9 @@ from sketchtree.templates.store.columns import COLUMNS, SCHEMA, block_at, exempl
 from sketchtree.templates.store.digest import digest_of, root_digest
 from sketchtree.templates.exemplar import Exemplar, Views
 from sketchtree.templates.store.migrate import SOURCE, filled, stored
+from sketchtree.templates.store.place import default_path
 from sketchtree.templates.store.writer import FORMAT
 
-ENVIRONMENT = "SKETCHTREE_DB"
 KEPT = 8  # exemplars that stay in memory once read
 SLAB = 2**24  # bytes read at a time while a checksum is compared
 _REBUILD = "Rebuild it with `sketchtree templates build`, or name another file with --db."
@@ -187,15 +187,6 @@ def _slabs(dataset):
 
 
 _VIEWS = ("footprint", "branching_mean", "branching_sd", "branching_count", "posture")
-
-
-def default_path() -> Path:
-    """$SKETCHTREE_DB, else the file in the package, else `template_db/exemplars.h5` of a checkout."""
-    if os.environ.get(ENVIRONMENT):
-        return Path(os.environ[ENVIRONMENT])
-    here = Path(__file__).resolve()
-    packaged = here.parents[1] / "data" / "exemplars.h5"
-    return packaged if packaged.exists() else here.parents[3] / "template_db" / "exemplars.h5"
 
 
 def _damaged(path: Path, how: str) -> TemplateError:
