@@ -44,7 +44,7 @@ def _tree():
                 radius.append(0.01)
                 order.append(1)
                 limb.append(len(tip))
-    above, square = 0.0, np.zeros(len(tip))
+    square = np.zeros(len(tip))
     for row in range(len(tip) - 1, -1, -1):  # r² of a row is the sum over its children, .01² at a tip
         square[row] = square[row] or 0.01**2
         if parent[row] >= 0:

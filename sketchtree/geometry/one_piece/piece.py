@@ -135,7 +135,6 @@ def _barks(grid: Grid, plan: Plan, offset, tile: float) -> Barks:
 
 def _skin(grid: Grid, x, normal, v, bark: Barks, collars: Collars, o: Outlines, hole: Holes, bridge: Bridges, feet, lines: CentreLines, tile: float) -> Piece:
     """All vertices and triangles."""
-    ring, start = grid.ring, grid.ring.start
     changed = np.r_[False, (np.diff(bark.repeat) != 0) & (np.diff(grid.of_ring) == 0)]
     stored = stored_rings(changed, grid.level, grid.side)
     used = bark.repeat[stored.source].copy()
@@ -150,7 +149,7 @@ def _skin(grid: Grid, x, normal, v, bark: Barks, collars: Collars, o: Outlines, 
     covered = np.zeros(cell_start(grid)[-1], bool)
     covered[hole.cell[bridge.bridged[hole.hole_of_cell]]] = True
     covered[skirt_cells(grid, collars, bridge.bridged[hole.of_fork])] = True
-    tube = sides(stored, start, covered)
+    tube = sides(stored, grid.ring.start, covered)
     sunk = o.limb[~bridge.bridged[hole.of_fork]]
     lidded = np.sort(np.r_[np.flatnonzero(lines.parent == NULL), sunk])
     ends, end = _ends(grid, x, stored, lidded, tubes.uv, len(limb) + len(joints.limb), tile)

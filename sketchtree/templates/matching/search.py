@@ -18,7 +18,7 @@ from jaxtyping import Float, Int
 from sketchtree.templates.seen.branching import Branching
 from sketchtree.templates.exemplar import Views
 from sketchtree.templates.matching.likeness import SketchShape, chen_terms, heavy, trait_distance, whitening
-from sketchtree.templates.matching.metric import BRANCHING, HARMONICS, POSTURE, Metric
+from sketchtree.templates.matching.metric import BRANCHING, POSTURE, Metric
 
 BLOCK, CHEN_BLOCK = 1024, 64  # exemplars at a time; the paper's sum makes differences of whole footprints, which should stay in a cache
 SMALL = 1024  # exemplars; up to so many are compared in double precision

@@ -19,7 +19,7 @@ import numpy as np
 
 from sketchtree.errors import TemplateError
 from sketchtree.templates.seen.branching import Branching
-from sketchtree.templates.store.columns import COLUMNS, SCHEMA, block_at, exemplar_at
+from sketchtree.templates.store.columns import SCHEMA, block_at, exemplar_at
 from sketchtree.templates.store.digest import digest_of, root_digest
 from sketchtree.templates.exemplar import Exemplar, Views
 from sketchtree.templates.store.migrate import SOURCE, filled, stored

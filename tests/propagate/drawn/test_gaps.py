@@ -1,7 +1,7 @@
 import dataclasses
 
 import numpy as np
-from tests.propagate.worlds import HABIT, THETA, drawn_tree
+from tests.propagate.worlds import HABIT, THETA
 
 from sketchtree import keys
 from sketchtree.axes import NULL

@@ -6,7 +6,7 @@ from little_lines import TRUNK, grown, hung, line, lines, random_lines
 from sketchtree.axes import NULL
 from sketchtree.sketch.joining.attach import attach
 from sketchtree.sketch.joining.cleaning import clean
-from sketchtree.sketch.joining.joints import CROSSES, OVERSHOOT, SLACK, STRAIGHT_ON, beyond, limbs_of
+from sketchtree.sketch.joining.joints import CROSSES, OVERSHOOT, STRAIGHT_ON, beyond, limbs_of
 
 
 def joined(*strokes, parent, end=None, s=None):
