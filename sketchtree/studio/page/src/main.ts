@@ -24,3 +24,4 @@ const views = mountTree(region("tree"), store);
 mountLink(store);
 const roots = { side: region("side"), strip: region("strip"), status: region("status"), page: region("page"), tree: region("tree") };
 mountPanels(roots, store, views); // after the link: it times what is sent
+document.querySelector(".opening")?.remove();

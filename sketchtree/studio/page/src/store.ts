@@ -40,6 +40,7 @@ export interface Ui {
   layout: "beside" | "over"; // page and tree side by side, or the page over the tree
   turn: number; // degrees: azimuth the tree is seen from and drawn on; 0 the front
   selected: string | null; // limb id
+  pointed: string | null; // limb id: under the pointer, on the page or in the tree
   selectedStrokes: string[]; // ids
   uncertainty: boolean;
   figure: boolean; // the 1.8 m person
@@ -59,7 +60,7 @@ export class Store {
     saved: true, working: null, matches: null, alternatives: null, read: null, tree: null, limbs: [], trouble: null,
   };
   readonly ui: Ui = {
-    tool: "branch", layout: "beside", turn: 0, selected: null, selectedStrokes: [], uncertainty: false, figure: true, theme: "light", palm: false,
+    tool: "branch", layout: "beside", turn: 0, selected: null, pointed: null, selectedStrokes: [], uncertainty: false, figure: true, theme: "light", palm: false,
     stabiliser: 0.35, width: 4,
   };
   frame: { head: Tree; arrays: Arrays } | null = null; // the frame just come; listeners of "frame" take it at once

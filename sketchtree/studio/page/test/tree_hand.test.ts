@@ -2,10 +2,11 @@
 
 import { expect, test } from "vitest";
 import { axes, between, framed, metres, panned, place, shortest, turned, zoomed, type Eye, type Point } from "../src/tree/eye/eye";
-import { bent, ends, grips, placeAt, pulled } from "../src/tree/hand/drag";
+import { bent, cursorAlong, ends, grips, limits, placeAt, pulled } from "../src/tree/hand/drag";
 import { pick, runsOf, type Ray } from "../src/tree/hand/pick";
 import { depthOf, onPage } from "../src/tree/page/plane";
 import type { MergedWood } from "../src/tree/plant/merge";
+import { clear } from "../src/tree/stage/figure";
 import { unmixed } from "../src/tree/show/capture";
 import { crc32, zipped } from "../src/tree/show/zip";
 
@@ -34,7 +35,6 @@ test("the scene follows the hand that moves it", () => {
 });
 
 test("a framed eye sees the whole height of a tree, and its whole width in a narrow view", () => {
-  const [low, high] = [[-3, 0, -3], [3, 9, 3]] as const;
   const seen = (eye: Eye, at: Point): [number, number] => {
     const { right, up, back } = axes(eye);
     const offset = [0, 1, 2].map((k) => at[k]! - eye.target[k]!) as unknown as Point;
@@ -43,13 +43,50 @@ test("a framed eye sees the whole height of a tree, and its whole width in a nar
     return [along(right) / half, along(up) / half];
   };
   for (const aspect of [0.4, 1.5]) {
-    const eye = framed({ ...EYE, azimuth: 30, elevation: 8 }, low, high, aspect);
+    const eye = framed({ ...EYE, azimuth: 30, elevation: 8 }, [0, 0, 0, 0, 9, 0, 3, 4.5, 0, -3, 4.5, 0, 0, 4.5, 3, 0, 4.5, -3], aspect);
     for (const at of [[0, 0, 0], [0, 9, 0], [3, 4.5, 0], [-3, 4.5, 0], [0, 4.5, 3]] as const) {
       const [x, y] = seen(eye, at);
       expect(Math.abs(x)).toBeLessThan(aspect);
       expect(Math.abs(y)).toBeLessThan(1);
     }
   }
+});
+
+test("a tree that leans far to one side stands in the middle of the view, and as large as one that stands straight", () => {
+  const straight = [0, 0, 0, -4, 8, 0, 4, 8, 0];
+  const leaning = [0, 0, 0, 0, 8, 0, 8, 8, 0];
+  const [one, other] = [framed(EYE, straight, 1), framed(EYE, leaning, 1)];
+  expect(other.distance).toBeCloseTo(one.distance, 6);
+  expect(other.target[0]).toBeCloseTo(4, 6);
+});
+
+test("nothing to see moves no eye", () => {
+  expect(framed(EYE, [], 1)).toBe(EYE);
+});
+
+test("the buttons at the view's foot hide nothing of the tree", () => {
+  const eye = framed(EYE, [0, 0, 0, 0, 9, 0], 1, 0.2);
+  const lowest = (0 - eye.target[1]) / (eye.distance * Math.tan((14 * Math.PI) / 180)); // -1 the foot
+  expect(lowest).toBeGreaterThan(-1 + 2 * 0.2);
+});
+
+test("a person stands beside the tree where nothing hangs", () => {
+  expect(clear([0, 1, 0, -3, 6, 0], -2, 0)).toBe(-2); // limbs high above do not matter
+  expect(clear([-1.8, 1, 0, -2.4, 0.5, 0], -2, 0)).toBeCloseTo(-2.85, 6);
+  expect(clear([-1.8, 1, 3], -2, 0)).toBe(-2); // nor does what hangs far before
+});
+
+test("a limb is not pulled farther than a few times its way on the page", () => {
+  const [path, shares] = [[0, 0, 0, 2, 0, 1], [0, 1]];
+  const [farther, nearer] = limits(path, shares, 1, [0, 0, 1], 0.1);
+  expect(nearer).toBeCloseTo(2.5 * 2 - 1, 6);
+  expect(farther).toBeCloseTo(-2.5 * 2 - 1, 6);
+  expect(limits([0, 0, 0, 0, 0, 0.1], shares, 1, [0, 0, 1], 0.5)).toEqual([-0.6, 0.4]); // one that runs at the eye has some room too
+});
+
+test("over a handle the pointer shows the way it slides", () => {
+  expect([cursorAlong(5, 0), cursorAlong(-5, 0.1), cursorAlong(0, -3), cursorAlong(2, 2), cursorAlong(-2, -2), cursorAlong(2, -2)])
+    .toEqual(["ew-resize", "ew-resize", "ns-resize", "nwse-resize", "nwse-resize", "nesw-resize"]);
 });
 
 test("a flight turns the short way round", () => {

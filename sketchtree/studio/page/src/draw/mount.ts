@@ -71,6 +71,6 @@ export function mountDraw(root: HTMLElement, store: Store): void {
     else picture.removeAttribute("src");
   });
   picture.addEventListener("load", desk.repaint);
-  store.on(["strokes", "read", "limbs", "tree", "selected", "selectedStrokes", "turn", "layout", "underlay", "trouble"], desk.repaint);
+  store.on(["strokes", "read", "limbs", "tree", "selected", "selectedStrokes", "pointed", "turn", "layout", "underlay", "trouble"], desk.repaint);
   pen.showCursor();
 }

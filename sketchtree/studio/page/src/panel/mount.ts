@@ -39,8 +39,8 @@ export function mountPanels(roots: PanelRoots, store: Store, views: Views): void
   dialogs.set("save", saveProject(store));
   dialogs.set("gallery", gallery(store));
   dialogs.set("export", exportTree(store, views));
+  mountStrip(roots.strip, store); // its pictures come first
   mountSide(roots.side, store);
-  mountStrip(roots.strip, store);
   mountStatus(roots.status, store);
   const hint = hintCard(store, () => newPage(store));
   const words = document.createElement("div");

@@ -18,6 +18,7 @@ import { doubtColours } from "./plant/doubt";
 import { Marks } from "./plant/marks";
 import { Plants } from "./plant/plants";
 import { Scenery } from "./plant/scenery";
+import { topOf } from "./plant/spots";
 import { Sky, type Lighting } from "./plant/surface";
 import { Textures } from "./plant/textures";
 import { mountBench } from "./show/bench";
@@ -81,6 +82,8 @@ function fill(view: View, store: Store): TreeViews {
   followHand(view, store, chosen);
   sayChosen(view, store, chosen);
 
+  view.spots = () => [...scenery.spots, ...figure.ends, 0, 0, 0];
+  view.top = () => topOf(scenery.spots);
   followFrames(view, store, { scenery, chosen, weather, ground, figure, ghosts });
   followLooks(view, store, { weather, ground, figure, ink, ghosts, lighting, scenery });
   followPage(view, store, ink);
@@ -122,7 +125,7 @@ function followFrames(view: View, store: Store, { scenery, chosen, weather, grou
     if (!scenery.box.isEmpty()) {
       weather.light(scenery.box);
       ground.under(scenery.box, trunkOf(store));
-      figure.beside(scenery.box);
+      figure.beside(scenery.box, scenery.spots);
       figure.stands = true;
       if (head.phase !== "glance") view.follow(!stood);
     }
@@ -207,13 +210,14 @@ function followHand(view: View, store: Store, chosen: Chosen): void {
     taken: () => { view.flight.stop(); view.root.focus({ preventScroll: true }); },
     clicked: (event) => store.set("selected", chosen.at(...within(event))),
     hovered: (event) => {
-      const looking = event.pointerType !== "touch" && (store.ui.tool === "select" || event.altKey || store.ui.uncertainty);
-      const id = looking ? chosen.at(...within(event)) : null;
-      chosen.point(id);
+      const onView = event.target === view.root || event.target === view.stage.canvas;
+      const slow = view.stage.pace.software && store.ui.tool !== "select" && !event.altKey && !store.ui.uncertainty; // each limb passed over would cost a picture
+      const id = onView && !slow && event.pointerType !== "touch" ? chosen.at(...within(event)) : null;
+      store.set("pointed", id);
       view.root.toggleAttribute("data-pointing", id !== null);
     },
   });
-  view.root.addEventListener("pointerleave", () => chosen.point(null));
+  view.root.addEventListener("pointerleave", () => store.set("pointed", null));
 }
 
 /** What is chosen is said aloud. */

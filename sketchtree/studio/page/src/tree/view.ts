@@ -16,7 +16,9 @@ export class View {
   readonly flight = new Flight();
   eye: Eye = { azimuth: 24, elevation: 6, distance: 20, target: [0, 4, 0] };
   box: Box3 | null = null; // of what there is to see
+  spots: () => ArrayLike<number> = () => []; // x, y, z of places that are to be seen when all is
   overPage: (() => { page: PageOnScreen; plane: PagePlane; azimuth: number } | null) = () => null; // while the page lies over the tree
+  top: () => Point = () => [0, 0, 0]; // of the tree
   foot = 0; // pixels at the lower end over which buttons stand
   private seesAll = true;
   private readonly cameras = new Cameras();
@@ -75,7 +77,7 @@ export class View {
   whole(azimuth = this.eye.azimuth, elevation = this.eye.elevation): Eye {
     const eye = { ...this.eye, azimuth, elevation };
     if (!this.box || this.box.isEmpty()) return eye;
-    return framed(eye, [this.box.min.x, 0, this.box.min.z], this.box.max.toArray(), this.stage.wide / this.stage.high, Math.min(0.3, this.foot / this.stage.high));
+    return framed(eye, this.spots(), this.stage.wide / this.stage.high, Math.min(0.3, this.foot / this.stage.high));
   }
 
   /** CSS pixels from the view's top left corner. */

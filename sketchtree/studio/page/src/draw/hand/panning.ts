@@ -12,6 +12,7 @@ export function panning(desk: Desk): Tool {
   const end = (): void => { last = null; };
   return {
     cursor: "grab",
+    held: "grabbing",
     down: to,
     move: (fresh) => { if (fresh.length) to(fresh[fresh.length - 1]!); },
     up: end,

@@ -43,7 +43,8 @@ export class Pen {
   }
 
   showCursor(): void {
-    this.canvas.style.cursor = (this.held?.tool ?? (this.space ? this.tools.panning : this.tools.current())).cursor;
+    const tool = this.held?.tool ?? (this.space ? this.tools.panning : this.tools.current());
+    this.canvas.style.cursor = (this.held && tool.held) || tool.cursor;
   }
 
   /** Whatever is in hand is let go, and nothing comes of it. */
@@ -106,8 +107,9 @@ export class Pen {
       if (this.fingers.move(event.pointerId, ...this.at(event), moves) && moves) return;
     }
     if (!this.held) {
-      if (event.pointerType !== "touch") this.tools.current().hover(this.touch(event));
-      return;
+      if (event.pointerType === "touch") return;
+      this.tools.current().hover(this.touch(event));
+      return this.showCursor();
     }
     if (event.pointerId !== this.held.pointer) return;
     if (event.pointerType === "mouse" && event.buttons === 0) return this.up(event); // it was let go outside the window
@@ -115,6 +117,7 @@ export class Pen {
     const fresh = (told.length ? told : [event]).map((one) => this.touch(one));
     this.held.last = fresh[fresh.length - 1]!;
     this.held.tool.move(fresh, (event.getPredictedEvents?.() ?? []).map((one) => this.touch(one)));
+    this.showCursor();
   }
 
   private up(event: PointerEvent): void {

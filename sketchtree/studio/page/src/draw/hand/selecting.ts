@@ -6,6 +6,7 @@ import { type Desk, here, isSamePage, pixels } from "../desk";
 import { distance, isCaught, isInside, nearest, nearestPoint } from "../line/nearness";
 import { moved, pulled } from "../line/reshaping";
 import { distanceToSpan } from "../line/thinning";
+import { limbOf } from "../selection";
 import { replace } from "../steps";
 import { projected } from "../turned";
 import type { Tool, Touch } from "./touch";
@@ -32,7 +33,7 @@ export function selecting(desk: Desk): Tool {
     desk.repaint();
   };
   return {
-    cursor: "default",
+    get cursor() { return far && grip ? "grabbing" : desk.hovered === null ? "default" : "pointer"; },
     down: (at) => {
       start = at;
       underlay = desk.movesUnderlay ? moveUnderlay(desk, at) : null;
@@ -63,6 +64,7 @@ export function selecting(desk: Desk): Tool {
       const over = at ? (under(desk, at)?.id ?? null) : null;
       if (over === desk.hovered) return;
       desk.hovered = over;
+      desk.store.set("pointed", over === null ? null : (limbOf(desk.store, over)?.id ?? null));
       desk.repaint();
     },
   };

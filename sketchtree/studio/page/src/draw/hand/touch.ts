@@ -11,7 +11,8 @@ export interface Touch extends Sample {
 }
 
 export interface Tool {
-  cursor: string;
+  readonly cursor: string;
+  readonly held?: string; // its cursor while it is pressed, where that is another
   down: (at: Touch) => void;
   move: (fresh: Touch[], predicted: Touch[]) => void; // all places since the last time
   up: (at: Touch) => void;

@@ -26,21 +26,22 @@ export function paintDrawing(on: CanvasRenderingContext2D, ratio: number, desk: 
   const look: Look = { palette, scale: camera.scale, width: usualWidth(desk), cased: over };
   const shownHere = here(store);
   const areasFirst = [...shownHere.filter((one) => one.kind !== "branch"), ...shownHere.filter((one) => one.kind === "branch")];
-  for (const stroke of areasFirst) paintOne(on, desk, look, stroke);
+  const pointed = new Set(store.known.limbs.find((limb) => limb.id === store.ui.pointed)?.strokes);
+  for (const stroke of areasFirst) paintOne(on, desk, look, stroke, pointed);
   on.setTransform(ratio, 0, 0, ratio, 0, 0);
   if (desk.instead.size === 0) paintMarks(on, camera, palette, marksHere(desk));
 }
 
-function paintOne(on: CanvasRenderingContext2D, desk: Desk, look: Look, stroke: Stroke): void {
+function paintOne(on: CanvasRenderingContext2D, desk: Desk, look: Look, stroke: Stroke, pointed: ReadonlySet<string>): void {
   const instead = desk.instead.get(stroke.id);
   if (instead?.length === 0) return paintStroke(on, stroke, look, "faint");
-  for (const one of instead ?? [stroke]) paintStroke(on, one, look, stateOf(desk, stroke));
+  for (const one of instead ?? [stroke]) paintStroke(on, one, look, stateOf(desk, stroke, pointed));
 }
 
-function stateOf(desk: Desk, stroke: Stroke): State {
+function stateOf(desk: Desk, stroke: Stroke, pointed: ReadonlySet<string>): State {
   if (desk.trouble === stroke.id) return "wrong";
   if (desk.store.ui.selectedStrokes.includes(stroke.id)) return "selected";
-  return desk.hovered === stroke.id ? "hovered" : "plain";
+  return desk.hovered === stroke.id || pointed.has(stroke.id) ? "hovered" : "plain";
 }
 
 /** What is in hand: the line being drawn, the lasso, the eraser. */

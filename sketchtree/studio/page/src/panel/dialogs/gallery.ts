@@ -2,6 +2,7 @@
 
 import { dialog } from "../../parts/dialog";
 import { element } from "../../parts/element";
+import { thumbnail } from "../../parts/thumbnail";
 import type { Choice } from "../../messages";
 import type { Store } from "../../store";
 import { onList } from "../catalogue";
@@ -28,15 +29,7 @@ export function gallery(store: Store): () => void {
 function example(choice: Choice, onPress: () => void): HTMLElement {
   const made = element("button", { class: "example", title: `Open ${choice.title}`, testId: `example-${choice.name}` });
   made.type = "button";
-  const frame = element("span", { class: "example-picture" });
-  if (choice.picture !== null) {
-    const image = element("img");
-    image.alt = "";
-    image.loading = "lazy";
-    image.decoding = "async";
-    image.src = choice.picture;
-    frame.append(image);
-  }
+  const frame = choice.picture === null ? element("span", { class: "example-picture" }) : thumbnail(choice.picture, "example-picture");
   made.append(frame, element("span", {}, choice.title));
   made.addEventListener("click", onPress);
   return made;

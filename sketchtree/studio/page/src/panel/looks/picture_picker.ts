@@ -1,6 +1,7 @@
 // One of many by its picture: a grid of them under a head that names the chosen one. Arrows move the focus, Enter or Space picks.
 
 import { element } from "../../parts/element";
+import { thumbnail } from "../../parts/thumbnail";
 import { roving } from "../roving";
 
 export interface Pickable {
@@ -56,13 +57,7 @@ function picture(one: Pickable, look: PickerLook): HTMLElement {
   made.type = "button";
   made.tabIndex = -1;
   if (typeof one.picture === "string") {
-    const image = element("img");
-    image.alt = "";
-    image.loading = "lazy";
-    image.decoding = "async";
-    image.draggable = false;
-    image.src = one.picture;
-    made.append(image);
+    made.append(thumbnail(one.picture, "picture-image"));
   } else made.append(one.picture ?? element("span", { class: "picture-word" }, one.title));
   return made;
 }

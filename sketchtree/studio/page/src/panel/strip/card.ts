@@ -1,6 +1,7 @@
 // What does one template look like in the strip? Its picture, its name, how like it the drawing is, and whether it is chosen or used.
 
 import { element } from "../../parts/element";
+import { thumbnail } from "../../parts/thumbnail";
 
 export interface CardLook {
   name: string;
@@ -42,12 +43,5 @@ export function card(look: CardLook): TemplateCard {
 
 function picture(look: CardLook): HTMLElement {
   if (look.picture === null) return element("span", { class: `template-picture plain ${look.name}`, aria: { hidden: "true" } });
-  const image = element("img", { class: "template-picture" });
-  image.alt = "";
-  image.loading = "lazy";
-  image.decoding = "async";
-  image.draggable = false;
-  image.addEventListener("error", () => image.classList.add("missing"));
-  image.src = look.picture;
-  return image;
+  return thumbnail(look.picture, "template-picture");
 }

@@ -12,7 +12,8 @@ export interface Eye {
 export const FIELD = 28; // degrees, vertical
 const LOWEST = -20; // degrees: from below the ground one sees little
 const HIGHEST = 89.5;
-const MARGIN = 1.14; // room for the height's label
+const ASIDE = 1.08; // room at both sides
+const ABOVE = 1.16; // and above and below: for the height's label, and a little sky
 
 const radians = (degrees: number): number => (degrees * Math.PI) / 180;
 
@@ -49,21 +50,40 @@ export function zoomed(eye: Eye, factor: number, x: number, y: number, high: num
   return { ...panned(eye, -x * moved, -y * moved, high), distance };
 }
 
-/** The nearest eye in the same direction that sees all of a tree in this box, with a margin: crowns are round, so their box's corners are empty. `foot`: the share
- *  of the view's height over whose lower end buttons stand. */
-export function framed(eye: Eye, low: Point, high: Point, aspect: number, foot = 0): Eye {
+/** The nearest eye in the same direction that sees all of these places (x, y, z …), with a margin. `foot`: the share of the view's height over whose lower end
+ *  buttons stand.
+ *
+ *      |r − c| ≤ B (d − b)   for each place       r, b   its way to the right and back, from the middle       B   half the view's width at distance 1
+ *      B d = (max(r + B b) − min(r − B b)) / 2,   c = (max(r + B b) + min(r − B b)) / 2;   the same upwards; the larger d holds
+ */
+export function framed(eye: Eye, spots: ArrayLike<number>, aspect: number, foot = 0): Eye {
+  if (spots.length < 3) return eye;
   const { right, up, back } = axes(eye);
-  const middle: Point = [(low[0] + high[0]) / 2, (low[1] + high[1]) / 2, (low[2] + high[2]) / 2];
   const half = Math.tan(radians(FIELD / 2));
-  const [tall, broad] = [(half * (1 - foot)) / MARGIN, (half * aspect) / MARGIN];
-  let distance = 0.1;
-  for (const [level, wide] of [[-1, 0.5], [0, 1], [1, 0.5]] as const)
-    for (let side = 0; side < 8; side++) {
-      const turn = (side * Math.PI) / 4;
-      const at: Point = [((high[0] - low[0]) / 2) * wide * Math.cos(turn), ((high[1] - low[1]) / 2) * level, ((high[2] - low[2]) / 2) * wide * Math.sin(turn)];
-      distance = Math.max(distance, dot(at, back) + Math.max(Math.abs(dot(at, up)) / tall, Math.abs(dot(at, right)) / broad));
-    }
-  return { ...eye, target: along(middle, up, -foot * half * distance), distance };
+  const [broad, tall] = [(half * aspect) / ASIDE, (half * (1 - foot)) / ABOVE];
+  const middle = middleOf(spots);
+  const [r, u] = [{ most: -Infinity, least: Infinity }, { most: -Infinity, least: Infinity }];
+  for (let k = 0; k + 2 < spots.length; k += 3) {
+    const at: Point = [spots[k]! - middle[0], spots[k + 1]! - middle[1], spots[k + 2]! - middle[2]];
+    const near = dot(at, back);
+    const [x, y] = [dot(at, right), dot(at, up)];
+    r.most = Math.max(r.most, x + broad * near);
+    r.least = Math.min(r.least, x - broad * near);
+    u.most = Math.max(u.most, y + tall * near);
+    u.least = Math.min(u.least, y - tall * near);
+  }
+  const distance = Math.max(0.1, (r.most - r.least) / (2 * broad), (u.most - u.least) / (2 * tall));
+  const target = along(along(middle, right, (r.most + r.least) / 2), up, (u.most + u.least) / 2 - foot * half * distance);
+  return { ...eye, target, distance };
+}
+
+function middleOf(spots: ArrayLike<number>): Point {
+  const [low, high] = [[Infinity, Infinity, Infinity], [-Infinity, -Infinity, -Infinity]];
+  for (let k = 0; k < spots.length; k++) {
+    low[k % 3] = Math.min(low[k % 3]!, spots[k]!);
+    high[k % 3] = Math.max(high[k % 3]!, spots[k]!);
+  }
+  return [0, 1, 2].map((k) => (low[k]! + high[k]!) / 2) as unknown as Point;
 }
 
 /** On the way from one to another; azimuths go the short way round, distances by their ratio. */

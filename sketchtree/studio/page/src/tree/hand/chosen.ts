@@ -14,13 +14,14 @@ const POINTED: Mark = [255, 226, 150, 120];
 
 export class Chosen {
   private found: Run[] | null = null; // made when somebody first asks: not while the pen is drawing
-  private pointed: string | null = null;
   private readonly line: Ghosts;
+  private readonly hint: Ghosts; // over the limb that is pointed at: its wood may be behind leaves
 
   constructor(private readonly view: View, private readonly scenery: Scenery, private readonly marks: { clear: () => void; set: (id: string, mark: Mark) => void }, private readonly store: Store) {
     this.line = new Ghosts(view.stage.scene, { light: ["#e07b00", "#ffb347"], dark: ["#ffc46b", "#ffab3d"] });
-    store.on(["selected", "limbs"], () => this.show());
-    store.on("theme", () => this.line.wear(store.ui.theme));
+    this.hint = new Ghosts(view.stage.scene, { light: ["#c77a10", "#ffdf9e"], dark: ["#ffe0a8", "#ffcf80"] });
+    store.on(["selected", "pointed", "limbs"], () => this.show());
+    store.on("theme", () => [this.line, this.hint].forEach((one) => one.wear(store.ui.theme)));
   }
 
   /** Other wood is there. */
@@ -43,20 +44,16 @@ export class Chosen {
     return hit ? (this.scenery.now.limbs[hit.limb] ?? null) : null;
   }
 
-  point(id: string | null): void {
-    if (id === this.pointed) return;
-    this.pointed = id;
-    this.show();
-  }
-
   private show(): void {
-    const { selected } = this.store.ui;
+    const { selected, pointed } = this.store.ui;
+    const hinted = pointed === selected ? null : this.store.known.limbs.find((limb) => limb.id === pointed);
     this.marks.clear();
-    if (this.pointed) this.marks.set(this.pointed, POINTED);
+    if (pointed) this.marks.set(pointed, POINTED);
     if (selected) for (const id of borne(selected, this.store)) this.marks.set(id, BORNE);
     if (selected) this.marks.set(selected, CHOSEN);
     const one = this.now;
     this.line.show(one ? [{ points: Float32Array.from(one.path), radius: 0 }] : [], 0.0028 * this.view.reach * 0.6);
+    this.hint.show(hinted ? [{ points: Float32Array.from(hinted.path), radius: 0 }] : [], 0.001 * this.view.reach);
     this.view.stage.draw();
   }
 }

@@ -6,7 +6,8 @@ import { along, dot } from "../eye/eye";
 /** Turns a place in the world into pixels of the view, y down. */
 export type Project = (at: Point) => readonly [x: number, y: number];
 
-const SEEN = 0.3; // of its length: an axis that is shorter to the eye than this is seen from its end
+const STEEPEST = 2.5; // depth a limb may gain, of its way on the page
+export const SEEN = 0.3; // of its length: an axis that is shorter to the eye than this is seen from its end
 
 /** Metres along `out` that a drag of (right, down) pixels means for a handle at `at`. Seen from its side the handle follows the pointer; seen from its end,
  * down pulls it nearer. `metre`: pixels of a metre seen from its side, there. */
@@ -17,6 +18,22 @@ export function pulled(at: Point, out: Point, right: number, down: number, proje
   const long = Math.hypot(...seen);
   if (long < SEEN) return down * step;
   return (step * (right * seen[0] + down * seen[1])) / (long * long);
+}
+
+/** How far a place of a limb may go along `out`, from where it is: no farther from the depth of the limb's foot than a few times as far as the two are apart on
+ *  the page, for beyond that a limb would only run at the eye. */
+export function limits(path: readonly number[], shares: readonly number[], share: number, out: Point, least: number): readonly [farther: number, nearer: number] {
+  const [foot, at] = [placeAt(path, shares, 0), placeAt(path, shares, share)];
+  const away: Point = [at[0] - foot[0], at[1] - foot[1], at[2] - foot[2]];
+  const deep = dot(away, out);
+  const most = Math.max(least, STEEPEST * Math.sqrt(Math.max(0, dot(away, away) - deep * deep)), Math.abs(deep));
+  return [-most - deep, most - deep];
+}
+
+/** The pointer's shape over something that slides this way on the screen, y down. */
+export function cursorAlong(right: number, down: number): string {
+  const eighth = Math.round((4 * Math.atan2(down, right)) / Math.PI) & 3; // a way and its opposite are the same
+  return ["ew-resize", "nwse-resize", "ns-resize", "nesw-resize"][eighth]!;
 }
 
 /** The limb's path when the place at `share` moves by `metres` along `out`: its foot stays, all beyond moves along. */

@@ -15,13 +15,15 @@ export class Guide {
     scene.add(this.line);
   }
 
-  show(at: Point, out: Point): void {
-    const long = 0.6 * this.view.reach;
-    this.line.geometry.setFromPoints([new Vector3(...along(at, out, -long)), new Vector3(...along(at, out, long))]);
+  /** From as far away as the place at `at` may go to as near. */
+  show(at: Point, out: Point, [farther, nearer]: readonly [number, number]): void {
+    const reach = this.view.reach;
+    this.line.geometry.setFromPoints([new Vector3(...along(at, out, farther)), new Vector3(...along(at, out, nearer))]);
     this.line.computeLineDistances();
-    this.line.material.dashSize = 0.02 * long;
-    this.line.material.gapSize = 0.014 * long;
+    this.line.material.dashSize = 0.012 * reach;
+    this.line.material.gapSize = 0.0085 * reach;
     this.line.visible = true;
+    this.view.stage.draw();
   }
 
   hide(): void {

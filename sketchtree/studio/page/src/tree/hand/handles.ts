@@ -1,6 +1,7 @@
 // How is a limb's depth taken in hand? Round grips along the chosen limb; each slides along the way out of its page only, by pointer or by arrow keys. While it
 // slides the limb bends here at once, and the program says how all that hangs on it would go (`Ghost`).
 
+import { metres as inMetres } from "../../panel/figures";
 import { element } from "../../parts/element";
 import type { Store } from "../../store";
 import { along, type Point } from "../eye/eye";
@@ -8,12 +9,13 @@ import { depthOf } from "../page/plane";
 import { Ghosts } from "../page/ghosts";
 import type { View } from "../view";
 import type { Chosen } from "./chosen";
-import { bent, grips, placeAt, pulled } from "./drag";
+import { bent, cursorAlong, grips, limits, placeAt, pulled, SEEN } from "./drag";
 import type { Guide } from "./guide";
 import type { Reached } from "./wood_of";
 
 const LIVE = 1000 / 15; // milliseconds between previews
 const ROOM = 26; // pixels between handles, at least
+const LEAST = 0.08; // of the tree's height: so far a handle may always go
 const STEP = 0.02; // of the tree's height, an arrow key
 
 export class Handles {
@@ -23,6 +25,7 @@ export class Handles {
   private dragging = false;
   private told = 0;
   private readonly preview: Ghosts;
+  private readonly words = element("span", { class: "tree-label tree-height tree-pulled", "aria-hidden": "true", hidden: true }); // how far, while it slides
 
   constructor(private readonly view: View, private readonly chosen: Chosen, private readonly store: Store, private readonly guide: Guide) {
     this.preview = new Ghosts(view.stage.scene, { light: ["#e07b00", "#ffd08a"], dark: ["#ffd08a", "#ffab3d"] });
@@ -40,7 +43,9 @@ export class Handles {
     const focused = this.shown.findIndex(({ handle }) => handle.matches(":focus"));
     this.one = this.chosen.now;
     const shares = !this.one ? [] : this.one.limb ? grips(this.one.limb.held) : [1];
-    this.layer.replaceChildren();
+    this.guide.hide();
+    this.words.hidden = true;
+    this.layer.replaceChildren(this.words);
     this.shown = shares.map((share, k) => ({ share, handle: this.handle(share, k) }));
     this.shown[focused]?.handle.focus();
     this.view.stage.draw();
@@ -56,8 +61,20 @@ export class Handles {
     const made = element("button", { class: `tree-handle${held ? " held" : ""}`, type: "button", "aria-label": name, title: "Drag nearer or farther. What was drawn stays as it was drawn.", "data-testid": `handle-${k}` });
     made.addEventListener("pointerdown", (event) => this.take(event, made, share));
     made.addEventListener("keydown", (event) => this.key(event, share));
+    for (const name of ["pointerenter", "focus"]) made.addEventListener(name, () => this.point(share));
+    for (const name of ["pointerleave", "blur"]) made.addEventListener(name, () => { if (!this.dragging) this.guide.hide(); });
     this.layer.append(made);
     return made;
+  }
+
+  /** Where it could slide to. */
+  private point(share: number): void {
+    if (this.dragging || !this.one) return;
+    this.guide.show(placeAt(this.one.path, this.one.share, share), this.one.out, this.room(this.one, share));
+  }
+
+  private room(one: Reached, share: number): readonly [number, number] {
+    return limits(one.path, one.share, share, one.out, LEAST * this.view.reach);
   }
 
   private take(down: PointerEvent, handle: HTMLButtonElement, share: number): void {
@@ -69,10 +86,14 @@ export class Handles {
     const one = this.one;
     const at = placeAt(one.path, one.share, share);
     this.dragging = true;
-    this.guide.show(at, one.out);
+    const [farthest, nearest] = this.room(one, share);
+    this.guide.show(at, one.out, [farthest, nearest]);
     let metres = 0;
     const moved = (event: PointerEvent): void => {
-      metres = pulled(at, one.out, event.clientX - down.clientX, event.clientY - down.clientY, this.view.project, this.view.metre(at));
+      const wish = pulled(at, one.out, event.clientX - down.clientX, event.clientY - down.clientY, this.view.project, this.view.metre(at));
+      metres = Math.min(nearest, Math.max(farthest, wish));
+      this.words.textContent = metres === 0 ? "" : `${inMetres(Math.abs(metres))} ${metres > 0 ? "nearer" : "farther"}`;
+      this.words.hidden = metres === 0;
       this.pull(one, share, metres, true);
     };
     const done = (event: PointerEvent): void => {
@@ -81,6 +102,7 @@ export class Handles {
       handle.removeEventListener("pointercancel", done);
       this.dragging = false;
       this.guide.hide();
+      this.words.hidden = true;
       if (event.type === "pointerup" && metres !== 0) this.pull(one, share, metres, false);
       else this.renew();
     };
@@ -94,7 +116,8 @@ export class Handles {
     if (!way || !this.one) return;
     event.preventDefault();
     event.stopPropagation();
-    this.pull(this.one, share, way * STEP * this.view.reach * (event.shiftKey ? 4 : 1), false);
+    const [farthest, nearest] = this.room(this.one, share);
+    this.pull(this.one, share, Math.min(nearest, Math.max(farthest, way * STEP * this.view.reach * (event.shiftKey ? 4 : 1))), false);
   }
 
   private pull(one: Reached, share: number, metres: number, live: boolean): void {
@@ -123,6 +146,10 @@ export class Handles {
       const room = last === null || Math.hypot(here[0] - last[0], here[1] - last[1]) > ROOM || handle.matches(":focus"); // asked of itself: in a notebook it is in a shadow root
       handle.style.visibility = room ? "visible" : "hidden";
       if (room) last = here;
+      const step = this.view.project(along(at, this.one.out, 1 / Math.max(this.view.metre(at), 1e-6))); // a pixel long, seen from its side
+      const [right, down] = [step[0] - this.view.project(at)[0], step[1] - this.view.project(at)[1]];
+      handle.style.cursor = Math.hypot(right, down) < SEEN ? "ns-resize" : cursorAlong(right, down);
+      if (this.moving?.share === share) this.words.style.transform = `translate(${here[0].toFixed(1)}px, ${here[1].toFixed(1)}px) translate(18px, -50%)`;
       handle.style.transform = `translate(${here[0].toFixed(1)}px, ${here[1].toFixed(1)}px) translate(-50%, -50%)`;
     }
   }

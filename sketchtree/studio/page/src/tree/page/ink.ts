@@ -12,6 +12,8 @@ const COLOURS: Record<"light" | "dark", Record<Stroke["kind"], string>> = {
 };
 const CASING = { light: "#fbf9f4", dark: "#1d2122" };
 const STRENGTH = 0.72;
+const FAINT = 0.1; // of it, from the page's edge
+const FADES = 9; // a power: from its own side a drawing lies on the tree; from a little beside, the tree is what one looks at
 
 interface Sheet {
   view: number; // degrees
@@ -68,7 +70,7 @@ export class Ink {
     this.size.value.set(wide, high);
     for (const { view, lines } of this.sheets.values()) {
       const facing = Math.abs(Math.cos(((azimuth - view) * Math.PI) / 180));
-      lines.material.uniforms.uOpacity!.value = STRENGTH * (0.12 + 0.88 * facing * facing);
+      lines.material.uniforms.uOpacity!.value = STRENGTH * (FAINT + (1 - FAINT) * facing ** FADES);
     }
   }
 

@@ -5,6 +5,7 @@ import type { Material } from "../../messages";
 import { baked, type BakedLeaves } from "./bake";
 import { merged, type Merged, type MergedLeaves, type MergedWood } from "./merge";
 import type { CardShape, Plant } from "./plant";
+import { spotsOf } from "./spots";
 import { SUN } from "../stage/weather";
 import { shadeOf } from "./shade";
 import { leafMaterial, leafShadow, woodMaterial, type Lighting } from "./surface";
@@ -21,6 +22,7 @@ interface Worn {
 export class Scenery {
   readonly group = new Group();
   readonly box = new Box3();
+  spots: Float32Array = new Float32Array(); // places of what stands
   now: Merged = { wood: [], leaves: [], limbs: [], number: new Map() };
   private shaded = false;
   private readonly worn = new Map<string, Worn>();
@@ -30,6 +32,7 @@ export class Scenery {
   /** Show this plant, where it was another. `quick`: the crown's shade may stay as it was for the moment. */
   show(plant: Plant, quick: boolean): void {
     this.now = merged(plant);
+    this.spots = spotsOf(this.now);
     this.lighting.marks.renumber(this.now.limbs, this.now.number);
     if (!quick || !this.shaded) this.lighting.sky.take(shadeOf(this.now.leaves, SUN.toArray()));
     this.shaded = this.now.leaves.length > 0;

@@ -28,7 +28,7 @@ export class Labels {
     if (this.store.ui.figure && tree && tree.height > 0) {
       const { x, z } = this.figure.group.position;
       this.put("tree-height", `${TALL} m`, () => [x, TALL, z]);
-      this.put("tree-height whole", `${tree.height.toFixed(tree.height < 10 ? 1 : 0)} m`, () => [0, tree.height, 0]);
+      this.put("tree-height whole", `${tree.height.toFixed(tree.height < 10 ? 1 : 0)} m`, () => this.view.top());
     }
     for (const limb of limbs.filter((one) => (one.locked || one.held.length) && one.id !== this.store.ui.selected).slice(0, MOST)) { // the chosen one has its handles there
       const label = this.put("tree-lock", "", () => markAt(limb));

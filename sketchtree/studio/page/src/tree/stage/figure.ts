@@ -3,6 +3,8 @@
 import { DoubleSide, Group, Mesh, MeshBasicMaterial, Shape, ShapeGeometry, type Box3, type Camera, type Scene } from "three";
 
 export const TALL = 1.8; // metres
+const HALF = 0.45; // metres: half the width that a person needs
+const ROOM = 1.2; // metres, before and behind
 
 export class Figure {
   readonly group = new Group();
@@ -35,15 +37,31 @@ export class Figure {
     this.wanted = this.asked;
   }
 
-  /** Beside this tree: to its left and a little in front, clear of the trunk. */
-  beside(box: Box3): void {
-    this.group.position.set(Math.max(box.min.x * 0.62, box.min.x + 0.3) - 0.4, 0, Math.min(0.35 * box.max.z, 2));
+  /** Beside this tree, to its left and a little in front: under its crown where there is room to stand, else clear of what hangs down. */
+  beside(box: Box3, spots: ArrayLike<number>): void {
+    const z = Math.min(0.35 * box.max.z, 2);
+    this.group.position.set(clear(spots, Math.max(box.min.x * 0.62, box.min.x + 0.3) - 0.4, z), 0, z);
+  }
+
+  /** Head and feet, so that who frames the tree frames the person too. */
+  get ends(): number[] {
+    const { x, z } = this.group.position;
+    return this.group.visible ? [x - HALF, TALL, z, x - HALF, 0, z] : [];
   }
 
   face(camera: Camera): void {
     this.group.rotation.y = Math.atan2(camera.matrixWorld.elements[8]!, camera.matrixWorld.elements[10]!);
     this.group.updateMatrixWorld();
   }
+}
+
+/** The place nearest to `x`, to its left, with nothing of the tree around a person there. */
+export function clear(spots: ArrayLike<number>, x: number, z: number): number {
+  const low: number[] = [];
+  for (let k = 0; k + 2 < spots.length; k += 3) if (spots[k + 1]! < TALL + HALF && Math.abs(spots[k + 2]! - z) < ROOM && spots[k]! < x + HALF) low.push(spots[k]!);
+  let at = x;
+  for (const one of low.sort((a, b) => b - a)) if (one > at - HALF) at = Math.min(at, one - HALF);
+  return at;
 }
 
 function head(): Shape {

@@ -1,0 +1,22 @@
+// How far does the tree reach, more truly than its box says? A few thousand of its places, of wood and leaves alike: who frames it, or stands beside it, asks these.
+
+import type { Merged } from "./merge";
+
+const MOST = 4000;
+
+/** x, y, z of places all over the plant; none where nothing stands. */
+export function spotsOf({ wood, leaves }: Pick<Merged, "wood" | "leaves">): Float32Array {
+  const lists = [...wood.map((one) => one.position), ...leaves.map((one) => one.place)];
+  const count = lists.reduce((sum, list) => sum + list.length / 3, 0);
+  const stride = Math.max(1, Math.ceil(count / MOST));
+  const spots: number[] = [];
+  for (const list of lists) for (let k = 0; k < list.length; k += 3 * stride) spots.push(list[k]!, list[k + 1]!, list[k + 2]!);
+  return Float32Array.from(spots);
+}
+
+/** The highest of them. */
+export function topOf(spots: Float32Array): [number, number, number] {
+  let top = 0;
+  for (let k = 3; k < spots.length; k += 3) if (spots[k + 1]! > spots[top + 1]!) top = k;
+  return spots.length ? [spots[top]!, spots[top + 1]!, spots[top + 2]!] : [0, 0, 0];
+}
