@@ -99,6 +99,24 @@ def draw_out(
         by_hand = read_hand_work(sketch) if edits is None or settled is None else None  # of a project file
         edits, settled = by_hand.edits if edits is None else edits, by_hand.settled if settled is None else settled
         sketch, graph = read_drawing(sketch, options, watch)
+    return draw_out_graph(sketch, graph, templates, key=key, options=options, edits=edits, settled=settled, similarity=similarity, quick=quick, watch=watch)
+
+
+def draw_out_graph(
+    sketch: Sketch,
+    graph: SketchGraph,
+    templates: Database | None = None,
+    *,
+    key: Key[Array, ""],
+    options: ReadingOptions = ReadingOptions(),
+    edits: Edits = Edits(),
+    settled: Settled = Settled(),
+    similarity: Similarity | None = None,
+    quick: bool = False,
+    watch: Watch | None = None,
+) -> DrawnTree:
+    """The same of a segment tree that is known already, of a photo for one: template → depths. `sketch` are its limbs as strokes."""
+    watch = watch or Watch()
     asked = _Asked(options, stage_key(key, "infer"), edits, settled, quick)
     with watch("match"):
         templates = templates if templates is not None or options.template == "none" else Database.open()

@@ -48,6 +48,7 @@ class Mixture:
 def fit_mixture(colour: Float[np.ndarray, "pixel channel"], components: int, *, key: Key[Array, ""]) -> Mixture:
     """The mixture that explains the colours best: expectation maximisation from a k-means start. At most so many components: fewer where there are fewer colours."""
     from sklearn.mixture import GaussianMixture
+    from threadpoolctl import threadpool_limits
 
     draw = numpy_generator(key)
     colour = np.asarray(colour, np.float64)
@@ -55,5 +56,6 @@ def fit_mixture(colour: Float[np.ndarray, "pixel channel"], components: int, *, 
         colour = colour[np.sort(draw.choice(len(colour), _SAMPLE, replace=False))]
     components = max(1, min(components, len(np.unique(colour, axis=0)) // 2))
     start = int(draw.integers(2**31 - 1))
-    fitted = GaussianMixture(components, reg_covar=_LEAST, max_iter=60, tol=1e-2, random_state=start).fit(colour)
+    with threadpool_limits(1):  # its matrices are 3 × 3: threads would only wait for each other
+        fitted = GaussianMixture(components, reg_covar=_LEAST, max_iter=60, tol=1e-2, random_state=start).fit(colour)
     return Mixture(fitted.weights_, fitted.means_, fitted.covariances_)

@@ -1,0 +1,149 @@
+"""What grows off the strokes? A circle is moved along every stroke, and on from every branch it finds, breadth first (§2, Figure 3).
+
+At each place wood crosses the circle in clusters. Those in sight of its centre are gone to, but for the one it came from, those that lie on a stroke, and those where another walk
+has been. Ours: a cluster wider than the limb it would grow from is no branch but leaves or a wall; where a limb is thicker than the circle, the circle grows to see past it.
+"""
+
+from collections import deque
+from dataclasses import dataclass, field
+
+import numpy as np
+from jaxtyping import Float
+from scipy.spatial import cKDTree
+
+from sketchtree.axes import NULL
+from sketchtree.photo.trace.circle import SIGHT, clusters_on
+from sketchtree.photo.trace.wood_likeness import WoodLikeness
+
+_BACK = np.cos(np.radians(40.0))  # a cluster within 40° of the way back is where the circle came from
+_BEEN = 0.45  # of the circle's radius: nearer to a place that is known already is no new one
+_WIDER = 2.5  # times its parent's thickness: no branch is as wide
+_LEAST = 0.25  # of the circle's radius: half a limb counts as that at least
+_PAST = 1.5  # of the limb's half width: the circle that sees past it
+_DEEPEST = 6  # branchings away from a stroke
+_DOWN = 3.0  # circles' radii that the foot of a branch may lie below the place it was seen from
+_FARTHER = 0.15  # radians that each circle's radius further down must gain
+_SHORT = 1.3  # of the circle's radius: a branch found no longer than that is a bump
+
+
+@dataclass(eq=False)
+class Walk:
+    """Places found so far; a growing table, parents first."""
+
+    parent: list[int] = field(default_factory=list)
+    xy: list = field(default_factory=list)
+    half: list[float] = field(default_factory=list)  # half the limb's thickness, pixels
+    stroke: list[int] = field(default_factory=list)
+    drawn: list[bool] = field(default_factory=list)
+    depth: list[int] = field(default_factory=list)  # branchings away from a stroke
+
+    def add(self, parent: int, xy, half: float, stroke: int, drawn: bool, depth: int) -> int:
+        """A place more; returns its row."""
+        for column, value in zip((self.parent, self.xy, self.half, self.stroke, self.drawn, self.depth), (parent, xy, half, stroke, drawn, depth), strict=True):
+            column.append(value)
+        return len(self.parent) - 1
+
+
+def follow(likeness: WoodLikeness, walk: Walk, radius: float, *, on_strokes: Float[np.ndarray, "point 2"], most: int = 2_000, strict: bool = False) -> Walk:
+    """Add to the places on strokes all that can be reached from them over wood. `on_strokes`: points along all strokes, a pixel or so apart; at most `most` places."""
+    strokes = cKDTree(on_strokes)
+    queue = deque(range(len(walk.parent)))
+    while queue and len(walk.parent) < most:
+        row = queue.popleft()
+        for place, half in _onward(likeness, walk, row, radius, strokes, strict):
+            known = cKDTree(np.array(walk.xy))
+            near = [k for k in known.query_ball_point(place, _BEEN * radius) if k != row]
+            if near:
+                continue
+            depth = walk.depth[row] + (walk.drawn[row] or _forks(walk, row))
+            if depth <= _DEEPEST:
+                queue.append(walk.add(row, place, half, walk.stroke[row], False, depth))
+    return walk
+
+
+def _onward(likeness: WoodLikeness, walk: Walk, row: int, radius: float, strokes: cKDTree, strict: bool) -> list[tuple[np.ndarray, float]]:
+    """(place, half width) of every cluster that leads somewhere new from a place."""
+    here, half = walk.xy[row], walk.half[row]
+    reach = max(radius, _PAST * half)
+    found = clusters_on(likeness, here, reach, strict=strict)
+    onward = []
+    for place, width, seen in zip(*found, strict=True):
+        if not seen or width > _WIDER * 2 * max(half, _LEAST * radius):
+            continue
+        if walk.parent[row] != NULL and not walk.drawn[row]:
+            back = walk.xy[walk.parent[row]] - here
+            if float((place - here) @ back) > _BACK * reach * np.hypot(*back):
+                continue
+        if strokes.query(place)[0] < max(0.35 * reach, width / 2):
+            continue
+        onward.append((place, max(width / 2, 0.5)))
+    return onward
+
+
+def _forks(walk: Walk, row: int) -> bool:
+    """Whether something found grows from this place already."""
+    return any(walk.parent[k] == row and not walk.drawn[k] for k in range(row + 1, len(walk.parent)))
+
+
+def without_bumps(walk: Walk, radius: float) -> Walk:
+    """Without found branches so short that they are bumps of the bark or leaves."""
+    parent, xy = np.array(walk.parent), np.array(walk.xy)
+    reach = np.zeros(len(parent))  # of what hangs on each place, pixels
+    for row in range(len(parent) - 1, 0, -1):
+        if parent[row] != NULL:
+            reach[parent[row]] = max(reach[parent[row]], reach[row] + np.hypot(*(xy[row] - xy[parent[row]])))
+    own = np.array([0.0 if parent[k] == NULL else np.hypot(*(xy[k] - xy[parent[k]])) for k in range(len(parent))])
+    drawn = np.array(walk.drawn)
+    side = ~drawn & (parent != NULL)
+    begins = side & drawn[np.maximum(parent, 0)]
+    bump = np.zeros(len(parent), bool)
+    for row in range(len(parent)):
+        bump[row] = (side[row] and bump[parent[row]]) or (begins[row] and own[row] + reach[row] < _SHORT * radius)
+    place = np.cumsum(~bump) - 1
+    kept = np.flatnonzero(~bump)
+    thin = Walk()
+    for row in kept:
+        thin.add(int(place[parent[row]]) if parent[row] != NULL else NULL, walk.xy[row], walk.half[row], walk.stroke[row], walk.drawn[row], walk.depth[row])
+    return thin
+
+
+def reseated(walk: Walk, likeness: WoodLikeness, radius: float) -> Walk:
+    """Every branch found on a stroke moved down that stroke to where it leaves it most smoothly: of the places in sight over wood within `_DOWN` circles, the one from which it
+    turns least (ours; a circle meets a steep branch only when it is past its foot)."""
+    parent, xy = list(walk.parent), np.array(walk.xy)
+    drawn = np.array(walk.drawn)
+    first_child = {up: row for row, up in reversed(list(enumerate(parent))) if up != NULL and not drawn[row]}
+    for row in np.flatnonzero(~drawn):
+        if not drawn[parent[row]]:
+            continue
+        onward = xy[first_child[row]] - xy[row] if row in first_child else None
+        best, least = parent[row], np.inf
+        spot, gone = parent[row], 0.0
+        while spot != NULL and gone <= _DOWN * radius and drawn[spot]:
+            turn = _turns(xy, parent, spot, row, onward) + _FARTHER * gone / radius
+            if turn < least and (spot == parent[row] or _in_sight(likeness, xy[spot], xy[row])):
+                best, least = spot, turn
+            up = parent[spot]
+            gone += np.hypot(*(xy[spot] - xy[up])) if up != NULL else 0.0
+            spot = up
+        parent[row] = int(best)
+    return Walk(parent, walk.xy, walk.half, walk.stroke, walk.drawn, walk.depth)
+
+
+def _turns(xy, parent, spot: int, row: int, onward) -> float:
+    """How much a branch that leaves a place towards another turns: from its parent's direction where it leaves, and where it goes on; radians."""
+    step = xy[row] - xy[spot]
+    before = xy[spot] - xy[parent[spot]] if parent[spot] != NULL else None
+    return sum(angle(a, b) for a, b in ((before, step), (step, onward)) if a is not None and b is not None)
+
+
+def _in_sight(likeness: WoodLikeness, a, b) -> bool:
+    """Whether there is wood most of the way between two places."""
+    share = np.linspace(0.0, 1.0, max(int(np.hypot(*(b - a))), 2))[:, None]
+    return bool(likeness.is_wood(a + share * (b - a)).mean() >= SIGHT)
+
+
+def angle(a, b) -> float:
+    """Angle between two directions, radians."""
+    size = np.hypot(*a) * np.hypot(*b)
+    return float(np.arccos(np.clip(a @ b / size, -1.0, 1.0))) if size > 0 else 0.0

@@ -1,0 +1,128 @@
+"""Which limbs show in the photo? Every stroke, what grows off it, how thick it all is; as one table (Tan et al. 2008, §2).
+
+    strokes → colours of wood → places on the strokes → circles onward → thickness → joints that say something
+"""
+
+from dataclasses import dataclass
+
+import numpy as np
+from jaxtyping import Array, Float, Key
+
+from sketchtree.axes import NULL
+from sketchtree.errors import SketchError
+from sketchtree.photo.foliage import Foliage
+from sketchtree.photo.marked import Marked
+from sketchtree.photo.photo import Photo
+from sketchtree.photo.trace.follow import Walk, angle, follow, reseated, without_bumps
+from sketchtree.photo.trace.lines import evenly
+from sketchtree.photo.trace.palette import Palette
+from sketchtree.photo.trace.thickness import TAPER, half_widths, largest_circle
+from sketchtree.photo.trace.traced import Traced
+from sketchtree.photo.trace.wood_likeness import WoodLikeness, learn_wood
+
+CIRCLE = 50.0 / 1500.0  # radius of the circle / longer side of the photo (§2)
+_UNDER = 3.0 / 1500.0  # width of a stroke
+_THICKEST = 0.12  # half a trunk / longer side of the photo
+_ONE_PLACE = 0.25  # of the circle's radius: a stroke that starts so near to another starts on it
+
+
+@dataclass(frozen=True)
+class Tracing:
+    """How limbs are traced."""
+
+    circle: float = CIRCLE
+    strict: bool = False  # the paper's line of sight: not one pixel of it may be anything but wood
+    widths: str = "measured"  # measured: where the photo shows them; "paper": the root's, × 0.75 a generation
+    most: int = 2_000  # places
+
+    def __call__(self, photo: Photo, marked: Marked, foliage: Foliage | None = None, *, key: Key[Array, ""], palette: Palette | None = None) -> Traced:
+        """The visible limbs of one tree. `palette`: the photo's, if it is at hand (strokes that come and go leave it as it is). Raises SketchError without a stroke."""
+        if not marked.branches:
+            raise SketchError("No stroke marks the trunk.", remedy="Draw one from the root up along the trunk.")
+        longer = max(photo.width, photo.height)
+        radius = max(self.circle * longer, 4.0)
+        likeness = learn_wood(Palette.of(photo) if palette is None else palette, marked, foliage, width=max(round(_UNDER * longer), 1), key=key)
+        walk, points = places_on(likeness, marked, radius, _THICKEST * longer)
+        walk = follow(likeness, walk, radius, on_strokes=points, most=self.most, strict=self.strict)
+        walk = reseated(without_bumps(walk, radius), likeness, radius)
+        return _table(walk, self.widths)
+
+
+def places_on(likeness: WoodLikeness, marked: Marked, radius: float, most: float) -> tuple[Walk, Float[np.ndarray, "point 2"]]:
+    """(places half a circle apart on every stroke, points along all strokes a pixel or so apart). Each stroke but the first hangs on the nearest place of those before it."""
+    walk, points = Walk(), []
+    trunk = largest_circle(likeness, np.asarray(marked.branches[0], np.float64)[0], most)
+    for k, stroke in enumerate(marked.branches):
+        fine, _ = evenly(stroke, 1.0)
+        place, along = evenly(stroke, 0.5 * radius)
+        half = half_widths(likeness, place, along, most)
+        above = NULL
+        if k:
+            known = np.array(walk.xy)
+            above = int(np.argmin(np.hypot(*(known - place[0]).T)))
+            if np.hypot(*(known[above] - place[0])) < _ONE_PLACE * radius:
+                place, half = place[1:], half[1:]
+        limit = trunk if above == NULL else walk.half[above]
+        for spot, width in zip(place, _falling(half, limit), strict=True):
+            above = walk.add(above, spot, float(width), k, True, 0)
+        points.append(fine)
+    return walk, np.concatenate(points)
+
+
+def _falling(half: Float[np.ndarray, " place"], first: float) -> Float[np.ndarray, " place"]:
+    """Half widths along a limb from what could be measured: none thicker than the limb it grows from, thinner towards the tip, gaps bridged."""
+    known = np.flatnonzero(np.isfinite(half))
+    if len(known) == 0:
+        return np.linspace(TAPER * first, 0.4 * TAPER * first, len(half))
+    bridged = np.interp(np.arange(len(half)), known, half[known])
+    window = 5
+    middle = np.array([np.median(bridged[max(0, k - window) : k + window + 1]) for k in range(len(half))])
+    return np.minimum.accumulate(np.minimum(middle, first))
+
+
+def _table(walk: Walk, widths: str) -> Traced:
+    """The joints that say something, with generations and radii."""
+    parent, xy, half = np.array(walk.parent), np.array(walk.xy), np.array(walk.half)
+    carries = carried_on(parent, xy, half, np.array(walk.stroke), np.array(walk.drawn))
+    generation = np.zeros(len(parent), np.int64)
+    for row in range(1, len(parent)):
+        if parent[row] != NULL:
+            generation[row] = generation[parent[row]] + (carries[parent[row]] != row)
+    radius = half[0] * TAPER**generation if widths == "paper" else _narrowing(parent, carries, half)
+    return Traced(parent, xy, radius, generation, np.array(walk.stroke), np.array(walk.drawn))
+
+
+def carried_on(parent, xy, half, stroke, drawn) -> np.ndarray:
+    """Which child carries each joint's limb on: its own stroke's next place, else the one that bends least for its thickness; NULL at a tip."""
+    carries = np.full(len(parent), NULL)
+    children: dict[int, list[int]] = {}
+    for row, up in enumerate(parent):
+        if up != NULL:
+            children.setdefault(int(up), []).append(row)
+    for up, rows in children.items():
+        own = [k for k in rows if drawn[k] and drawn[up] and stroke[k] == stroke[up]]
+        if own:
+            carries[up] = own[0]
+            continue
+        before = xy[up] - xy[parent[up]] if parent[up] != NULL else np.array([0.0, -1.0])
+        bend = [angle(before, xy[k] - xy[up]) for k in rows]
+        best = int(np.argmin([b - 0.5 * half[k] / half[up] for b, k in zip(bend, rows, strict=True)]))
+        carries[up] = rows[best]
+    return carries
+
+
+def _narrowing(parent, carries, half) -> Float[np.ndarray, " joint"]:
+    """Measured half widths, none thicker than the one before it; a lateral at most `TAPER` of its parent's."""
+    radius = np.array(half)
+    for row in range(len(parent)):
+        if parent[row] != NULL:
+            most = radius[parent[row]] * (1.0 if carries[parent[row]] == row else TAPER)
+            radius[row] = min(radius[row], most)
+    return np.maximum(radius, 0.5)
+
+
+def length_of(traced: Traced) -> float:
+    """All its limbs together, pixels."""
+    rows = np.flatnonzero(traced.parent != NULL)
+    return float(np.hypot(*(traced.xy[rows] - traced.xy[traced.parent[rows]]).T).sum())
+
