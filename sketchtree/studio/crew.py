@@ -20,9 +20,11 @@ from sketchtree.errors import SketchTreeError
 from sketchtree.studio import messages
 from sketchtree.studio.engine import Outcome
 from sketchtree.studio.hand import Ended, Fault, Hand
+from sketchtree.studio.making.basis import Basis
 
 _ROLES = ("quick", "full", "side")
 _SMALL, _LINES = 1_000_000, (".svg", ".json", ".excalidraw", ".inkml")  # bytes, and kinds, of drawings that are read at once
+_AFTER_PAINT = 1.0  # seconds from a tree that is there at once to the beginning of the next process: a page is being painted
 _PAUSE = 0.1  # seconds between two tellings of how far a stage is
 
 
@@ -42,19 +44,31 @@ class Crew:
         self._made, self._revived = -1, -1  # revisions: of the newest full tree, and of the last for which the process of full trees had to be begun again
         self._told = (0.0, "")
         self._catalogue: messages.Welcome | None = None
+        self._whole_shown, self._soon = -1, None  # the revision whose whole tree the pages have already; when the hurried one begins then
+
+    @property
+    def shown(self) -> tuple[dict[str, str], Basis | None]:
+        """(digest of every chunk that the pages have of the last full tree, what it was)."""
+        return self._known, self._basis
+
+    def has_shown(self, revision: int, digests: dict[str, str], basis: Basis) -> None:
+        """The pages have the whole tree of this revision, which was asked for just now. It is made all the same, and what is different of it is sent."""
+        self._whole_shown, self._known, self._basis = revision, dict(digests), basis
+        self._soon = self._loop.call_later(_AFTER_PAINT, self._hands["quick"].ready)
 
     async def start(self) -> None:
         """Begin the processes."""
         self._loop = asyncio.get_running_loop()
         for role in _ROLES:
             self._hands[role] = Hand(role, self._database, self._event if role == "full" else lambda number, value: None, self._full_ended if role == "full" else lambda: None)
-        for role in ("side", "full"):  # the quick one begins when there is a tree to hurry after
-            self._hands[role].begin()
+        self._hands["full"].begin()  # the others once there is a tree, or when they are asked
 
     async def stop(self) -> None:
         """End all processes."""
         for task in self._tasks:
             task.cancel()
+        if self._soon is not None:
+            self._soon.cancel()
         for hand in self._hands.values():
             hand.end()
 
@@ -72,7 +86,7 @@ class Crew:
         try:
             while True:
                 revision, document = self._revision, self._document
-                if document.strokes and self._hands["quick"].runs:
+                if document.strokes and self._hands["quick"].runs and revision != self._whole_shown:
                     document = await self._hurry(revision, document)
                 if revision == self._revision:
                     break
@@ -98,8 +112,9 @@ class Crew:
             return
         frame, digests, basis = found
         self._known, self._basis, self._made = digests, basis, revision
-        self._hands["quick"].ready()
         self.on_outcome(Outcome(revision, frame, settled=basis.settled))
+        for role in ("quick", "side"):
+            self._hands[role].ready()
         self._say(messages.Working(state="idle", revision=revision))
 
     def _revive(self, revision: int, error: Ended) -> bool:

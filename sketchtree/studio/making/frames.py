@@ -30,9 +30,21 @@ class Arrays:
 
     def frame(self, head: messages.Tree | messages.Ghost) -> bytes:
         """The bytes of the frame; the head's `arrays` are these."""
-        text = msgspec.json.encode(msgspec.structs.replace(head, arrays=self.heads), enc_hook=_plain)
-        padding = b"\0" * (-(4 + len(text)) % _ALIGN)
-        return b"".join([struct.pack("<I", len(text)), text, padding, *self._parts])
+        return headed(msgspec.structs.replace(head, arrays=self.heads), *self._parts)
+
+
+def headed(head: messages.Tree | messages.Ghost, *body: bytes) -> bytes:
+    """The bytes of a frame whose arrays are there."""
+    text = msgspec.json.encode(head, enc_hook=_plain)
+    padding = b"\0" * (-(4 + len(text)) % _ALIGN)
+    return b"".join([struct.pack("<I", len(text)), text, padding, *body])
+
+
+def beheaded(frame: bytes) -> tuple[messages.Tree | messages.Ghost, memoryview]:
+    """(head, the bytes of its arrays) of a frame."""
+    (length,) = struct.unpack_from("<I", frame)
+    head = msgspec.json.decode(frame[4 : 4 + length], type=messages.Tree | messages.Ghost)
+    return head, memoryview(frame)[4 + length + -(4 + length) % _ALIGN :]
 
 
 def _plain(value: object) -> object:
@@ -44,11 +56,9 @@ def _plain(value: object) -> object:
 
 def opened(frame: bytes) -> tuple[messages.Tree | messages.Ghost, dict[str, np.ndarray]]:
     """(head, arrays by name) of a frame."""
-    (length,) = struct.unpack_from("<I", frame)
-    head = msgspec.json.decode(frame[4 : 4 + length], type=messages.Tree | messages.Ghost)
-    start = 4 + length + -(4 + length) % _ALIGN
+    head, body = beheaded(frame)
     found = {}
     for one in head.arrays:
         count = int(np.prod(one.shape))
-        found[one.name] = np.frombuffer(frame, _KINDS[one.dtype], count, start + one.offset).reshape(one.shape)
+        found[one.name] = np.frombuffer(body, _KINDS[one.dtype], count, one.offset).reshape(one.shape)
     return head, found
