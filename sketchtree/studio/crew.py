@@ -1,7 +1,7 @@
 """Who makes the trees? Three processes, so that a stroke never waits for the whole tree, nor the whole tree for an export.
 
     quick    what was touched, in a hurry; the stroke in hand
-    full     the whole tree, and its undrawn limbs when one is picked
+    full     the whole tree; meanwhile, of the last one, what pages that join need and the undrawn limb that is picked
     side     everything else: pictures, other readings, glances, files in and out
 
 Each begins when it is first needed, and is begun again should it end. The newest request wins; a hurried answer goes before the full tree of the same revision.
@@ -37,8 +37,8 @@ class Crew:
         self._hands: dict[str, Hand] = {}
         self._tasks: set[asyncio.Task] = set()
         self._hurrying = False  # a hurried answer is under way
-        self._known: dict[str, str] = {}  # owner → digest of the chunk that the pages have
-        self._basis = None
+        self._known: dict[str, str] = {}  # owner → digest of the chunk that every page has of the last full tree; hurried ones take theirs out
+        self._basis, self._job = None, 0  # of the last full tree: what it was, and the number of its job
         self._revision, self._full_number, self._glancing = 0, 0, False
         self._document = Document()
         self._made, self._revived = -1, -1  # revisions: of the newest full tree, and of the last for which the process of full trees had to be begun again
@@ -98,7 +98,8 @@ class Crew:
         await self._whole(revision, document)
 
     async def _whole(self, revision: int, document: Document) -> None:
-        self._full_number, answer = self._hands["full"].ask("full", revision, document, dict(self._known))
+        number, answer = self._hands["full"].ask("full", revision, document, dict(self._known), self._job)
+        self._full_number = number
         try:
             found = await answer
         except Ended as error:
@@ -111,7 +112,7 @@ class Crew:
         if found is None or revision != self._revision:
             return
         frame, digests, basis = found
-        self._known, self._basis, self._made = digests, basis, revision
+        self._known, self._basis, self._made, self._job = digests, basis, revision, number
         self.on_outcome(Outcome(revision, frame, settled=basis.settled))
         for role in ("quick", "side"):
             self._hands[role].ready()
@@ -122,7 +123,7 @@ class Crew:
         if self._revived == revision:
             self._trouble(revision, Ended(error.message, remedy="It ended twice at this step: undo it. Should that not help, save, and start the studio again."))
             return False
-        self._revived = revision
+        self._revived, self._known = revision, {}  # a page that joins meanwhile has nothing of it
         again = messages.Trouble(message=error.message, remedy="It is begun again by itself; nothing of the drawing is lost.", about="program")
         self.on_outcome(Outcome(revision, again))
         return True
@@ -142,10 +143,10 @@ class Crew:
         if found is None or revision != self._revision:
             return document
         frame, digests, settled = found
-        self._known |= digests
+        self._known = {owner: digest for owner, digest in self._known.items() if owner not in digests}
         if self._basis is not None:
             self._basis = dataclasses.replace(self._basis, owners=tuple(dict.fromkeys((*self._basis.owners, *digests))), settled=settled)
-        self.on_outcome(Outcome(revision, frame))
+        self.on_outcome(Outcome(revision, frame, rough=settled))
         return document.replace(settled=dataclasses.replace(settled, manner=document.settled.manner))
 
     def refresh(self) -> None:
@@ -155,7 +156,7 @@ class Crew:
         """As `Engine.frame`."""
         if self._basis is None:
             return None
-        return await self._hands["full"].ask("frame")[1]
+        return await self._hands["full"].ask("frame", self._job)[1]
 
     def ghost(self, revision: int, document: Document, stroke: messages.Stroke | None, hold: messages.Hold | None) -> None:
         """As `Engine.ghost`."""
@@ -203,7 +204,7 @@ class Crew:
 
     async def find(self, document: Document, limb: int):
         """As `Engine.find`."""
-        return await self._hands["full"].ask("find", limb)[1]
+        return await self._hands["full"].ask("find", self._job, limb)[1]
 
     async def read(self, data: bytes, name: str) -> Document:
         """As `Engine.read`. Small drawings of lines are read here, on a thread: they are there before any other process is."""

@@ -7,6 +7,7 @@ Every step gets the next revision, goes into the journal, is told to all pages, 
 """
 
 import asyncio
+import errno
 import time
 from collections.abc import Callable, Hashable
 from dataclasses import dataclass, field
@@ -23,7 +24,7 @@ from sketchtree.studio.ledger import Ledger
 from sketchtree.studio.outbox import Outbox, encode
 from sketchtree.studio.recovery import Journal, Recovered
 from sketchtree.studio.scribe import Scribe
-from sketchtree.studio.settling import sharing
+from sketchtree.studio.settling import known_at_once, sharing
 
 _KEPT = (messages.Working, messages.Matches, messages.Read, messages.Alternatives)  # the newest of each is told to pages that join later
 _NO_TREE = frozenset({"underlay", "name", "units", "page"})  # fields of a document that its tree does not hang on
@@ -60,12 +61,15 @@ class Desk:
         self.turn = asyncio.Lock()  # one request after the other changes the document
         self.other_readings: tuple[int, Document, list[Settled]] | None = None  # revision, document, settled: what `Pick` picks of
         self.tasks: set[asyncio.Task] = set()
+        self.pending: dict[asyncio.Task, int] = {}  # of them, edits of limbs that are being looked for → the revision at which they were asked
         self.notes: list[messages.Trouble] = []  # told to every page that joins
         self.pictures: dict[str, bytes] = {}  # that were traced over, by digest
         self._wrong: messages.Trouble | None = None  # why there is no tree of the drawing as it is
+        self._unkept: messages.Trouble | None = None  # why steps are not in the journal
         self._clock = clock
         self._pages: set[Page] = set()
         self._kept: dict[type, messages.Event] = {}
+        self._rough: Settled | None = None  # where the depths are for now, as pages show them
         self._settled_since = 1  # revision at which the settled depths were last set by a step
         self._came = asyncio.Event()  # an outcome, since `settles` looked last
         self.scribe, self.ledger = Scribe(None, self._cannot_keep), Ledger(self.history)
@@ -100,6 +104,7 @@ class Desk:
         for task in (*self.tasks, *(page.sender for page in self._pages if page.sender)):
             task.cancel()
         await self.scribe.rest()
+        self.scribe.end()
         if self.scribe.journal is not None:
             self.scribe.journal.close()
 
@@ -109,6 +114,10 @@ class Desk:
     def document(self) -> Document:
         """The drawing now."""
         return self.history.document
+
+    def with_limb(self, limb: int) -> Document | None:
+        """The drawing, in which that limb has a depth: one drawn just now has that of its hurried tree. None: it is not drawn."""
+        return known_at_once(self.document, limb, self._rough)
 
     @property
     def saved(self) -> bool:
@@ -141,7 +150,7 @@ class Desk:
         page.greeted = True
         self._pages.add(page)
         page.outbox.everything()
-        for event in (*self._kept.values(), *self.notes, *([self._wrong] if self._wrong else ())):
+        for event in (*self._kept.values(), *self.notes, *filter(None, (self._wrong, self._unkept))):
             page.outbox.put(event)
         self.engine.refresh()
 
@@ -220,11 +229,15 @@ class Desk:
         lines = ()
         if outcome.settled is not None and self._settled_since <= outcome.revision <= self.revision:
             lines = self._settle(outcome.settled)
+        if outcome.rough is not None and outcome.revision == self.revision:
+            self._rough = outcome.rough
         if isinstance(outcome.event, messages.Trouble) or outcome.settled is not None:
             self._wrong = outcome.event if isinstance(outcome.event, messages.Trouble) else None
         rests = isinstance(outcome.event, messages.Working) and outcome.event.state == "idle"
         if lines:
             self.scribe.write(lines, lambda: self._told(outcome.event))
+        elif outcome.settled is not None:
+            self.scribe.after(lambda: self._told(outcome.event))  # not before its step
         elif rests:
             self.scribe.after(lambda: self._rests(outcome.event))  # not before its tree
         else:
@@ -267,9 +280,16 @@ class Desk:
         if self.document.underlay is not None:
             self.pictures[wire.digest(self.document.underlay.picture)] = self.document.underlay.picture
 
-    def _cannot_keep(self, error: OSError) -> None:
-        why = (error.strerror or "it fails").lower()
-        self.tell(messages.Trouble(message=f"Steps can't be kept for recovery: {why}.", remedy="Free some space, and save the drawing.", about="program"))
+    def _cannot_keep(self, error: OSError | None) -> None:
+        """Steps can't be kept; None: they can again, and all are."""
+        if error is None:
+            self._unkept = None
+            self.tell(messages.Trouble(message="Steps are kept for recovery again.", remedy="None is missing.", about="program"))
+            return
+        why, full = (error.strerror or "it fails").lower(), error.errno in (errno.ENOSPC, errno.EDQUOT)
+        remedy = "Free some space, and save the drawing." if full else f"Save the drawing. They are kept again once {self.scribe.journal.path.parent} can be written to."
+        self._unkept = messages.Trouble(message=f"Steps can't be kept for recovery: {why}.", remedy=remedy, about="program")
+        self.tell(self._unkept)
 
 
 def trouble_of(error: SketchTreeError, about: str | None = None) -> messages.Trouble:

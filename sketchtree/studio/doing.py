@@ -13,7 +13,9 @@ from sketchtree.studio import filing, messages, wire
 from sketchtree.studio.change import Change
 from sketchtree.studio.desk import Desk, Page, trouble_of
 
-_SETTLES = 5.0  # seconds that an edit waits for limbs just drawn
+_SETTLES = 5.0  # seconds that an edit waits, aside, for a limb that is not there yet
+_PENDING = 32  # edits that may wait so
+Edit = Callable[[Document, int], Document]
 
 
 async def do(desk: Desk, page: Page, request: messages.Request) -> None:
@@ -71,28 +73,23 @@ async def _hold(desk: Desk, page: Page, request: messages.Hold) -> None:
     if request.live:
         desk.engine.ghost(desk.revision, desk.document, None, request)
         return
-    async with desk.turn:
-        document = await _with_limb(desk, int(request.limb))
-        desk.step(operations.hold(document, int(request.limb), request.share, request.depth), "depth")
+    await _edit(desk, page, int(request.limb), lambda document, limb: operations.hold(document, limb, request.share, request.depth), "depth")
 
 
 async def _flip(desk: Desk, page: Page, request: messages.Flip) -> None:
-    async with desk.turn:
-        desk.step(operations.flip(await _with_limb(desk, int(request.limb)), int(request.limb)), "flip")
+    await _edit(desk, page, int(request.limb), operations.flip, "flip")
 
 
 async def _lock(desk: Desk, page: Page, request: messages.Lock) -> None:
+    if request.on:
+        await _edit(desk, page, int(request.limb), lambda document, limb: operations.lock(document, limb, True), "lock")
+        return
     async with desk.turn:
-        limb = int(request.limb)
-        document = await _with_limb(desk, limb) if request.on else desk.document
-        desk.step(operations.lock(document, limb, request.on), "lock" if request.on else "unlock")
+        desk.step(operations.lock(desk.document, int(request.limb), False), "unlock")
 
 
 async def _delete(desk: Desk, page: Page, request: messages.Delete) -> None:
-    async with desk.turn:
-        limb = int(request.limb)
-        found = await _undrawn(desk, limb)
-        desk.step(operations.delete(desk.document, limb) if found is None else operations.clear(desk.document, found), "delete")
+    await _edit(desk, page, int(request.limb), operations.delete, "delete", undrawn=operations.clear)
 
 
 async def _mirror(desk: Desk, page: Page, request: messages.Mirror) -> None:
@@ -105,27 +102,47 @@ async def _settle(desk: Desk, page: Page, request: messages.Settle) -> None:
         desk.step(operations.settle_anew(desk.document), "settle")
 
 
-async def _with_limb(desk: Desk, limb: int) -> Document:
-    """The document, in which that limb is drawn, or adopted now. Raises SketchTreeError."""
-    found = await _undrawn(desk, limb)
-    return desk.document if found is None else operations.adopt(desk.document, found)
+async def _edit(desk: Desk, page: Page, limb: int, what: Edit, label: str, undrawn: Callable[[Document, Adopted], Document] | None = None) -> None:
+    """An edit of one limb. An undrawn one is looked for aside, and `undrawn` done to it, or it is adopted: nothing else waits meanwhile. Raises SketchTreeError."""
+    async with desk.turn:
+        if _edited(desk, limb, what, label):
+            return
+    if len(desk.pending) >= _PENDING:
+        raise OptionError("Too many edits wait for the tree.", remedy="Wait until it is ready, then pick the limb again.")
+
+    async def find_and_edit() -> None:
+        found = await _undrawn(desk, limb)
+        async with desk.turn:
+            if not _edited(desk, limb, what, label):
+                desk.step(what(desk.document, limb) if found is None else _of_undrawn(desk.document, found, what, undrawn), label)
+
+    task = _aside(desk, page, find_and_edit)
+    desk.pending[task] = desk.revision
+    task.add_done_callback(desk.pending.pop)
+
+
+def _edited(desk: Desk, limb: int, what: Edit, label: str) -> bool:
+    """Does it, if the limb is drawn or adopted. Raises SketchTreeError."""
+    document = desk.with_limb(operations.limb_now(desk.document, limb))
+    if document is None:
+        return False
+    desk.step(what(document, limb), label)
+    return True
+
+
+def _of_undrawn(document: Document, found: Adopted, what: Edit, undrawn: Callable[[Document, Adopted], Document] | None) -> Document:
+    """The edit of a limb that was found."""
+    return what(operations.adopt(document, found), found.limb) if undrawn is None else undrawn(document, found)
 
 
 async def _undrawn(desk: Desk, limb: int) -> Adopted | None:
-    """An undrawn limb as the tree has it; None: it is drawn or adopted. One that was drawn just now may have to settle first. Raises SketchTreeError."""
-
-    def is_drawn(document: Document) -> bool:
-        return limb in document.settled.limbs
-
-    if is_drawn(desk.document):
-        return None
+    """An undrawn limb as the tree has it; None: it is drawn. The tree it was picked on may be one that is being made. Raises SketchTreeError."""
     try:
-        found = await desk.engine.find(desk.document, limb)
+        return await desk.engine.find(desk.document, limb)
     except SketchTreeError:
-        if not await desk.settles(is_drawn, _SETTLES):
-            raise
-        return None
-    return None if is_drawn(desk.document) else found
+        if await desk.settles(lambda _: desk.with_limb(limb) is not None, _SETTLES):
+            return None
+    return await desk.engine.find(desk.document, limb)
 
 
 async def _readings(desk: Desk, page: Page, request: messages.Readings) -> None:
@@ -152,6 +169,11 @@ async def _pick(desk: Desk, page: Page, request: messages.Pick) -> None:
 
 
 async def _undo(desk: Desk, page: Page, request: messages.Undo) -> None:
+    last = next(reversed(desk.pending), None)
+    if last is not None and desk.pending[last] == desk.revision:  # what was asked last is not done yet
+        last.cancel()
+        desk.answer(page)
+        return
     async with desk.turn:
         desk.walk(on=False)
 
@@ -195,7 +217,7 @@ async def _set_underlay(desk: Desk, page: Page, request: messages.SetUnderlay) -
         desk.step(document.replace(underlay=wire.underlay_in(said, picture)), "picture", alike="underlay")
 
 
-def _aside(desk: Desk, page: Page, work: Callable[[], Awaitable[None]], only: str | None = None) -> None:
+def _aside(desk: Desk, page: Page, work: Callable[[], Awaitable[None]], only: str | None = None) -> asyncio.Task:
     """Do it beside the other requests; of the same `only`, the newest wins."""
     for task in desk.tasks if only is not None else ():
         if task.get_name() == only:
@@ -210,6 +232,7 @@ def _aside(desk: Desk, page: Page, work: Callable[[], Awaitable[None]], only: st
     task = asyncio.get_running_loop().create_task(run(), name=only)
     desk.tasks.add(task)
     task.add_done_callback(desk.tasks.discard)
+    return task
 
 
 _DOING: dict[type, Callable[[Desk, Page, Any], Awaitable[None]]] = {

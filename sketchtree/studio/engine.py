@@ -20,6 +20,7 @@ class Outcome:
     revision: int
     event: bytes | messages.Event  # bytes: a binary frame, ready to be sent
     settled: Settled | None = None  # where the depths came to, with a full `Tree`
+    rough: Settled | None = None  # where they are for now, with a quick one
 
 
 class Engine(Protocol):
@@ -55,7 +56,7 @@ class Engine(Protocol):
         """Stop what is going on."""
 
     async def find(self, document: Document, limb: int) -> Any:
-        """An undrawn limb of the present tree as an `edits.Adopted`; raises SketchTreeError where there is none of that id."""
+        """An undrawn limb of the tree that is shown as an `edits.Adopted`, whatever is being made; raises SketchTreeError where there is none of that id."""
 
     async def read(self, data: bytes, name: str) -> Document:
         """A document of a file: any drawing, or a project. Raises SketchTreeError."""

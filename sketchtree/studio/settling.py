@@ -1,9 +1,13 @@
-"""Which of the settled depths are new? Those that are not stay the objects that they were: history and journal keep each only once."""
+"""Which of the settled depths are new? Those that are not stay the objects that they were: history and journal keep each only once.
+
+And which are there before the whole tree is? Those of the hurried one, which the page shows: whoever edits a limb that was drawn just now need not wait.
+"""
 
 from dataclasses import fields, replace
 
 import numpy as np
 
+from sketchtree.editing.document import Document
 from sketchtree.editing.settled import Depths, Settled
 
 _FIELDS = tuple(field.name for field in fields(Depths))
@@ -15,6 +19,18 @@ def sharing(new: Settled, old: Settled) -> Settled:
     like = len(limbs) == len(old.limbs) and all(old.limbs.get(limb) is depths for limb, depths in limbs.items())
     others = (one.name for one in fields(Settled) if one.name != "limbs")
     return old if like and all(getattr(new, name) == getattr(old, name) for name in others) else replace(new, limbs=limbs)
+
+
+def known_at_once(document: Document, limb: int, rough: Settled | None) -> Document | None:
+    """The document, in which that limb, and what it grows on, have depths: settled ones, else rough ones. None: it is not drawn."""
+    known = dict(document.settled.limbs)
+    while limb is not None and limb not in known:
+        depths = None if rough is None else rough.limbs.get(limb)
+        if depths is None or not depths.strokes or any(name not in document.strokes for name in depths.strokes):
+            return None
+        known[limb] = depths
+        limb = depths.parent
+    return document if len(known) == len(document.settled.limbs) else document.replace(settled=replace(document.settled, limbs=known))
 
 
 def same(one: Depths, other: Depths) -> bool:

@@ -224,17 +224,92 @@ async def test_an_edit_of_no_limb_is_refused():
 
 
 @run
-async def test_an_edit_of_a_limb_just_drawn_waits_until_its_depth_is_known():
+async def test_an_edit_of_a_limb_just_drawn_is_done_when_its_depth_is_known_and_nothing_waits_for_it():
     async with talking() as talk:
         talk.engine.answers = False
-        await talk.say(drawn("a"))
-        edit = asyncio.create_task(talk.say(messages.Hold(limb="1", share=1.0, depth=4.0)))
-        for _ in range(5):
-            await asyncio.sleep(0)
-        assert not edit.done()
+        await talk.say(drawn("a"), messages.Hold(limb="1", share=1.0, depth=4.0), drawn("b"))
+        assert talk.session.document.edits.held == {} and talk.strokes() == ["a", "b"]
         talk.engine.answer(*talk.engine.made[-1])
-        await edit
+        await talk.hear()
         assert 1 in talk.session.document.edits.held and talk.all("trouble") == []
+
+
+@run
+async def test_an_edit_of_a_limb_that_a_hurried_tree_shows_is_done_at_once():
+    async with talking(Document(strokes={"a": Stroke("a", [[0, 0], [0, 9]])})) as talk:
+        talk.engine.answers = False
+        await talk.say(drawn("b"))
+        rough = settled(talk.session.document, depth=3.0)
+        talk.session.desk.on_outcome(Outcome(2, frame(2, phase="quick"), rough=rough))
+        known = talk.session.document.settled
+        await talk.say(messages.Flip(limb="2"))
+        document = talk.session.document
+        assert document.edits.held[2].depth.tolist() == [0, -3] and document.settled.limbs[1] is known.limbs[1] and talk.last("changed")["undo"] == "flip"
+        await talk.say(messages.Undo(), messages.Undo())
+        assert talk.session.document.settled is known and talk.strokes() == ["a"]
+
+
+@run
+async def test_depths_of_a_hurried_tree_whose_stroke_is_gone_are_no_limb():
+    async with talking(Document(strokes={"a": Stroke("a", [[0, 0], [0, 9]])})) as talk:
+        talk.engine.answers = False
+        await talk.say(drawn("b"))
+        talk.session.desk.on_outcome(Outcome(2, frame(2, phase="quick"), rough=settled(talk.session.document)))
+        await talk.say(messages.Undo(), messages.Flip(limb="2"))
+        assert talk.session.document.edits.held == {} and talk.session.document.settled.limbs.keys() == {1}
+
+
+@run
+async def test_an_undrawn_limb_is_deleted_and_strokes_are_drawn_while_the_whole_tree_is_never_ready():
+    async with talking(Document(strokes={"a": Stroke("a", [[0, 0], [0, 9]])})) as talk:
+        talk.engine.answers = False
+        await talk.say(drawn("b"), messages.Delete(limb="1001"), messages.Lock(limb="1002", on=True), drawn("c"))
+        assert talk.strokes() == ["a", "b", "c"] and {edit["limb"] for edit in talk.last("changed")["edits"] or ()} <= {"1001", "1002"}
+        assert set(talk.session.document.edits.cleared) == {1001} and set(talk.session.document.edits.adopted) == {1002}
+
+
+class Searching(FakeEngine):
+    """Finds an undrawn limb only when it is told to."""
+
+    def __init__(self):
+        super().__init__()
+        self.found = asyncio.Event()
+
+    async def find(self, document, limb):
+        await self.found.wait()
+        return await super().find(document, limb)
+
+
+@run
+async def test_nobody_waits_for_a_limb_that_is_being_looked_for():
+    async with talking(Document(strokes={"a": Stroke("a", [[0, 0], [0, 9]])}), engine=Searching()) as talk:
+        await talk.say(messages.Delete(limb="1001"), drawn("b"), messages.Choose(options={"seed": 5}), messages.Flip(limb="2"))
+        assert talk.strokes() == ["a", "b"] and talk.session.document.seed == 5 and 2 in talk.session.document.edits.held
+        talk.engine.found.set()
+        await talk.hear()
+        assert set(talk.session.document.edits.cleared) == {1001} and talk.last("changed")["undo"] == "delete"
+
+
+@run
+async def test_undo_takes_back_an_edit_that_is_not_done_yet_but_only_if_it_was_the_last():
+    async with talking(Document(strokes={"a": Stroke("a", [[0, 0], [0, 9]])}), engine=Searching()) as talk:
+        await talk.say(messages.Delete(limb="1001"), messages.Undo())
+        talk.engine.found.set()
+        await talk.hear()
+        assert not talk.session.document.edits and talk.strokes() == ["a"]
+        talk.engine.found.clear()
+        await talk.say(messages.Delete(limb="1001"), drawn("b"), messages.Undo())
+        assert talk.strokes() == ["a"]
+        talk.engine.found.set()
+        await talk.hear()
+        assert set(talk.session.document.edits.cleared) == {1001}
+
+
+@run
+async def test_edits_that_wait_are_no_growing_heap():
+    async with talking(Document(strokes={"a": Stroke("a", [[0, 0], [0, 9]])}), engine=Searching()) as talk:
+        await talk.say(*(messages.Delete(limb=str(1000 + k)) for k in range(40)))
+        assert talk.last("trouble")["message"] == "Too many edits wait for the tree." and len(talk.desk.pending) == 32
 
 
 @run

@@ -19,7 +19,7 @@ class Jobs:
         self.templates = Database.open(database)
         self.textures = Textures()
         self.desk = desk
-        self._shown: tuple | None = None  # revision, document, drawn, tree, chunks of the last full tree
+        self._made: dict[int, tuple] = {}  # job → revision, document, drawn, tree, chunks: the full tree that the pages have, and one that they may get
 
     def do(self, number: int, kind: str, arguments: tuple) -> object:
         """The answer to one job."""
@@ -42,7 +42,7 @@ class Jobs:
 
     def import_all(self) -> None:
         """What trees are made with."""
-        from sketchtree.studio.making import chunks, ghosts, remarks, warm, work  # noqa: F401
+        from sketchtree.studio.making import chunks, found, ghosts, remarks, warm, work  # noqa: F401
 
     def warm_up(self, quick: bool) -> None:
         """Compile what every drawing needs, before it is asked for."""
@@ -50,12 +50,13 @@ class Jobs:
 
         warm_up(quick)
 
-    def _full(self, number, watch, revision: int, document: Document, known: dict[str, str]):
+    def _full(self, number, watch, revision: int, document: Document, known: dict[str, str], shown: int):
         from sketchtree.keys import root_key
         from sketchtree.studio.making import work
         from sketchtree.studio.making.chunks import chunks_of
         from sketchtree.studio.making.remarks import how_like, how_read
 
+        self._made = {job: made for job, made in self._made.items() if job == shown}
         drawn = work.drawn_tree(self.bench, document, watch)
         for event in (how_read(revision, drawn), how_like(revision, drawn)):
             self.desk.say(number, "event", ("event", event))
@@ -64,16 +65,17 @@ class Jobs:
             chunks = chunks_of(tree, key=root_key(document.seed))
         watch.on_part(0.9)
         self.textures.remember(chunks.materials)
-        self._shown = revision, document, drawn, tree, chunks
         frame, digests = work.tree_frame(revision, "full", document, drawn, tree, chunks, known)
+        self._made = self._made | {number: (revision, document, drawn, tree, chunks)}  # another dict: who answers meanwhile has the old one
         return frame, digests, _basis(drawn, tree, chunks, digests)
 
-    def _frame(self, number, watch):
-        if self._shown is None:
+    def _frame(self, number, watch, shown: int):
+        made = self._made.get(shown)
+        if made is None:
             return None
         from sketchtree.studio.making import work
 
-        revision, document, drawn, tree, chunks = self._shown
+        revision, document, drawn, tree, chunks = made
         return work.tree_frame(revision, "full", document, drawn, tree, chunks, {})[0]
 
     def _quick(self, number, watch, revision: int, document: Document, basis):
@@ -105,13 +107,15 @@ class Jobs:
 
         return alternatives(self.templates, revision, document, watch)
 
-    def _find(self, number, watch, limb: int):
+    def _find(self, number, watch, shown: int, limb: int):
         from sketchtree.errors import OptionError
         from sketchtree.studio.making.found import found_limb
 
-        if self._shown is None:
+        made = self._made.get(shown)
+        if made is None:
             raise OptionError("The tree is not ready yet.", remedy="Wait until it is, then pick the branch again.")
-        return found_limb(self._shown[2], self._shown[3].skeleton, limb)
+        _, _, drawn, tree, _ = made
+        return found_limb(drawn, tree.skeleton, limb)
 
     def _read(self, number, watch, data: bytes, name: str):
         from sketchtree.studio.making.documents import document_of

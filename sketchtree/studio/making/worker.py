@@ -2,7 +2,8 @@
 
 A job is (number, kind, pickled arguments), an outcome (number, what, value): "event" (an event or a frame, with what is settled), "done" (the answer), "trouble" (a SketchTreeError),
 "stopped", "fault" (a fault of ours, as text). Of kinds in `NEWEST` only the newest job matters: an older one that waits is dropped, one that runs ends at its next step.
-`LAST` wait for all others: what the tree wears goes before pictures of what it might wear.
+`LAST` wait for all others: what the tree wears goes before pictures of what it might wear. `KNOWN` wait for nothing: they ask of the tree that is made already, and
+are answered on a thread of their own while the next one is being made.
 The pipe is private to the two processes. Arguments are unpickled, which imports what they are made of, where the jobs are done: imports on two threads at once
 may see a module that is half there.
 """
@@ -21,6 +22,7 @@ from sketchtree.errors import SketchTreeError
 
 NEWEST = ("full", "quick", "ghost", "glance", "alternatives")
 LAST = ("picture",)
+KNOWN = ("find", "frame")
 
 _NICE = {"quick": 0, "full": 4, "side": 8}  # what a pen waits for goes before what a tree waits for, and that before pictures
 
@@ -30,7 +32,8 @@ class Desk:
 
     def __init__(self, pipe: Connection, gone: Callable[[], None] = lambda: os._exit(0)):
         """`gone`: what is done when the server is."""
-        self.pipe, self.jobs, self.gone = pipe, queue.PriorityQueue(), gone
+        self.pipe, self.jobs, self.known, self.gone = pipe, queue.PriorityQueue(), queue.SimpleQueue(), gone
+        self._saying = threading.Lock()
         self.newest: dict[str, int] = {}
         self.ended = -1  # jobs up to this number are to stop
         threading.Thread(target=self._listen, daemon=True).start()
@@ -43,7 +46,7 @@ class Desk:
                     self.ended = number
                     continue
                 self.newest[kind] = number
-                self.jobs.put((kind in LAST, number, kind, arguments))
+                (self.known if kind in KNOWN else self.jobs).put((kind in LAST, number, kind, arguments))
         except (EOFError, OSError):
             self.gone()
 
@@ -54,7 +57,8 @@ class Desk:
     def say(self, number: int, what: str, value: object = None) -> None:
         """An outcome."""
         try:
-            self.pipe.send((number, what, value))
+            with self._saying:
+                self.pipe.send((number, what, value))
         except (BrokenPipeError, OSError):
             self.gone()
 
@@ -70,6 +74,7 @@ def main(pipe: Connection, database: str | None, role: str) -> None:
     jobs = Jobs(None if database is None else Path(database), desk)
     if role != "side":
         jobs.import_all()  # before there is another thread
+    threading.Thread(target=_answer, args=(jobs, desk), daemon=True).start()
     warm = threading.Thread(target=jobs.warm_up, args=(role == "quick",), daemon=True)
     if role == "quick":
         warm.start()
@@ -81,6 +86,13 @@ def main(pipe: Connection, database: str | None, role: str) -> None:
         _do(jobs, desk, number, kind, arguments)
         if role == "full" and warm.ident is None:
             warm.start()  # after the first tree, which somebody waits for
+
+
+def _answer(jobs, desk: Desk) -> None:
+    """What is asked of the tree that is made already."""
+    while True:
+        _, number, kind, arguments = desk.known.get()
+        _do(jobs, desk, number, kind, arguments)
 
 
 def _do(jobs, desk: Desk, number: int, kind: str, arguments: bytes) -> None:
