@@ -8,6 +8,7 @@ from collections import deque
 from dataclasses import dataclass, field
 
 import numpy as np
+import shapely
 from jaxtyping import Float
 from scipy.spatial import cKDTree
 
@@ -18,8 +19,10 @@ from sketchtree.photo.trace.wood_likeness import WoodLikeness
 _BACK = np.cos(np.radians(40.0))  # a cluster within 40° of the way back is where the circle came from
 _BEEN = 0.45  # of the circle's radius: nearer to a place that is known already is no new one
 _WIDER = 2.5  # times its parent's thickness: no branch is as wide
+_WIDEST = 1.1  # the same of a limb under a stroke, whose thickness is known better
 _LEAST = 0.25  # of the circle's radius: half a limb counts as that at least
 _PAST = 1.5  # of the limb's half width: the circle that sees past it
+_TEXTURE = 8  # clusters on one circle: more of them are leaves or grass
 _DEEPEST = 6  # branchings away from a stroke
 _DOWN = 3.0  # circles' radii that the foot of a branch may lie below the place it was seen from
 _FARTHER = 0.15  # radians that each circle's radius further down must gain
@@ -44,16 +47,20 @@ class Walk:
         return len(self.parent) - 1
 
 
-def follow(likeness: WoodLikeness, walk: Walk, radius: float, *, on_strokes: Float[np.ndarray, "point 2"], most: int = 2_000, strict: bool = False) -> Walk:
-    """Add to the places on strokes all that can be reached from them over wood. `on_strokes`: points along all strokes, a pixel or so apart; at most `most` places."""
+def follow(
+    likeness: WoodLikeness, walk: Walk, radius: float, *, on_strokes: Float[np.ndarray, "point 2"], within: shapely.Geometry, most: int = 2_000, strict: bool = False
+) -> Walk:
+    """Add to the places on strokes all that can be reached from them over wood. `on_strokes`: points along all strokes, a pixel or so apart; `within`: where branches may be
+    found; at most `most` places."""
     strokes = cKDTree(on_strokes)
     queue = deque(range(len(walk.parent)))
     while queue and len(walk.parent) < most:
         row = queue.popleft()
         for place, half in _onward(likeness, walk, row, radius, strokes, strict):
-            known = cKDTree(np.array(walk.xy))
-            near = [k for k in known.query_ball_point(place, _BEEN * radius) if k != row]
-            if near:
+            known = np.array(walk.xy)
+            near = np.hypot(known[:, 0] - place[0], known[:, 1] - place[1]) < _BEEN * radius
+            near[row] = False
+            if near.any() or not shapely.contains_xy(within, *place):
                 continue
             depth = walk.depth[row] + (walk.drawn[row] or _forks(walk, row))
             if depth <= _DEEPEST:
@@ -66,9 +73,11 @@ def _onward(likeness: WoodLikeness, walk: Walk, row: int, radius: float, strokes
     here, half = walk.xy[row], walk.half[row]
     reach = max(radius, _PAST * half)
     found = clusters_on(likeness, here, reach, strict=strict)
+    if not strict and len(found.width) > _TEXTURE:
+        return []
     onward = []
     for place, width, seen in zip(*found, strict=True):
-        if not seen or width > _WIDER * 2 * max(half, _LEAST * radius):
+        if not seen or width > (_WIDEST if walk.drawn[row] else _WIDER) * 2 * max(half, _LEAST * radius):
             continue
         if walk.parent[row] != NULL and not walk.drawn[row]:
             back = walk.xy[walk.parent[row]] - here

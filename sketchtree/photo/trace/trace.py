@@ -6,6 +6,7 @@
 from dataclasses import dataclass
 
 import numpy as np
+import shapely
 from jaxtyping import Array, Float, Key
 
 from sketchtree.axes import NULL
@@ -23,6 +24,7 @@ from sketchtree.photo.trace.wood_likeness import WoodLikeness, learn_wood
 CIRCLE = 50.0 / 1500.0  # radius of the circle / longer side of the photo (§2)
 _UNDER = 3.0 / 1500.0  # width of a stroke
 _THICKEST = 0.12  # half a trunk / longer side of the photo
+_FLARE = 1.4  # a root's thickness / that of the trunk above it, at most
 _ONE_PLACE = 0.25  # of the circle's radius: a stroke that starts so near to another starts on it
 
 
@@ -43,15 +45,24 @@ class Tracing:
         radius = max(self.circle * longer, 4.0)
         likeness = learn_wood(Palette.of(photo) if palette is None else palette, marked, foliage, width=max(round(_UNDER * longer), 1), key=key)
         walk, points = places_on(likeness, marked, radius, _THICKEST * longer)
-        walk = follow(likeness, walk, radius, on_strokes=points, most=self.most, strict=self.strict)
+        walk = follow(likeness, walk, radius, on_strokes=points, within=room_for(marked, radius), most=self.most, strict=self.strict)
         walk = reseated(without_bumps(walk, radius), likeness, radius)
         return _table(walk, self.widths)
+
+
+def room_for(marked: Marked, radius: float) -> shapely.Geometry:
+    """Where branches may be found: within the crown's stroke and a circle's width round it, above the root (ours: below lie grass, shadows and other trees)."""
+    crown = shapely.make_valid(shapely.Polygon(marked.crown))
+    room = crown.buffer(2 * radius)
+    left, top, right, _ = room.bounds
+    lowest = min(float(marked.branches[0][0][1]) - radius, crown.bounds[3] + radius)
+    return room.intersection(shapely.box(left, min(top, lowest), right, lowest))
 
 
 def places_on(likeness: WoodLikeness, marked: Marked, radius: float, most: float) -> tuple[Walk, Float[np.ndarray, "point 2"]]:
     """(places half a circle apart on every stroke, points along all strokes a pixel or so apart). Each stroke but the first hangs on the nearest place of those before it."""
     walk, points = Walk(), []
-    trunk = largest_circle(likeness, np.asarray(marked.branches[0], np.float64)[0], most)
+    trunk = root_radius(likeness, marked.branches[0], radius, most)
     for k, stroke in enumerate(marked.branches):
         fine, _ = evenly(stroke, 1.0)
         place, along = evenly(stroke, 0.5 * radius)
@@ -67,6 +78,15 @@ def places_on(likeness: WoodLikeness, marked: Marked, radius: float, most: float
             above = walk.add(above, spot, float(width), k, True, 0)
         points.append(fine)
     return walk, np.concatenate(points)
+
+
+def root_radius(likeness: WoodLikeness, stroke: Float[np.ndarray, "point 2"], radius: float, most: float) -> float:
+    """Half the trunk's thickness at its root: the largest circle of wood there (§2), but no more than `_FLARE` times what is seen across the trunk higher up (ours: grass and
+    shadow at the root may look like wood)."""
+    place, along = evenly(stroke, 0.5 * radius)
+    seen = half_widths(likeness, place, along, most)[: max(len(place) // 2, 2)]
+    circle = largest_circle(likeness, place[0], most)
+    return min(circle, _FLARE * float(np.nanmedian(seen))) if np.isfinite(seen).any() else circle
 
 
 def _falling(half: Float[np.ndarray, " place"], first: float) -> Float[np.ndarray, " place"]:
