@@ -110,5 +110,7 @@ async def _turn_to(desk: Desk, journal) -> None:
     await desk.scribe.turn_to(journal)
     await asyncio.to_thread(journal.clear if journal is before else journal.set_aside)
     if before is not journal:
+        journal.keep_key(before.key)
+        before.keep_key(None)
         await asyncio.to_thread(before.clear)
         before.close()

@@ -23,7 +23,7 @@ from sketchtree.studio import wire
 from sketchtree.studio.change import Change, apply, change
 
 VERSION = 1
-_PLAIN = ("edits", "reading", "tree", "seed", "name", "units", "page")  # fields that are written as they are
+_PLAIN = ("edits", "reading", "tree", "seed", "name", "units", "page", "warnings")  # fields that are written as they are
 
 
 class _Line(msgspec.Struct, forbid_unknown_fields=True, frozen=True, kw_only=True, omit_defaults=True):
@@ -43,6 +43,7 @@ class _Resettled(_Line):
     rest: dict[str, Any]  # all but its limbs, as a project has it
     put: dict[int, Depths] = {}
     gone: list[int] = []
+    order: list[int] | None = None  # of all limbs, where `put` and `gone` alone don't give it
 
 
 class Different(_Line):
@@ -60,6 +61,7 @@ class Different(_Line):
     name: str | UnsetType = UNSET
     units: str | UnsetType = UNSET
     page: tuple[float, float, float, float] | None | UnsetType = UNSET
+    warnings: tuple[str, ...] | UnsetType = UNSET
 
 
 class Begin(_Line, tag="begin"):
@@ -122,8 +124,8 @@ def differing(document: Document, said: Different, pictures: Mapping[str, bytes]
     """The document after what was written down. Raises KeyError where a picture or a stroke is missing."""
     others = {name: getattr(said, name) for name in _PLAIN if getattr(said, name) is not UNSET}
     if said.settled is not UNSET:
-        gone = set(said.settled.gone)
-        limbs = {limb: depths for limb, depths in document.settled.limbs.items() if limb not in gone} | said.settled.put
+        limbs = _mixed(document.settled.limbs, said.settled.put, said.settled.gone)
+        limbs = limbs if said.settled.order is None else {limb: limbs[limb] for limb in said.settled.order}
         others["settled"] = replace(kept.reading(kept.settled_from_json, said.settled.rest), limbs=limbs)
     if said.underlay is not UNSET:
         place = said.underlay
@@ -144,7 +146,14 @@ def decode(text: bytes) -> Line:
 
 def _resettled(old: Settled, new: Settled) -> _Resettled:
     put = {limb: depths for limb, depths in new.limbs.items() if old.limbs.get(limb) is not depths}
-    return _Resettled(rest=kept.settled_as_json(replace(new, limbs={})), put=put, gone=[limb for limb in old.limbs if limb not in new.limbs])
+    gone, order = [limb for limb in old.limbs if limb not in new.limbs], list(new.limbs)
+    as_it_is = order == list(_mixed(old.limbs, put, gone))
+    return _Resettled(rest=kept.settled_as_json(replace(new, limbs={})), put=put, gone=gone, order=None if as_it_is else order)
+
+
+def _mixed(limbs: Mapping[int, Depths], put: Mapping[int, Depths], gone: list[int]) -> dict[int, Depths]:
+    left = set(gone)
+    return {limb: depths for limb, depths in limbs.items() if limb not in left} | put
 
 
 def _placed(underlay: Underlay | None) -> _Placed | None:

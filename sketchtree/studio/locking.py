@@ -28,11 +28,30 @@ class Lock:
         os.write(descriptor, f" {os.getpid()}\n".encode())
         return cls(path, descriptor, None)
 
+    def holds(self) -> bool:
+        """Is it ours still? Where its file is gone it is taken anew; False: another has it now. Raises OSError."""
+        if self._descriptor is None or same_file(self.path, self._descriptor):
+            return self._descriptor is not None
+        again = Lock.taken(self.path)
+        if again.holder is not None:
+            return False
+        os.close(self._descriptor)
+        self._descriptor = again._descriptor
+        return True
+
     def free(self) -> None:
         """Others may have it."""
         if self._descriptor is not None:
             os.close(self._descriptor)
             self._descriptor = None
+
+
+def same_file(path: Path, descriptor: int) -> bool:
+    """Is the file of that name the one that is open?"""
+    try:
+        return os.path.samestat(path.stat(), os.fstat(descriptor))
+    except FileNotFoundError:
+        return False
 
 
 def _locked(descriptor: int) -> bool:

@@ -4,6 +4,8 @@ One journal a project, in the user's own data folder (`SKETCHTREE_RECOVERY` name
 so that a drawing which is safe in its file has none. Nothing is ever deleted that was not saved: what can't be read is set aside under another name.
 """
 
+import contextlib
+import errno
 import hashlib
 import os
 import re
@@ -17,9 +19,10 @@ from platformdirs import user_data_dir
 from sketchtree.editing.document import Document
 from sketchtree.errors import SketchTreeError
 from sketchtree.studio import journal_lines as lines
+from sketchtree.studio import key as keys
 from sketchtree.studio.change import change
 from sketchtree.studio.history import History
-from sketchtree.studio.locking import Lock
+from sketchtree.studio.locking import Lock, same_file
 
 _UNTITLED = 20  # drawings without a name that may be open at once
 
@@ -44,16 +47,25 @@ def shelf() -> Path:
     try:
         folder.mkdir(mode=0o700, parents=True, exist_ok=True)
     except OSError as error:
-        raise StudioError(
-            f"Can't keep the studio's journal in {folder}: {(error.strerror or 'it fails').lower()}.",
-            remedy="Name a folder you may write to in SKETCHTREE_RECOVERY.",
-        ) from error
+        raise _cannot_keep(folder, error) from error
     return folder
 
 
-def journal_of(project: Path | None) -> "Journal":
-    """The journal of a project file, or of a drawing without one, which nobody else has open. Raises StudioError."""
+def journal_of(project: Path | None, *, home: Path | None = None) -> "Journal":
+    """The journal of a project file, or of a drawing without one, which nobody else has open; rather that of a studio that ran in `home`. Raises StudioError."""
     folder = shelf()
+    try:
+        return _journal_in(folder, project, home)
+    except OSError as error:
+        raise _cannot_keep(folder, error) from error
+
+
+def _cannot_keep(folder: Path, error: OSError) -> StudioError:
+    why = (error.strerror or "it fails").lower()
+    return StudioError(f"Can't keep the studio's journal in {folder}: {why}.", remedy="Name a folder you may write to in SKETCHTREE_RECOVERY.")
+
+
+def _journal_in(folder: Path, project: Path | None, home: Path | None) -> "Journal":
     if project is not None:
         place = os.path.abspath(project).encode(errors="surrogateescape")
         path = folder / f"{re.sub(r'[^A-Za-z0-9_-]', '_', project.stem)[:40]}-{hashlib.sha256(place).hexdigest()[:16]}.jsonl"
@@ -61,13 +73,18 @@ def journal_of(project: Path | None) -> "Journal":
         if lock.holder is not None:
             raise StudioError(f"{project.name} is open in another studio (process {lock.holder}).", remedy="Go on there, or stop it and start again.")
         return Journal(path, lock, project)
-    return _untitled(folder)
+    return _untitled(folder, home)
 
 
-def _untitled(folder: Path) -> "Journal":
-    """Of a drawing without a name: one that ended suddenly, else a new one."""
+def _untitled(folder: Path, home: Path | None) -> "Journal":
+    """Of a drawing without a name: one that ended suddenly, in this folder or else in another; else a new one."""
+
+    def elsewhere(path: Path) -> bool:
+        key = keys.kept(path.with_suffix(".key"))
+        return key is None or key.folder != str(home)
+
     paths = [folder / ("untitled.jsonl" if number == 1 else f"untitled-{number}.jsonl") for number in range(1, _UNTITLED + 1)]
-    for path in sorted(paths, key=lambda path: not path.exists()):
+    for path in sorted(paths, key=lambda path: (elsewhere(path), not path.exists())):
         lock = Lock.taken(path.with_suffix(".lock"))
         if lock.holder is None:
             return Journal(path, lock)
@@ -80,8 +97,10 @@ class Journal:
     def __init__(self, path: Path, lock: Lock, project: Path | None = None):
         self.path, self.project = path, project
         self.notes: list[str] = []  # what the user is to know
+        self.key: keys.Key | None = None  # lies beside it while the studio runs
         self._lock = lock
         self._file = None
+        self._good = 0  # bytes of it that are whole lines
         self._pictures: set[str] = set()
 
     @property
@@ -100,46 +119,47 @@ class Journal:
             if end < 0 or not player.takes(data[good:end]):
                 break
             good = end + 1
-        if good < len(data):
-            if data.find(b"\n", good) >= 0:  # more than a last line that was being written
-                self._set_aside(whole=player.history is None)
-            with open(self.path, "ab") as file:
-                file.truncate(good)
+        if good < len(data) and data.find(b"\n", good) >= 0:  # more than a last line that was being written
+            self._set_aside(whole=player.history is None)
+        self._file, self._good = _opened(self.path), good
+        self._file.truncate(good)
         self._pictures = set(player.pictures)
         return None if player.history is None or not player.steps else Recovered(player.history, 0 if player.saved else None, player.signature, player.pictures)
 
     def write(self, *what: lines.Line) -> None:
         """Lines, on the disk when this returns. Raises OSError: then none of them is in the file."""
-        if self._file is None:
-            self._file = open(self.path, "ab", buffering=0, opener=lambda path, flags: os.open(path, flags, 0o600))  # noqa: SIM115
         known = frozenset(self._pictures)
-        before = self._file.seek(0, os.SEEK_END)
+        file = self._at_hand()
         try:
             for line in what:
                 if isinstance(line, lines.Picture):
                     if line.digest in self._pictures:
                         continue
                     self._pictures.add(line.digest)
-                _write_all(self._file, lines.encode(line))
-            os.fsync(self._file.fileno())
+                _write_all(file, lines.encode(line))
+            os.fsync(file.fileno())
         except OSError:
             self._pictures.intersection_update(known)
-            self._file.truncate(before)  # no line that is torn stands before others
+            with contextlib.suppress(OSError):  # else before the next line is written
+                file.truncate(self._good)  # no line that is torn stands before others
             raise
+        self._good = file.seek(0, os.SEEK_END)
 
     def clear(self) -> None:
-        """All of it is safe elsewhere."""
-        if self._file is not None:
-            self._file.close()
-            self._file = None
-        self.path.unlink(missing_ok=True)
+        """All of it is safe elsewhere. Where it can't be removed nothing is wrong: the next first line begins it anew."""
+        file, self._file, self._good = self._file, None, 0
         self._pictures.clear()
+        with contextlib.suppress(OSError), file or contextlib.nullcontext():
+            if file is not None:
+                file.truncate(0)
+            self.path.unlink(missing_ok=True)
 
     def set_aside(self) -> None:
         """What is in it is of another drawing: it is kept under another name."""
-        if self.holds_something:
-            self._set_aside(whole=True)
-        self.clear()
+        with contextlib.suppress(OSError):  # where it can't be kept it stays
+            if self.holds_something:
+                self._set_aside(whole=True)
+            self.clear()
 
     def close(self) -> None:
         """Another program may have it."""
@@ -148,11 +168,65 @@ class Journal:
             self._file = None
         self._lock.free()
 
+    def keep_key(self, key: keys.Key | None) -> None:
+        """By this key a page finds the studio again, should it end suddenly; None: it ends in order."""
+        self.key, path = key, self.path.with_suffix(".key")
+        keys.drop(path) if key is None else keys.keep(path, key)
+
+    def kept_key(self) -> keys.Key | None:
+        """That of a studio that ended suddenly."""
+        return keys.kept(self.path.with_suffix(".key"))
+
+    def _at_hand(self):
+        """The file, at its end. Where it is gone, alone or with its folder, it is made again, with all that was in it. Raises OSError."""
+        if self._file is None:
+            self._back_on_shelf()
+            self._file = _opened(self.path)
+            self._good = self._file.seek(0, os.SEEK_END)
+        elif not same_file(self.path, self._file.fileno()):
+            self._back_on_shelf()
+            self._file = self._copied(self._file)
+        if self._file.seek(0, os.SEEK_END) != self._good:
+            self._file.truncate(self._good)
+            self._file.seek(0, os.SEEK_END)
+        return self._file
+
+    def _back_on_shelf(self) -> None:
+        """The folder is there, with our lock in it."""
+        self.path.parent.mkdir(mode=0o700, exist_ok=True)
+        if not self._lock.holds():
+            raise OSError(errno.EBUSY, "another studio has the drawing's journal")
+        if self.key is not None and not self.path.with_suffix(".key").exists():
+            self.keep_key(self.key)
+
+    def _copied(self, file):
+        """All that was written, in a file that is there; what stands in its place is kept."""
+        path = self.path.with_suffix(".again")
+        path.unlink(missing_ok=True)
+        again = _opened(path)
+        try:
+            file.seek(0)
+            shutil.copyfileobj(file, again)
+            os.fsync(again.fileno())
+            if self.holds_something:
+                self._set_aside(whole=True)
+            os.replace(path, self.path)
+        except OSError:
+            again.close()
+            raise
+        file.close()
+        return again
+
     def _set_aside(self, *, whole: bool) -> None:
         kept = next(path for number in range(1, 10_000) if not (path := self.path.with_suffix(f".kept-{number}.jsonl")).exists())
         shutil.copyfile(self.path, kept)
         which = "A journal of an earlier session" if whole else "The last part of a journal of an earlier session"
         self.notes.append(f"{which} can't be read; it is kept as {kept}.")
+
+
+def _opened(path: Path):
+    """A file to read, and to write at its end; its owner's alone."""
+    return open(path, "a+b", buffering=0, opener=lambda path, flags: os.open(path, flags, 0o600))
 
 
 def _write_all(file, data: bytes) -> None:
@@ -183,9 +257,9 @@ class _Player:
             self.pictures[line.digest] = line.data
             return True
         if isinstance(line, lines.Begin):
-            if self.history is not None or line.version != lines.VERSION:
+            if line.version != lines.VERSION:
                 return False
-            self.history = History(lines.differing(Document(), line.document, self.pictures))
+            self.history, self.steps = History(lines.differing(Document(), line.document, self.pictures)), 0
             self.saved, self.signature = line.saved, line.signature
             return True
         if self.history is None:

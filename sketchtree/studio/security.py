@@ -4,6 +4,8 @@
     Origin     of every POST and WebSocket the page's own: no other site can send anything
     token      random, in the address once; a redirect turns it into a cookie that no script can read and no other site sends
 
+A studio that starts again after a crash takes the token that its pages have (`key`); after an end in order there is another one each time.
+
 Every answer carries headers by which a browser loads and runs nothing but what comes from here, and keeps nothing.
 """
 
@@ -25,7 +27,7 @@ class Guard:
     """What a request must bring. `port` is the studio's own."""
 
     port: int
-    token: str = field(default_factory=lambda: secrets.token_urlsafe(32), repr=False)
+    token: str = field(default_factory=lambda: secrets.token_urlsafe(32), repr=False)  # `key.Key` keeps it
 
     @property
     def url(self) -> str:

@@ -18,6 +18,7 @@ from sketchtree.studio import examples, filing
 from sketchtree.studio.desk import trouble_of
 from sketchtree.studio.engine import Engine
 from sketchtree.studio.folder import PROJECT, Folder
+from sketchtree.studio.key import Key
 from sketchtree.studio.messages import MAX_MESSAGE
 from sketchtree.studio.patience import Patient
 from sketchtree.studio.recovery import Journal, journal_of
@@ -55,18 +56,41 @@ def bound(port: int) -> socket.socket:
 
 async def serve(engine: Engine, start: Start, page: Path, told: Callable[[str], None], stop: asyncio.Event | None = None) -> None:
     """Run until a signal, or `stop`, ends it; `told` gets the address when it accepts connections. Raises SketchTreeError where it can't start."""
-    with bound(start.port) as listening:
-        guard = Guard(listening.getsockname()[1])
-        session = Session(engine, folder=Folder(start.folder))
-        journal = journal_of(start.file)
+    journal = journal_of(start.file, home=start.folder)
+    try:
+        listening, guard = _door(start, journal.kept_key())
+        with listening:
+            await _serve(engine, start, page, told, stop or asyncio.Event(), journal, listening, guard)
+    finally:
+        journal.close()
+
+
+async def _serve(engine: Engine, start: Start, page: Path, told, stop: asyncio.Event, journal: Journal, listening: socket.socket, guard: Guard) -> None:
+    session = Session(engine, folder=Folder(start.folder))
+    try:
+        await engine.start()
+        await _begin(session, journal, start)
+        journal.keep_key(Key(guard.port, guard.token, str(start.folder)))
         try:
-            await engine.start()
-            await _begin(session, journal, start)
-            await _run(Studio(session, page).app(guard), listening, lambda: told(guard.url), stop or asyncio.Event())
+            await _run(Studio(session, page).app(guard), listening, lambda: told(guard.url), stop)
         finally:
-            await session.end()
-            journal.close()
-            await engine.stop()
+            session.desk.scribe.journal.keep_key(None)  # another journal by now, if it was saved under another name
+    finally:
+        await session.end()
+        await engine.stop()
+
+
+def _door(start: Start, left: Key | None) -> tuple[socket.socket, Guard]:
+    """Where it listens, and who may come in. After a crash the pages that are still open may, if the port is free. Raises OptionError."""
+    back = left if left is not None and left.folder == str(start.folder) and start.port in (0, left.port) else None
+    if back is not None:
+        try:
+            return bound(back.port), Guard(back.port, back.token)
+        except OptionError:
+            if start.port:
+                raise
+    listening = bound(start.port)
+    return listening, Guard(listening.getsockname()[1])
 
 
 async def _begin(session: Session, journal: Journal, start: Start) -> None:

@@ -43,6 +43,15 @@ def told(*requests, document=None, project=None, **options):
         journal.close()
 
 
+def played():
+    """What the journal of a drawing without a name gives."""
+    journal = journal_of(None)
+    try:
+        return journal.play()
+    finally:
+        journal.close()
+
+
 def alike(one: Document, other: Document) -> None:
     assert list(one.strokes) == list(other.strokes)
     for name, stroke in one.strokes.items():
@@ -249,7 +258,7 @@ def test_steps_of_the_time_when_the_disk_was_full_are_kept_once_there_is_room(mo
             assert journal.path.read_bytes().endswith(b"}\n") and b'"b"' not in journal.path.read_bytes()
             room.append(True)
             await talk.say(drawn("d"))
-        return journal_of(None).play()
+        return played()
 
     assert list(asyncio.run(test()).history.document.strokes) == ["a", "b", "c", "d"]
 
@@ -265,7 +274,7 @@ def test_what_the_full_disk_did_not_take_is_tried_again_at_the_end(monkeypatch):
             monkeypatch.setattr(recovery.os, "fsync", full)
             await talk.say(drawn("a"))
             monkeypatch.setattr(recovery.os, "fsync", fsync)
-        return journal_of(None).play()
+        return played()
 
     assert list(asyncio.run(test()).history.document.strokes) == ["a"]
 
