@@ -66,7 +66,11 @@ class Folder:
 
     def write(self, name: str, data: bytes) -> Signature | None:
         """The file, whole or not at all. Raises SketchTreeError."""
-        write_whole(self._inside(name), data)
+        path = self._inside(name)
+        try:
+            write_whole(path, data)
+        except ExportError as error:
+            raise ExportError(error.message, remedy="Put that right and save again, or download the project.") from error
         return self.signature(name)
 
     def path_of(self, name: str) -> Path:
