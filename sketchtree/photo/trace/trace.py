@@ -24,7 +24,7 @@ from sketchtree.photo.trace.wood_likeness import WoodLikeness, learn_wood
 CIRCLE = 50.0 / 1500.0  # radius of the circle / longer side of the photo (§2)
 _UNDER = 3.0 / 1500.0  # width of a stroke
 _THICKEST = 0.12  # half a trunk / longer side of the photo
-_FLARE = 1.4  # a root's thickness / that of the trunk above it, at most
+_FLARE = 1.6  # a root's thickness / that of the thinner parts of the trunk above it, at most
 _ONE_PLACE = 0.25  # of the circle's radius: a stroke that starts so near to another starts on it
 
 
@@ -81,12 +81,12 @@ def places_on(likeness: WoodLikeness, marked: Marked, radius: float, most: float
 
 
 def root_radius(likeness: WoodLikeness, stroke: Float[np.ndarray, "point 2"], radius: float, most: float) -> float:
-    """Half the trunk's thickness at its root: the largest circle of wood there (§2), but no more than `_FLARE` times what is seen across the trunk higher up (ours: grass and
+    """Half the trunk's thickness at its root: the largest circle of wood there (§2), but no more than `_FLARE` times what is seen across the thinner parts of the trunk (ours: grass and
     shadow at the root may look like wood)."""
     place, along = evenly(stroke, 0.5 * radius)
     seen = half_widths(likeness, place, along, most)[: max(len(place) // 2, 2)]
     circle = largest_circle(likeness, place[0], most)
-    return min(circle, _FLARE * float(np.nanmedian(seen))) if np.isfinite(seen).any() else circle
+    return min(circle, _FLARE * float(np.nanpercentile(seen, 25))) if np.isfinite(seen).any() else circle
 
 
 def _falling(half: Float[np.ndarray, " place"], first: float) -> Float[np.ndarray, " place"]:
