@@ -21,7 +21,7 @@ from sketchtree.geometry.wood import check_wood
 from sketchtree.keys import stage_key
 from sketchtree.options import ReadingOptions, TreeOptions
 from sketchtree.parameters import Habit
-from sketchtree.pipeline import DrawnTree, TreeModel, draw_out, finish, propagation, read_obstacles
+from sketchtree.pipeline import DrawnTree, Grown, TreeModel, draw_out, finish, propagation, read_obstacles
 from sketchtree.propagate.after.prune import Prune
 from sketchtree.propagate.generations import Planted, Propagation, propagate_together
 from sketchtree.sketch.strokes import Sketch
@@ -92,7 +92,7 @@ def sketches_to_forest(
     watch.on_stage("mesh")
     for one, its, name, at, its_key in zip(drawn, grown, names, place, keys, strict=True):
         with _named(name):
-            trees.append(finish(one, its, templates, key=its_key, options=tree, place=at, watch=lap))
+            trees.append(finish(Grown(one, its, its_key, tree, templates, at), lap))
         watch.on_part(len(trees) / len(drawn))
     return Forest(tuple(names), tuple(copies), tuple(digests), place, tuple(trees), _warnings(names, place, trees))
 

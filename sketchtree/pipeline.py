@@ -4,7 +4,6 @@
 """
 
 import dataclasses
-from collections.abc import Callable
 from dataclasses import dataclass
 from pathlib import Path
 
@@ -36,7 +35,7 @@ from sketchtree.skeleton import TreeSkeleton
 from sketchtree.skeleton_joined import moved
 from sketchtree.sketch.strokes import Sketch
 from sketchtree.templates.store.database import Database
-from sketchtree.watch import Watch
+from sketchtree.watch import Pulse, Watch, no_pulse
 
 STAGES = ("read", "match", "infer", "propagate", "foliage", "mesh", "export")
 """Stages in the order they run; `seconds` in the report has one entry each."""
@@ -90,7 +89,7 @@ def complete(
     with watch("propagate"):
         obstacles = read_obstacles(options) if obstacles is None else obstacles
         grown = grow(drawn, options, obstacles, key=key)
-    return finish(drawn, grown, templates, key=key, options=options, watch=watch)
+    return finish(Grown(drawn, grown, key, options, templates), watch)
 
 
 def grow(
@@ -100,7 +99,7 @@ def grow(
     *,
     key: Key[Array, ""],
     only: frozenset[int] | None = None,
-    pulse: Callable[[], None] = lambda: None,
+    pulse: Pulse = no_pulse,
 ) -> Propagation:
     """What the sketch left out, grown (§6); nothing where a limb was cleared away by hand. `only`: ids of the drawn limbs that grow. `pulse` is called before
     every generation; what it raises ends the growth."""
@@ -119,66 +118,62 @@ class LeafyTree:
     warnings: tuple[str, ...]
 
 
-def leafy(
-    drawn: DrawnTree,
-    grown: Propagation,
-    templates: Database | None = None,
-    *,
-    key: Key[Array, ""],
-    options: TreeOptions = TreeOptions(),
-    place: Float[np.ndarray, " 3"] | None = None,
-    watch: Watch | None = None,
-) -> LeafyTree:
-    """Radii, sag, shedding, pruning and leaves of a tree that has grown; at another place (metres) than it was drawn, if asked."""
+@dataclass(frozen=True, eq=False)
+class Grown:
+    """A tree that has grown, and what the rest of it is to be made with."""
+
+    drawn: DrawnTree
+    grown: Propagation
+    key: Key[Array, ""]
+    options: TreeOptions = TreeOptions()
+    templates: Database | None = None  # for their leaves
+    place: Float[np.ndarray, " 3"] | None = None  # where it stands, metres; None: where it was drawn
+
+
+def leafy(tree: Grown, watch: Watch | None = None) -> LeafyTree:
+    """Radii, sag, shedding, pruning and leaves."""
     watch = watch or Watch()
-    habit = drawn.habit
-    dress = Dress(bark_model(options.bark, habit), leaf_model(options.leaf, habit, templates), options.season, habit)
+    habit, options = tree.drawn.habit, tree.options
+    dress = Dress(bark_model(options.bark, habit), leaf_model(options.leaf, habit, tree.templates), options.season, habit)
     with watch("propagate"):
-        skeleton, warnings = weathered(drawn, grown, options, place)
+        skeleton, warnings = weathered(tree.drawn, tree.grown, options, tree.place)
     with watch("foliage"):
-        leaves, flowers = foliage(skeleton, dress, key=key)
+        leaves, flowers = foliage(skeleton, dress, key=tree.key)
     if leaves.kept < 1:
         warnings += (f"Only {leaves.kept:.1%} of the leaves were kept (at most {len(leaves)}), each larger, so that their area is right.",)
     return LeafyTree(skeleton, leaves, flowers, dress, warnings)
 
 
-def finish(
-    drawn: DrawnTree,
-    grown: Propagation,
-    templates: Database | None = None,
-    *,
-    key: Key[Array, ""],
-    options: TreeOptions = TreeOptions(),
-    place: Float[np.ndarray, " 3"] | None = None,
-    watch: Watch | None = None,
-) -> TreeModel:
-    """Radii, sag, shedding, pruning, leaves and meshes of a tree that has grown; at another place (metres) than it was drawn, if asked."""
+def finish(grown: Grown, watch: Watch | None = None) -> TreeModel:
+    """Radii, sag, shedding, pruning, leaves and meshes."""
     watch = watch or Watch()
-    tree = leafy(drawn, grown, templates, key=key, options=options, place=place, watch=watch)
+    tree, options = leafy(grown, watch), grown.options
     dress = tree.dress
     with watch("mesh"):
-        wood = wood_of(tree.skeleton, bark=dress.bark, habit=dress.habit, key=stage_key(key, "mesh"), wood=options.wood, solid=options.solid)
+        wood = wood_of(tree.skeleton, bark=dress.bark, habit=dress.habit, key=stage_key(grown.key, "mesh"), wood=options.wood, solid=options.solid)
         meshes = [*wood.meshes]
         meshes += [leaf_mesh(worn, season=options.season) for worn in (tree.leaves, tree.blossom) if worn is not None and len(worn)]
-    warnings = drawn.warnings + tree.warnings + wood.warnings
-    return TreeModel(drawn, tree.skeleton, tree.leaves, tuple(meshes), warnings, tree.blossom, dress, wood.made)
+    warnings = grown.drawn.warnings + tree.warnings + wood.warnings
+    return TreeModel(grown.drawn, tree.skeleton, tree.leaves, tuple(meshes), warnings, tree.blossom, dress, wood.made)
 
 
 def weathered(
-    drawn: DrawnTree, grown: Propagation, options: TreeOptions, place: Float[np.ndarray, " 3"] | None = None
+    drawn: DrawnTree, grown: Propagation, options: TreeOptions, place: Float[np.ndarray, " 3"] | None = None, pulse: Pulse = no_pulse
 ) -> tuple[TreeSkeleton, tuple[str, ...]]:
     """What weight, shade, others in the way and the shears leave of a grown tree, with its radii; and what the user should know."""
-    left, tangled = _weathered(drawn, grown, options)
+    left, tangled = _weathered(drawn, grown, options, pulse)
+    pulse()
     skeleton, told = _pruned(left if place is None else moved(left, place), options)
     return skeleton, grown.warnings + tangled + told
 
 
-def foliage(tree: TreeSkeleton, dress: Dress, *, key: Key[Array, ""]) -> tuple[Leaves, Leaves | None]:
+def foliage(tree: TreeSkeleton, dress: Dress, *, key: Key[Array, ""], pulse: Pulse = no_pulse) -> tuple[Leaves, Leaves | None]:
     """The leaves, and the blossoms of a spring."""
     habit, leaf, season, key = dress.habit, dress.leaf, dress.season, stage_key(key, "foliage")
     if leaf is None:
         return Leaves.none(habit.leaf), None
-    return populate(tree, habit, key=key, model=leaf, season=season), blossom(tree, habit, key=key, model=leaf, season=season)
+    how = {"key": key, "model": leaf, "season": season, "pulse": pulse}
+    return populate(tree, habit, **how), blossom(tree, habit, **how)
 
 
 def read_obstacles(options: TreeOptions) -> tuple:
@@ -219,7 +214,7 @@ def _pruned(tree: TreeSkeleton, options: TreeOptions) -> tuple[TreeSkeleton, tup
     return pruned.skeleton, (f"Pruning cut {cut} drawn stroke{'s' if cut > 1 else ''}.",) if cut else ()
 
 
-def _weathered(drawn: DrawnTree, grown: Propagation, options: TreeOptions) -> tuple[TreeSkeleton, tuple[str, ...]]:
+def _weathered(drawn: DrawnTree, grown: Propagation, options: TreeOptions, pulse: Pulse) -> tuple[TreeSkeleton, tuple[str, ...]]:
     """What weight, shade and others in the way leave of a grown tree, with the radii of what is left; and what the user should know."""
     radius = np.full(len(grown.skeleton), np.nan)
     radius[grown.drawn_row] = drawn.radius
@@ -228,6 +223,7 @@ def _weathered(drawn: DrawnTree, grown: Propagation, options: TreeOptions) -> tu
     habit = to_scale(drawn.habit, drawn.skeleton, drawn.crown)
     shed = Shed(options.shed, options.shed_twigs, habit)
     for run in (lambda whole: sagged(whole, options.sag, drawn.habit, grown.spaces), shed.run):
+        pulse()
         cut = run(tree)
         radius, weight = radius[cut.rows], None if weight is None else kept_weight(tree, cut, weight)
         tree = cut.skeleton
@@ -235,7 +231,8 @@ def _weathered(drawn: DrawnTree, grown: Propagation, options: TreeOptions) -> tu
         tree = PipeRadii(drawn.habit, radius, weight)(tree)
     if not options.untangle:
         return tree, ()
-    freed = Untangle(habit, grown.spaces).run(tree)
+    pulse()
+    freed = Untangle(habit, grown.spaces).run(tree, pulse)
     if len(freed.rows) < len(tree):
         weight = None if weight is None else kept_weight(tree, freed, weight)
         return PipeRadii(drawn.habit, radius[freed.rows], weight)(freed.skeleton), freed.warnings

@@ -5,6 +5,14 @@ from collections.abc import Callable
 from dataclasses import dataclass, field
 
 
+Pulse = Callable[[], None]
+"""Called now and then by a long work, a few times a second; what it raises ends the work."""
+
+
+def no_pulse() -> None:
+    """Nobody wants to end it."""
+
+
 @dataclass
 class Watch:
     """Seconds of every stage; tells `on_stage` when one begins, `on_part` how much of a long one is done (0-1)."""

@@ -17,12 +17,14 @@ from sketchtree.foliage.wear import Wear, enlargement, wear_of
 from sketchtree.parameters import Habit
 from sketchtree.roots import without_roots
 from sketchtree.skeleton import TreeSkeleton
+from sketchtree.watch import Pulse, no_pulse
 
 _BEARS = 30  # the draw of a bud
 
 
 def blossom(
-    tree: TreeSkeleton, habit: Habit, *, key: Key[Array, ""], model: str | None = None, season: str = "summer", most: int = 12_000
+    tree: TreeSkeleton, habit: Habit, *, key: Key[Array, ""], model: str | None = None, season: str = "summer", most: int = 12_000,
+    pulse: Pulse = no_pulse,
 ) -> Leaves | None:
     """The blossoms of a tree that wears the leaf `model` (the habit's own by default), at most `most`; None out of spring and where its
     species has none. Raises OptionError."""
@@ -31,7 +33,8 @@ def blossom(
     tree, _ = without_roots(tree)
     if season != "spring" or wear.model.blossom is None or tree.segment_count == 0:
         return None
-    stand, _ = all_buds(tree, habit, wear, key)
+    stand, _ = all_buds(tree, habit, wear, key, pulse)
+    pulse()
     stand = _one_a_node(stand.select(stand.node < wear.model.blossom_nodes))
     stand = stand.select(keys.uniform(key, stand.id, _BEARS) < wear.model.blossom_share)
     flower = leaf_model(wear.model.blossom)

@@ -31,6 +31,7 @@ from sketchtree.parameters import Habit
 from sketchtree.roots import without_roots
 from sketchtree.skeleton import TreeSkeleton
 from sketchtree.traverse import is_tip
+from sketchtree.watch import Pulse, no_pulse
 
 _UP = np.array([0.0, 1.0, 0.0])
 _OUTER = 0.7  # outer share of a limb that carries leaves where it is thin enough
@@ -47,6 +48,7 @@ def populate(
     season: str = "summer",
     density: float = 1.0,
     max_leaves: int = 60_000,
+    pulse: Pulse = no_pulse,
 ) -> Leaves:
     """The leaves of a tree (Chen §6). `model` overrides the habit's leaf, and then brings its own size,
     spacing and arrangement; `density` (> 0) scales the nodes a metre. In the season `bare` evergreens keep theirs. Raises OptionError."""
@@ -59,12 +61,14 @@ def populate(
     tree, _ = without_roots(tree)
     if (season == "bare" and not wear.model.evergreen) or tree.segment_count == 0:
         return Leaves.none(wear.model.name)
-    budding, shoots = all_buds(tree, habit, wear, key)
+    budding, shoots = all_buds(tree, habit, wear, key, pulse)
+    pulse()
     leaves, unit = unfold(tree, budding, shoots, wear, season, key), _units(budding)
     if season in _SHARE and not (wear.model.evergreen or wear.model.flower):
         held = keys.uniform(key, budding.id, _FALLEN) < _SHARE[season]
         leaves, unit = select(leaves, held), unit[held]
         budding = budding.select(held)
+    pulse()
     return capped(leaves, budding.shoot, unit, max_leaves, key)
 
 
@@ -77,10 +81,14 @@ def _units(stand: Buds) -> Int[np.ndarray, " leaf"]:
     return unit
 
 
-def all_buds(tree: TreeSkeleton, habit: Habit, wear: Wear, key: Key[Array, ""]) -> tuple[Buds, Float[np.ndarray, "shoot 2 3"]]:
+def all_buds(tree: TreeSkeleton, habit: Habit, wear: Wear, key: Key[Array, ""], pulse: Pulse = no_pulse) -> tuple[Buds, Float[np.ndarray, "shoot 2 3"]]:
     """Every bud of the tree, on its twigs, on short shoots and on water shoots; and both kinds of shoots, start and end of each, metres."""
-    pieces = wood_pieces(tree)
-    borne, short = buds(leafy_wood(pieces, tree, habit, wear), tree.limb, wear, habit.twig_radius, key)
+    pieces = wood_pieces(tree, pulse)
+    pulse()
+    bearing = leafy_wood(pieces, tree, habit, wear)
+    pulse()
+    borne, short = buds(bearing, tree.limb, wear, habit.twig_radius, key)
+    pulse()
     more, water = water_shoots(pieces, tree.order, tree.limb, borne, wear, habit, key)
     more = replace(more, shoot=more.shoot + len(short))
     return borne.followed_by(more), np.concatenate([short, water])

@@ -21,6 +21,7 @@ from sketchtree.geometry.chains import chains
 from sketchtree.geometry.limbs import CentreLines, centre_lines
 from sketchtree.skeleton import TreeSkeleton
 from sketchtree.traverse import generations, sum_to_root
+from sketchtree.watch import Pulse, no_pulse
 
 _UP = np.array([0.0, 1.0, 0.0])
 THICKEST = 8.0  # leafy wood has at most this many twig radii
@@ -56,18 +57,21 @@ class Twigs:
         return Twigs(**{name: getattr(self, name)[keep] for name in self.__dataclass_fields__})
 
 
-def wood_pieces(tree: TreeSkeleton) -> Twigs:
+def wood_pieces(tree: TreeSkeleton, pulse: Pulse = no_pulse) -> Twigs:
     """All wood of the tree as straight pieces of its rendered centre lines, with their frames and their
     place on their limb; the pieces of a limb stand in order."""
     lines = centre_lines(tree) if tree.segment_count else None
     if lines is None or len(lines) == 0:
         return _no_wood()
+    pulse()
     first = np.flatnonzero(np.diff(lines.of_point) == 0)
-    row = _row_of_point(tree, lines)[first + 1]
+    row = _row_of_point(tree, lines, pulse)[first + 1]
     first, row = first[row != NULL], row[row != NULL]
     limb = lines.of_point[first]
     span = lines.point[first + 1] - lines.point[first]
+    pulse()
     tangent_row, side_row = _frames(tree)
+    pulse()
     tangent = _unit(span)
     stands = lines.parent != NULL
     foot_radius = np.zeros(len(lines))
@@ -152,7 +156,7 @@ def _follows(tree: TreeSkeleton) -> Bool[np.ndarray, " segment"]:
     return first
 
 
-def _row_of_point(tree: TreeSkeleton, lines: CentreLines) -> Int[np.ndarray, " point"]:
+def _row_of_point(tree: TreeSkeleton, lines: CentreLines, pulse: Pulse) -> Int[np.ndarray, " point"]:
     """The row whose wood ends at or after each point of the centre lines: a row's tip is a point of its limb's
     line, never the first one."""
     apart = 10.0 * (1.0 + np.abs(lines.point).max())
@@ -162,7 +166,10 @@ def _row_of_point(tree: TreeSkeleton, lines: CentreLines) -> Int[np.ndarray, " p
     rows = np.flatnonzero(~tree.is_base)
     cut = chains(tree)  # one line may hold limbs that were drawn end to end
     tips = np.column_stack([tree.tip[rows], apart * cut.row[cut.start[cut.of_row[rows]]]])
-    gap, near = cKDTree(place[inner]).query(tips)
+    pulse()
+    known = cKDTree(place[inner])
+    pulse()
+    gap, near = known.query(tips)
     found = gap < 1e-6 * apart
     row = np.full(len(of_point), NULL)
     row[inner[near[found]]] = rows[found]

@@ -20,6 +20,7 @@ from sketchtree.geometry.detail import Detail
 from sketchtree.geometry.frames import rotation_minimising
 from sketchtree.geometry.limbs import CentreLines
 from sketchtree.geometry.simplify import enough
+from sketchtree.watch import Pulse, no_pulse
 
 _FLARED = 3.0  # height of the flare at the ground, / radius there
 _CLOSEST = 0.6  # of two rings, / radius
@@ -63,10 +64,11 @@ def rings(
     *,
     slender: float = np.inf,
     forks: Forks | None = None,
+    pulse: Pulse = no_pulse,
 ) -> Rings:
     """Rings of every limb. Where `collar_top` > 0 metres, `collar_size` rings are spaced evenly from the foot
     up to there, for the collar to take over. No two rings stand farther apart than `slender` radii; `forks` get theirs."""
-    limb, s = _places(lines, detail, height, slender)
+    limb, s = _places(lines, detail, height, slender, pulse)
     if forks is not None:
         limb, s = _with_forks(lines, limb, s, forks)
     clearance = 0.3 * np.maximum(lines.radius[lines.start[:-1]], 1e-6)
@@ -77,15 +79,16 @@ def rings(
     point, radius = lines.at(limb, s)
     tangent = _tangents(lines, limb, s, radius)
     limb, s, point, tangent, radius, start = _domed(start, limb, s, point, tangent, radius, 2.0 * detail.tolerance * height)
+    pulse()
     first = np.broadcast_to(_BACK, (len(lines), 3))
     return Rings(start, s, point, tangent, rotation_minimising(point, tangent, start, first), radius)
 
 
-def _places(lines: CentreLines, detail: Detail, height: float, slender: float):
+def _places(lines: CentreLines, detail: Detail, height: float, slender: float, pulse: Pulse):
     """Limb and place of every ring, before collars and domes."""
     limb = lines.of_point
     tube = np.column_stack([lines.point, lines.radius])
-    stand = np.flatnonzero(enough(tube, lines.s, lines.pinned, _CLOSEST * lines.radius, _BEND * detail.tolerance * height))
+    stand = np.flatnonzero(enough(tube, lines.s, lines.pinned, _CLOSEST * lines.radius, _BEND * detail.tolerance * height, pulse))
     left, right = stand[:-1], stand[1:]
     span = limb[left] == limb[right]
     left, right = left[span], right[span]

@@ -10,6 +10,8 @@ The distance is taken in any number of dimensions: with the radius as a fourth, 
 import numpy as np
 from jaxtyping import Bool, Float
 
+from sketchtree.watch import Pulse, no_pulse
+
 _ROUNDS = 3
 
 
@@ -19,6 +21,7 @@ def enough(
     kept: Bool[np.ndarray, " point"],
     margin: Float[np.ndarray, " point"],
     tolerance: float,
+    pulse: Pulse = no_pulse,
 ) -> Bool[np.ndarray, " point"]:
     """The points to keep: those `kept` from the outset, among them both ends of every line, and what it takes
     to stay within `tolerance` of the rest.
@@ -28,6 +31,7 @@ def enough(
     needed, kept = kept, kept.copy()
     within = np.flatnonzero(~kept)
     while len(within):
+        pulse()
         stand = np.flatnonzero(kept)
         right = np.searchsorted(stand, within)
         left, right = stand[right - 1], stand[right]
@@ -40,6 +44,7 @@ def enough(
         open_ = np.isin(left, left[last[far[last]]])  # the other stretches are done
         within = within[open_ & ~kept[within]]
     for turn in range(2 * _ROUNDS if kept.any() else 0):
+        pulse()
         _give_back(point, needed, kept, turn % 2, tolerance)
     return kept
 

@@ -22,6 +22,7 @@ from sketchtree.geometry.stitch import Surface
 from sketchtree.geometry.tubes import sweep
 from sketchtree.parameters import Habit
 from sketchtree.skeleton import TreeSkeleton
+from sketchtree.watch import Pulse, no_pulse
 
 WAYS = ("one-piece", "tubes")
 """How wood can be made."""
@@ -174,11 +175,11 @@ class WoodPlan:
         return int(2 * (self.side[self.ring.limb] >> self.level).sum())
 
 
-def plan_wood(tree: TreeSkeleton, lines: CentreLines, detail: Detail) -> WoodPlan:
+def plan_wood(tree: TreeSkeleton, lines: CentreLines, detail: Detail, pulse: Pulse = no_pulse) -> WoodPlan:
     """The rings of every limb, within the budget of `detail`."""
     height = _extent(tree)
     while True:
-        plan = _plan(lines, detail, height)
+        plan = _plan(lines, detail, height, pulse)
         if plan.triangle_count <= detail.most_triangles or detail.is_coarsest:
             return plan
         detail = detail.coarser(max(1.5, plan.triangle_count / detail.most_triangles))
@@ -195,11 +196,11 @@ def swept_surface(plan: WoodPlan, among: Bool[np.ndarray, " limb"], key: Key[Arr
     return sweep(plan.lines, plan.ring, shape, plan.collar_top, _shift(plan.lines, key), plan.detail, plan.tolerance, among)
 
 
-def _plan(lines: CentreLines, detail: Detail, height: float) -> WoodPlan:
+def _plan(lines: CentreLines, detail: Detail, height: float, pulse: Pulse) -> WoodPlan:
     tolerance = detail.tolerance * height
     foot = sides(lines.radius[lines.start[:-1]], tolerance, detail)
     top = collar_tops(lines, detail, height)
-    ring = rings(lines, top, collar_rings(foot), detail, height)
+    ring = rings(lines, top, collar_rings(foot), detail, height, pulse=pulse)
     needed = np.minimum(sides(ring.radius, tolerance, detail), foot[ring.limb])
     side, level = halvings(needed, np.where(top > 0, collar_rings(foot), 1), ring.start, detail.most_sides)
     return WoodPlan(lines, top, ring, side, level, detail, tolerance)

@@ -31,7 +31,7 @@ def tree():
     sketch = Sketch((_line("trunk", (0, 0), (0, 100)), _line("left", (0, 40), (-30, 80)), _line("right", (0, 50), (30, 85))))
     drawn = pipeline.draw_out(sketch, key=KEY, options=ReadingOptions(template="none"))
     options = TreeOptions(generations=2)
-    return drawn, pipeline.leafy(drawn, pipeline.grow(drawn, options, key=KEY), key=KEY, options=options)
+    return drawn, pipeline.leafy(pipeline.Grown(drawn, pipeline.grow(drawn, options, key=KEY), KEY, options))
 
 
 def test_every_row_belongs_to_the_drawn_limb_it_grows_on(tree):

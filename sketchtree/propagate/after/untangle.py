@@ -26,6 +26,7 @@ from sketchtree.propagate.after.settling import Settling, Wood
 from sketchtree.propagate.after.turning import angle_of, choices
 from sketchtree.propagate.space.space import Space
 from sketchtree.skeleton import TreeSkeleton
+from sketchtree.watch import Pulse, no_pulse
 
 LARGEST = 250_000  # rows: a larger tree is left as it is, since it would take longer than twenty seconds or so
 _ROUNDS = ((12.0, False), (12.0, True), (20.0, True), (30.0, True), (45.0, True))  # of a rank: degrees at most, and whether with the star
@@ -59,7 +60,7 @@ class Untangle:
         """The tree without knots. `key` is part of the stage's door; nothing here is random."""
         return self.run(tree).skeleton
 
-    def run(self, tree: TreeSkeleton) -> Untangled:
+    def run(self, tree: TreeSkeleton, pulse: Pulse = no_pulse) -> Untangled:
         """As the call, with the rows that are left and the turns."""
         as_it_was = Untangled(tree, np.arange(len(tree)), np.zeros(0))
         if not is_undrawn(tree).any():
@@ -69,20 +70,22 @@ class Untangle:
         now = Settling(tree, self.spaces, _SWELL, _CROTCH)
         for rank in np.unique(now.branches.rank):
             rows = now.take_up(rank)
-            self._part(now, rows)
+            self._part(now, rows, pulse)
             now.settle(rows)
         if not now.moved.any() and (now.share == 1.0).all():
             return as_it_was
         left, turned = cut(tree.replace(tip=now.tip), now.share), angle_of(now.turned)
         return Untangled(left.skeleton, left.rows, turned[turned > 0])
 
-    def _part(self, now: Settling, rows) -> None:
+    def _part(self, now: Settling, rows, pulse: Pulse) -> None:
         """Turn, then cut what overlaps among these rows and with what has its place."""
         asking = peers = Wood.of(now.wood_of(rows))
         for most, star in _ROUNDS:
+            pulse()
             found = _yielding(now, asking, peers)
             if len(found) == 0:
                 return
+            pulse()
             turned = _turn(now, found, peers, np.radians(most), star)
             asking, peers = Wood.of(now.wood_of(turned)), Wood.of(now.wood_of(rows))
         found = _yielding(now, asking, peers)

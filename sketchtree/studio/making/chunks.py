@@ -25,6 +25,7 @@ from sketchtree.skeleton import Kind, TreeSkeleton
 from sketchtree.studio import messages
 from sketchtree.studio.making.frames import Arrays
 from sketchtree.traverse import generations
+from sketchtree.watch import Pulse, no_pulse
 
 DETAIL = Detail(most_triangles=500_000)  # of all wood on the screen; files may have more
 
@@ -90,23 +91,27 @@ def owners(tree: TreeSkeleton) -> Int[np.ndarray, " segment"]:
     return owner
 
 
-def chunks_of(tree: LeafyTree, *, key: Key[Array, ""], only: Iterable[int] | None = None, detail: Detail = DETAIL) -> Chunks:
+def chunks_of(
+    tree: LeafyTree, *, key: Key[Array, ""], only: Iterable[int] | None = None, detail: Detail = DETAIL, pulse: Pulse = no_pulse
+) -> Chunks:
     """The chunks of a tree, or only those of some drawn limbs."""
     owner = owners(tree.skeleton)
     wanted = None if only is None else np.array(sorted(only), np.int64)
-    wood, materials, wood_triangles = _wood(tree, owner, wanted, key, detail)
+    wood, materials, wood_triangles = _wood(tree, owner, wanted, key, detail, pulse)
+    pulse()
     leaves, cards, card_names, more, leaf_triangles = _leaves(tree, owner, wanted)
     names = sorted({*wood, *leaves})
     chunks = tuple(ChunkOf(name, tuple(wood.get(name, ())), tuple(leaves.get(name, ()))) for name in names)
     return Chunks(chunks, cards, card_names, materials | more, (wood_triangles, leaf_triangles))
 
 
-def _wood(tree: LeafyTree, owner, wanted, key, detail: Detail):
+def _wood(tree: LeafyTree, owner, wanted, key, detail: Detail, pulse: Pulse):
     """(owner → parts, materials, triangles)."""
     skeleton, dress = tree.skeleton, tree.dress
     frond = frond_rows(skeleton, dress.habit)
     lines = centre_lines(skeleton, apart=frond)
-    plan = plan_wood(skeleton, lines, detail)
+    pulse()
+    plan = plan_wood(skeleton, lines, detail, pulse)
     of_limb = owner[lines.first_row]
     shown = np.ones(len(lines), bool) if wanted is None else np.isin(of_limb, wanted)
     found, materials, triangles = {}, {}, 0
@@ -114,9 +119,11 @@ def _wood(tree: LeafyTree, owner, wanted, key, detail: Detail):
         among = among & shown
         if not among.any():
             continue
+        pulse()
         surface = swept_surface(plan, among, stage_key(key, "mesh"))
         materials[material.name] = material
         triangles += len(surface.triangle)
+        pulse()
         for name, part in _by_owner(surface, of_limb, lines.limb_id, material.name):
             found.setdefault(name, []).append(part)
     return found, materials, triangles

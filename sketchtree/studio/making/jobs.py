@@ -8,7 +8,7 @@ from pathlib import Path
 from sketchtree.editing.document import Document
 from sketchtree.options import FileOptions, options_as_dict
 from sketchtree.studio.making.textures import Textures, thumbnail
-from sketchtree.studio.making.watching import watching
+from sketchtree.studio.making.watching import pulses, watching
 from sketchtree.templates.store.database import Database
 
 
@@ -62,8 +62,8 @@ class Jobs:
             self.desk.say(number, "event", ("event", event))
         tree = work.leafy_tree(self.bench, document, drawn, watch)
         with watch("mesh"):
-            chunks = chunks_of(tree, key=root_key(document.seed))
-        watch.on_part(0.9)
+            chunks = chunks_of(tree, key=root_key(document.seed), pulse=pulses(watch, 0.0, 1.0))
+        watch.on_part(1.0)
         self.textures.remember(chunks.materials)
         frame, digests = work.tree_frame(revision, "full", document, drawn, tree, chunks, known)
         self._made = self._made | {number: (revision, document, drawn, tree, chunks)}  # another dict: who answers meanwhile has the old one
@@ -93,7 +93,7 @@ class Jobs:
 
         drawn = work.drawn_tree(self.glance_bench, document, watch)
         tree = work.leafy_tree(self.glance_bench, document, drawn, watch)
-        chunks = chunks_of(tree, key=root_key(document.seed))
+        chunks = chunks_of(tree, key=root_key(document.seed), pulse=pulses(watch, 0.0, 1.0))
         self.textures.remember(chunks.materials)
         return work.tree_frame(revision, "glance", document, drawn, tree, chunks, {})[0]
 

@@ -2,26 +2,54 @@
 
 from collections.abc import Callable
 
-from sketchtree.watch import Watch
+from sketchtree.watch import Pulse, Watch
 
 
 class Stopped(Exception):
     """A newer document came, or there is nothing to hurry about."""
 
 
+_UPTO = {"read": 0.05, "match": 0.1, "infer": 0.3, "propagate": 0.6, "foliage": 0.7, "mesh": 0.97, "export": 1.0}
+"""How much of a job is done at the end of each stage, of a large tree."""
+_STEP = 0.04  # of what is left of a part, that one pulse of it is worth
+
+
 def watching(tell: Callable[[str, float], None], stopped: Callable[[], bool]) -> Watch:
     """A watch that tells which stage runs, and ends the job when a newer one came."""
-    now = {"stage": ""}
+    now, at = "", 0.0  # the stage; how much of the job is done, which only rises
 
     def stage(name: str) -> None:
-        if stopped():
-            raise Stopped
-        now["stage"] = name
-        tell(name, 0.0)
+        nonlocal now
+        now = name
+        part(0.0)
 
     def part(done: float) -> None:
+        nonlocal at
         if stopped():
             raise Stopped
-        tell(now["stage"], done)
+        low, high = _between(now)
+        at = max(at, low + (high - low) * min(max(done, 0.0), 1.0))
+        tell(now, at)
 
     return Watch(stage, part)
+
+
+def _between(stage: str) -> tuple[float, float]:
+    """How much of a job is done at the beginning and at the end of a stage."""
+    names = list(_UPTO)
+    if stage not in _UPTO:
+        return 0.0, 1.0
+    place = names.index(stage)
+    return _UPTO[names[place - 1]] if place else 0.0, _UPTO[stage]
+
+
+def pulses(watch: Watch, low: float, high: float) -> Pulse:
+    """A pulse of a part of a stage, of which nobody knows how many there will be: each goes a little of the way that is left."""
+    left = 1.0
+
+    def pulse() -> None:
+        nonlocal left
+        watch.on_part(high - (high - low) * left)
+        left *= 1.0 - _STEP
+
+    return pulse

@@ -18,7 +18,7 @@ from sketchtree.editing.settled import Depths, Settled
 from sketchtree.geometry.radii import PipeRadii
 from sketchtree.keys import root_key
 from sketchtree.options import TreeOptions
-from sketchtree.pipeline import LeafyTree, foliage, grow, read_obstacles, weathered
+from sketchtree.pipeline import LeafyTree, foliage, grow, weathered
 from sketchtree.propagate.after.cutting import bears
 from sketchtree.similarity import Similarity
 from sketchtree.studio import messages
@@ -26,11 +26,11 @@ from sketchtree.studio.making.basis import Basis
 from sketchtree.studio.making.chunks import DETAIL, Chunks, chunks_of, owners
 from sketchtree.studio.making.frames import Arrays
 from sketchtree.studio.making.limb_table import limb_table
-from sketchtree.studio.making.watching import Stopped
+from sketchtree.studio.making.watching import Stopped, pulses
 from sketchtree.templates.store.database import Database
 from sketchtree.watch import Watch
 
-_GROWING = ("generations", "fill", "max_segments", "density", "light", "obstacle")
+_GROWING = ("generations", "fill", "max_segments", "density", "light")
 
 
 _MOST = 16  # limbs that are hurried; more of them come with the full tree, which takes hardly longer
@@ -71,19 +71,17 @@ def leafy_tree(bench: Bench, document: Document, drawn: DrawnTree, watch: Watch)
     at_grown = signature(at, [getattr(options, name) for name in _GROWING])
     if bench.grown is None or bench.grown[0] != at_grown:
         with watch("propagate"):
-            bench.grown = at_grown, grow(drawn, options, read_obstacles(options), key=key, pulse=lambda: watch.on_part(0.1))
-    watch.on_part(0.4)
+            bench.grown = at_grown, grow(drawn, options, key=key, pulse=pulses(watch, 0.0, 0.4))
     at_standing = signature(at_grown, options.sag, options.shed, options.shed_twigs, options.untangle, options.prune)
     if bench.standing is None or bench.standing[0] != at_standing:
         with watch("propagate"):
-            bench.standing = at_standing, weathered(drawn, bench.grown[1], options)
-    watch.on_part(1.0)
+            bench.standing = at_standing, weathered(drawn, bench.grown[1], options, pulse=pulses(watch, 0.4, 1.0))
     at_leafy = signature(at_standing, options.leaf, options.bark, options.season)
     if bench.leafy is None or bench.leafy[0] != at_leafy:
         dress = Dress(bark_model(options.bark, drawn.habit), leaf_model(options.leaf, drawn.habit, bench.templates), options.season, drawn.habit)
         skeleton, warnings = bench.standing[1]
         with watch("foliage"):
-            leaves, flowers = foliage(skeleton, dress, key=key)
+            leaves, flowers = foliage(skeleton, dress, key=key, pulse=pulses(watch, 0.0, 1.0))
         bench.leafy = at_leafy, LeafyTree(skeleton, leaves, flowers, dress, warnings)
     return bench.leafy[1]
 
