@@ -10,7 +10,7 @@ from jaxtyping import Float
 
 from sketchtree.foliage.card_shape import bends, bent, card, card_normals
 from sketchtree.foliage.crown_light import crown_light
-from sketchtree.foliage.leaf_materials import leaf_factor, leaf_material
+from sketchtree.foliage.leaf_materials import colours_of, leaf_factor, leaf_material
 from sketchtree.foliage.leaves import Leaves
 from sketchtree.foliage.models import leaf_model
 from sketchtree.foliage.seasons import check_season
@@ -27,7 +27,7 @@ def leaf_mesh(leaves: Leaves, *, season: str = "summer") -> Mesh:
     corners, uv, triangle = card(leaves.model)
     position = leaves.position[:, None] + turned(bent(corners, model, *bends(leaves.tint, model)), leaves) * leaves.size[:, None, None]
     normal = outward(turned(card_normals(corners, triangle, model)[None], leaves), position, model.is_blade)
-    factor = leaf_factor(leaves.model, season, leaves.tint, crown_light(leaves))
+    factor = leaf_factor(leaves, season, crown_light(leaves))
     vertices = len(corners)
     stem = stems(leaves, vertices * len(leaves))
     return Mesh(
@@ -36,7 +36,7 @@ def leaf_mesh(leaves: Leaves, *, season: str = "summer") -> Mesh:
         normal=np.vstack([normal.reshape(-1, 3), stem.normal]),
         uv=np.vstack([np.tile(uv, (len(leaves), 1)), stem.uv]),
         triangle=np.vstack([(triangle[None] + vertices * np.arange(len(leaves))[:, None, None]).reshape(-1, 3), stem.triangle]),
-        material=leaf_material(leaves.model, season),
+        material=leaf_material(leaves.model, colours_of(leaves, season)),
         color=np.vstack([np.repeat(factor, vertices, axis=0), np.ones((len(stem.position), 4))]),
     )
 

@@ -10,7 +10,7 @@ from scipy.spatial.transform import Rotation
 from sketchtree.foliage.card_shape import bends, bent, card, card_normals
 from sketchtree.foliage.cards import leaf_axes, mesh_name
 from sketchtree.foliage.crown_light import crown_light
-from sketchtree.foliage.leaf_materials import leaf_factor, leaf_material
+from sketchtree.foliage.leaf_materials import colours_of, leaf_factor, leaf_material
 from sketchtree.foliage.leaves import Leaves
 from sketchtree.foliage.models import leaf_model
 from sketchtree.foliage.seasons import check_season
@@ -26,7 +26,7 @@ def leaf_instances(leaves: Leaves, *, season: str = "summer") -> tuple[Instances
     (`leaf_blossom_0`, …). What no leaf uses is left out. Those of cards name their leaves' rows. Raises OptionError."""
     check_season(season)
     model = leaf_model(leaves.model)
-    material, factor = leaf_material(leaves.model, season), leaf_factor(leaves.model, season, leaves.tint, crown_light(leaves))
+    material, factor = leaf_material(leaves.model, colours_of(leaves, season)), leaf_factor(leaves, season, crown_light(leaves))
     kinds = _BENDS if model.is_blade and model.curl else 1
     share = bends(leaves.tint, model)[1] / model.curl if kinds > 1 else np.ones(len(leaves))
     kind = np.clip(((share - 0.4) / 1.2 * kinds).astype(int), 0, kinds - 1)

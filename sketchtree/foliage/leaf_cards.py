@@ -26,7 +26,7 @@ from sketchtree.errors import OptionError
 from sketchtree.foliage.card_shape import bends, bent, card, rim
 from sketchtree.foliage.cards import mesh_name, outward, turned
 from sketchtree.foliage.crown_light import crown_light
-from sketchtree.foliage.leaf_materials import leaf_factor, leaf_material, painted_material
+from sketchtree.foliage.leaf_materials import colours_of, leaf_factor, leaf_material, painted_material
 from sketchtree.foliage.leaves import Leaves, select
 from sketchtree.foliage.models import leaf_model, leaf_painting
 from sketchtree.foliage.painting import Painting
@@ -73,12 +73,12 @@ def leaf_cards(leaves: Leaves, *, season: str = "summer", triangles: int, stem: 
         raise OptionError(f"The short shoots were to have {stem} triangles each.", remedy="Give 0, 1, 3 or 6.")
     planes = _planes(leaves)
     if len(planes.leaf) == 0:
-        return _mesh(leaves, season, [], leaf_material(leaves.model, season), 0)
+        return _mesh(leaves, season, [], leaf_material(leaves.model, colours_of(leaves, season)), 0)
     if triangles < len(planes.leaf) and leaf_model(leaves.model).is_blade:
         cards, material = _spray_cards(leaves, planes, season, triangles)
         return _mesh(leaves, season, [cards], material, stem)
     shapes = _shapes(leaves.model)
-    material = painted_material(f"leaf_{leaves.model}_simple", shapes.painting, leaves.model, season)
+    material = painted_material(f"leaf_{leaves.model}_simple", shapes.painting, leaves.model, colours_of(leaves, season))
     return _mesh(leaves, season, _simple(leaves, _thinned(planes, triangles), shapes, triangles), material, stem)
 
 
@@ -219,7 +219,7 @@ def _spray_cards(leaves: Leaves, planes: _Planes, season: str, most: int) -> tup
         corner[of] = _on(_to_area(plane, middle, pictures.covered[k], planes.area[rows].sum(axis=1)), pictures.corner[k : k + 1])
         uv[of] = pictures.uv[k]
     leaf = np.where(table >= 0, planes.leaf[table], -1)
-    return _Cards(corner, uv, leaf, _TRIANGLE), painted_material(f"leaf_{leaves.model}_spray", pictures.painting, leaves.model, season)
+    return _Cards(corner, uv, leaf, _TRIANGLE), painted_material(f"leaf_{leaves.model}_spray", pictures.painting, leaves.model, colours_of(leaves, season))
 
 
 def _points(planes: _Planes) -> Float[np.ndarray, "picture 4 3"]:
@@ -255,7 +255,7 @@ def _on(plane, corner: Float[np.ndarray, "one corner 2"]) -> Float[np.ndarray, "
 
 def _mesh(leaves: Leaves, season: str, sets: list[_Cards], material: Material, stem: int) -> Mesh:
     """The cards as triangles, and the short shoots of `stem` triangles each."""
-    factor, blade = leaf_factor(leaves.model, season, leaves.tint, crown_light(leaves)), leaf_model(leaves.model).is_blade
+    factor, blade = leaf_factor(leaves, season, crown_light(leaves)), leaf_model(leaves.model).is_blade
     position, normal, uv, triangle, color, first = [], [], [], [], [], 0
     for cards in sets:
         count, corners = cards.position.shape[:2]

@@ -20,6 +20,7 @@ class Leaves:
     shoot: Float[np.ndarray, "shoot 2 3"] = field(default_factory=lambda: np.zeros((0, 2, 3)))
     # start (on the wood's surface) and end of the short shoots that some leaves stand on
     kept: float = 1.0  # share of the leaves that the cap left; the sizes of these make up for the rest
+    seen: Float[np.ndarray, "leaf 3"] | None = None  # colour that each was seen in, in a photo; linear, 0-1; None: the model's
 
     def __len__(self) -> int:
         return len(self.position)
@@ -34,4 +35,5 @@ class Leaves:
 def select(leaves: Leaves, keep) -> Leaves:
     """Only some of the leaves, by mask or by rows; the short shoots stay as they are."""
     columns = ("position", "direction", "normal", "size", "tint", "segment")
-    return replace(leaves, **{name: getattr(leaves, name)[keep] for name in columns})
+    seen = None if leaves.seen is None else leaves.seen[keep]
+    return replace(leaves, seen=seen, **{name: getattr(leaves, name)[keep] for name in columns})

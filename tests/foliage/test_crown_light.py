@@ -39,7 +39,7 @@ def test_a_single_leaf_stands_in_full_light():
 
 
 def test_shaded_leaves_are_darker_and_keep_more_of_their_green_than_of_their_red():
-    bright, dark = (leaf_factor("oak", "autumn", np.array([0.5]), np.array([light]))[0] for light in (1.0, 0.0))
+    bright, dark = (leaf_factor(ball(1), "autumn", np.array([light]))[0] for light in (1.0, 0.0))
     assert (dark[:3] < bright[:3]).all() and dark[1] / bright[1] > dark[0] / bright[0]
 
 

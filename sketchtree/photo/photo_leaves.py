@@ -1,0 +1,61 @@
+"""Which leaves of a grown tree does the photo confirm, and in which colours does it show them (§4)?
+
+"We keep only those leaves that are projected inside the foliage region in the input image. Leaves are textured according to their projected position." A leaf
+looks through the page at its middle. Its colour is the mean of the foliage within half a leaf of there, so that the sky between leaves stays out.
+"""
+
+from dataclasses import dataclass, replace
+
+import numpy as np
+from jaxtyping import Bool, Float
+from scipy import ndimage
+
+from sketchtree.foliage.leaves import Leaves, select
+from sketchtree.foliage.painting import to_linear
+from sketchtree.photo.photo import Photo, at_pixels, turned_over
+from sketchtree.similarity import Similarity
+
+
+@dataclass(frozen=True, eq=False)
+class SeenFoliage:
+    """The foliage of one tree in its photo, and where the photo hangs in the world."""
+
+    photo: Photo
+    mask: Bool[np.ndarray, "row column"]
+    similarity: Similarity  # pixels, y up → metres
+
+    def pixels(self, place: Float[np.ndarray, "place 3"]) -> Float[np.ndarray, "place 2"]:
+        """Where places of the world are seen in the photo (orthographic camera, §3.1); pixels, y down."""
+        return turned_over(self.similarity.to_sketch(place)[:, :2])
+
+    def confirmed(self, leaves: Leaves) -> Leaves:
+        """The leaves that project into the foliage, and the short shoots that end in it."""
+        kept = select(leaves, at_pixels(self.mask, self.pixels(middles(leaves))))
+        return replace(kept, shoot=leaves.shoot[at_pixels(self.mask, self.pixels(leaves.shoot[:, 1]))])
+
+    def coloured(self, leaves: Leaves) -> Leaves:
+        """The same leaves in the colours of the photo."""
+        if len(leaves) == 0:
+            return leaves
+        reach = max(int(round(0.5 * float(np.median(leaves.size)) / self.similarity.scale)), 1)
+        picture, known = self._foliage_alone(reach)
+        place = self.pixels(middles(leaves))
+        column, row = np.floor(place).astype(np.int64).T
+        row, column = np.clip(row, 0, self.photo.height - 1), np.clip(column, 0, self.photo.width - 1)
+        nearest = ndimage.distance_transform_edt(~known, return_distances=False, return_indices=True)[:, row, column] if known.any() else np.stack([row, column])
+        return replace(leaves, seen=picture[nearest[0], nearest[1]])
+
+    def _foliage_alone(self, reach: int) -> tuple[Float[np.ndarray, "row column 3"], Bool[np.ndarray, "row column"]]:
+        """(means of the foliage's linear colours over squares, where there is any)."""
+        weight = self.mask.astype(np.float32)
+        side = 2 * reach + 1
+        near = ndimage.uniform_filter(weight, side, mode="constant")
+        lit = to_linear(np.arange(256) / 255.0).astype(np.float32)[self.photo.rgb] * weight[..., None]
+        total = ndimage.uniform_filter(lit, (side, side, 1), mode="constant")
+        known = near > 0.5 / side**2
+        return np.where(known[..., None], total / np.maximum(near, 1e-9)[..., None], 0.0), known
+
+
+def middles(leaves: Leaves) -> Float[np.ndarray, "leaf 3"]:
+    """The middle of every blade, metres."""
+    return leaves.position + 0.5 * leaves.size[:, None] * leaves.direction
