@@ -4,6 +4,7 @@
 """
 
 import dataclasses
+from collections.abc import Callable
 from dataclasses import dataclass
 from pathlib import Path
 
@@ -128,6 +129,7 @@ class Grown:
     options: TreeOptions = TreeOptions()
     templates: Database | None = None  # for their leaves
     place: Float[np.ndarray, " 3"] | None = None  # where it stands, metres; None: where it was drawn
+    worn: Callable[[Leaves], Leaves] | None = None  # what becomes of its leaves and blossoms, where something else has a say in them
 
 
 def leafy(tree: Grown, watch: Watch | None = None) -> LeafyTree:
@@ -139,6 +141,8 @@ def leafy(tree: Grown, watch: Watch | None = None) -> LeafyTree:
         skeleton, warnings = weathered(tree.drawn, tree.grown, options, tree.place)
     with watch("foliage"):
         leaves, flowers = foliage(skeleton, dress, key=tree.key)
+        if tree.worn is not None:
+            leaves, flowers = tree.worn(leaves), None if flowers is None else tree.worn(flowers)
     if leaves.kept < 1:
         warnings += (f"Only {leaves.kept:.1%} of the leaves were kept (at most {len(leaves)}), each larger, so that their area is right.",)
     return LeafyTree(skeleton, leaves, flowers, dress, warnings)
