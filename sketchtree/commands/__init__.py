@@ -5,6 +5,8 @@ import sys
 
 def main() -> None:
     """Run the command line and leave with its exit status."""
-    from sketchtree.commands.app import run
-
+    try:
+        from sketchtree.commands.app import run
+    except KeyboardInterrupt:
+        sys.exit(130)
     sys.exit(run(sys.argv[1:]))

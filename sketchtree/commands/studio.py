@@ -28,6 +28,7 @@ def studio(file: Path | None, port: int, no_browser: bool, seed: int, quiet: boo
     Prints its address, which only this machine can reach, and runs until Ctrl-C.
     """
     began = time.perf_counter()
+    _stop_like_ctrl_c(signal.SIGTERM)
     _check_extra()
     from sketchtree.studio.built import page_folder
     from sketchtree.studio.crew import Crew
@@ -38,7 +39,6 @@ def studio(file: Path | None, port: int, no_browser: bool, seed: int, quiet: boo
     page, file = page_folder(), _checked(file)
     _check_report(report)
     start = Start(file, Path.cwd() if file is None else file.parent, seed, port)
-    _stop_like_ctrl_c(signal.SIGTERM)
     with contextlib.suppress(KeyboardInterrupt):
         asyncio.run(serve(Stocked(Crew(db), Stock.of_user(db)), start, page, lambda url: _told(url, not no_browser, json_log)))
     _write_report(report, {"file": None if file is None else file.name, "port": port}, seed, time.perf_counter() - began)

@@ -1,14 +1,31 @@
 """How does the event loop speak with one process that makes trees? It asks, and has an answer to come; a process that ends is begun again when it is asked next."""
 
 import asyncio
+import contextlib
 import multiprocessing
 import pickle
+import signal
 import sys
 import threading
-from collections.abc import Callable
+from collections.abc import Callable, Iterator
+from multiprocessing import resource_tracker
 from pathlib import Path
 
 from sketchtree.errors import SketchTreeError
+
+
+@contextlib.contextmanager
+def _no_ctrl_c() -> Iterator[None]:
+    """A process begun meanwhile never hears Ctrl-C at the terminal, not even while it starts: the studio ends it. The studio itself hears of it afterwards."""
+    if not hasattr(signal, "pthread_sigmask"):
+        yield
+        return
+    resource_tracker.ensure_running()  # `start` would do so, and lift the block
+    before = signal.pthread_sigmask(signal.SIG_BLOCK, {signal.SIGINT})
+    try:
+        yield
+    finally:
+        signal.pthread_sigmask(signal.SIG_SETMASK, before)
 
 
 class Fault(SketchTreeError):
@@ -36,7 +53,8 @@ class Hand:
         from sketchtree.studio.making.worker import main
 
         self._process = context.Process(target=main, args=(theirs, None if self._database is None else str(self._database), self.role), daemon=True)
-        self._process.start()
+        with _no_ctrl_c():
+            self._process.start()
         theirs.close()
         threading.Thread(target=self._listen, args=(self._pipe,), daemon=True).start()
 

@@ -26,7 +26,7 @@ from sketchtree.studio.security import ADDRESS, Guard
 from sketchtree.studio.server import Studio
 from sketchtree.studio.session import Session
 
-_PATIENCE = 2  # seconds that open connections have to end
+_PATIENCE = 0.5  # seconds that open connections have to end
 
 
 @dataclass(frozen=True)
@@ -74,7 +74,7 @@ async def _serve(engine: Engine, start: Start, page: Path, told, stop: asyncio.E
         try:
             await _run(Studio(session, page).app(guard), listening, lambda: told(guard.url), stop)
         finally:
-            session.desk.scribe.journal.keep_key(None)  # another journal by now, if it was saved under another name
+            (session.desk.scribe.journal or journal).keep_key(None)  # another one by now, if it was saved under another name
     finally:
         await session.end()
         await engine.stop()

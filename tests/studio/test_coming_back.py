@@ -11,14 +11,13 @@ from pathlib import Path
 from urllib.parse import parse_qs, urlsplit
 
 import pytest
+from page_line import line, say
 from running import running
 from talking import drawn
 from websockets.exceptions import InvalidStatus
-from websockets.sync.client import connect
 
 from sketchtree.studio import key as keys
 from sketchtree.studio import messages
-from sketchtree.studio.outbox import encode
 from sketchtree.studio.recovery import journal_of
 
 
@@ -38,18 +37,6 @@ def studio(file: Path):
         process.kill()
         process.wait(10)
         process.stdout.close()
-
-
-def line(address: str):
-    """A page's line to the studio of that address, opened with what the page knows."""
-    place, token = urlsplit(address).netloc, parse_qs(urlsplit(address).query)["token"][0]
-    cookie = f"sketchtree-{place.rpartition(':')[2]}={token}"
-    return connect(f"ws://{place}/ws", origin=f"http://{place}", additional_headers={"Cookie": cookie}, proxy=None, max_size=None)
-
-
-def say(page, *requests) -> None:
-    for request in (messages.Hello(version=messages.VERSION), *requests):
-        page.send(encode(request))
 
 
 def key_of(address: str, folder: Path) -> keys.Key:
