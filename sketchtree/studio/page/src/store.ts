@@ -61,7 +61,7 @@ export class Store {
   };
   readonly ui: Ui = {
     tool: "branch", layout: "beside", turn: 0, selected: null, pointed: null, selectedStrokes: [], uncertainty: false, figure: true, theme: "light", palm: false,
-    stabiliser: 0.35, width: 4,
+    stabiliser: 0.5, width: 4,
   };
   frame: { head: Tree; arrays: Arrays } | null = null; // the frame just come; listeners of "frame" take it at once
   ghost: { head: Ghost; arrays: Arrays } | null = null;

@@ -40,6 +40,24 @@ describe("a shaking hand", () => {
     expect(Math.abs(lag)).toBeLessThan(30);
   });
 
+  test("a lifted line lags nowhere", () => {
+    const bend = Array.from({ length: 120 }, (_, k) => ({ x: k * 4, y: 60 * Math.sin(k / 12), pressure: 0.5, time: k * 8 }));
+    const steady = stabilise(bend, 0.5, 1, true);
+    const ahead = steady.slice(15, 105).reduce((sum, sample, k) => sum + sample.x - bend[k + 15]!.x, 0) / 90;
+    expect(Math.abs(ahead)).toBeLessThan(0.5);
+  });
+
+  test("a shake as the pen is lifted makes no hook", () => {
+    const still = Array.from({ length: 60 }, (_, k) => ({ x: k * 3, y: 0, pressure: 0.5, time: k * 8 }));
+    const hooked = [...still, { x: 180, y: 5, pressure: 0.5, time: 480 }];
+    const line = stabilise(hooked, 0.5, 1, true);
+    const turns = line.slice(1, -1).map((sample, k) => {
+      const [before, after] = [line[k]!, line[k + 2]!];
+      return Math.abs(Math.atan2(after.y - sample.y, after.x - sample.x) - Math.atan2(sample.y - before.y, sample.x - before.x));
+    });
+    expect(Math.max(...turns)).toBeLessThan(Math.PI / 6);
+  });
+
   test("times never run back", () => {
     const line = stabilise(shaky, 0.7, 1, true);
     for (let k = 1; k < line.length; k += 1) expect(line[k]!.time).toBeGreaterThan(line[k - 1]!.time);

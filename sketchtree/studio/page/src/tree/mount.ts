@@ -144,6 +144,10 @@ function followFrames(view: View, store: Store, { scenery, chosen, weather, grou
     ghosts.show(paths, 0.0022 * view.reach);
     view.stage.draw(true);
   });
+  store.on("trouble", () => { // nothing comes of it
+    ghosts.show([], 0);
+    view.stage.draw();
+  });
 }
 
 /** A guess at the trunk's radius: it decides how wide the ground darkens at its foot. */

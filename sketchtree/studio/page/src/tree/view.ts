@@ -8,7 +8,7 @@ import type { Ray } from "./hand/pick";
 import type { PagePlane } from "./page/plane";
 import { Stage } from "./stage/stage";
 
-const SLACK = 0.06; // of the distance, before the eye follows a tree that grows
+const SLACK = 0.03; // of the distance, before the eye follows a tree that grows
 const NEAR_ENOUGH = 7; // pixels from a limb that still hit it
 
 export class View {
@@ -69,8 +69,10 @@ export class View {
   /** The tree is another: where the whole of it was seen, it still is. */
   follow(atOnce: boolean): void {
     if (!this.seesAll) return;
-    const nearer = this.whole().distance / this.eye.distance;
-    if (atOnce || (!this.flight.moving && (nearer > 1 + SLACK || nearer < 1 - 2 * SLACK))) this.showAll(undefined, undefined, atOnce);
+    const { distance, target } = this.whole();
+    const nearer = distance / this.eye.distance;
+    const aside = Math.hypot(...target.map((at, k) => at - this.eye.target[k]!)) / this.eye.distance;
+    if (atOnce || (!this.flight.moving && (nearer > 1 + SLACK || nearer < 1 - 3 * SLACK || aside > SLACK))) this.showAll(undefined, undefined, atOnce);
   }
 
   /** The eye in its direction, or another, that sees the whole tree. */

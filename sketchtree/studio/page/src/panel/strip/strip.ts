@@ -69,7 +69,7 @@ class Strip {
     const chosen = options?.template ?? "auto";
     const bars = new Map(rank(welcome.templates, matches?.ranked ?? []).map((one) => [one.choice.name, one.bar]));
     for (const [name, one] of this.cards) {
-      const title = name === "auto" && chosen === "auto" && used !== null ? `Auto: ${this.title(used)}` : this.title(name);
+      const title = name === "auto" && chosen === "auto" && used !== null ? `Auto\n${this.title(used)}` : this.title(name);
       one.show({ chosen: name === chosen, used: name === used, bar: bars.get(name) ?? null, title });
     }
     const other = chosen !== this.chosen;

@@ -12,8 +12,8 @@ export interface Eye {
 export const FIELD = 28; // degrees, vertical
 const LOWEST = -20; // degrees: from below the ground one sees little
 const HIGHEST = 89.5;
-const ASIDE = 1.08; // room at both sides
-const ABOVE = 1.16; // and above and below: for the height's label, and a little sky
+const ASIDE = 1.1; // room at both sides
+const ABOVE = 1.18; // and above and below: for the height's label, and a little sky
 
 const radians = (degrees: number): number => (degrees * Math.PI) / 180;
 

@@ -15,6 +15,7 @@ import type { Reached } from "./wood_of";
 
 const LIVE = 1000 / 15; // milliseconds between previews
 const ROOM = 26; // pixels between handles, at least
+const BESIDE = 18; // pixels from a handle to its words
 const LEAST = 0.08; // of the tree's height: so far a handle may always go
 const STEP = 0.02; // of the tree's height, an arrow key
 
@@ -43,8 +44,7 @@ export class Handles {
     const focused = this.shown.findIndex(({ handle }) => handle.matches(":focus"));
     this.one = this.chosen.now;
     const shares = !this.one ? [] : this.one.limb ? grips(this.one.limb.held) : [1];
-    this.guide.hide();
-    this.words.hidden = true;
+    this.quiet();
     this.layer.replaceChildren(this.words);
     this.shown = shares.map((share, k) => ({ share, handle: this.handle(share, k) }));
     this.shown[focused]?.handle.focus();
@@ -62,15 +62,36 @@ export class Handles {
     made.addEventListener("pointerdown", (event) => this.take(event, made, share));
     made.addEventListener("keydown", (event) => this.key(event, share));
     for (const name of ["pointerenter", "focus"]) made.addEventListener(name, () => this.point(share));
-    for (const name of ["pointerleave", "blur"]) made.addEventListener(name, () => { if (!this.dragging) this.guide.hide(); });
+    for (const name of ["pointerleave", "blur"]) made.addEventListener(name, () => { if (!this.dragging) this.quiet(); });
     this.layer.append(made);
     return made;
   }
 
-  /** Where it could slide to. */
+  /** Where it could slide to; seen from the end of that way, words say it. */
   private point(share: number): void {
     if (this.dragging || !this.one) return;
-    this.guide.show(placeAt(this.one.path, this.one.share, share), this.one.out, this.room(this.one, share));
+    const at = placeAt(this.one.path, this.one.share, share);
+    this.guide.show(at, this.one.out, this.room(this.one, share));
+    this.say(this.slides(at, this.one.out) === null ? "↑ farther · ↓ nearer" : "", this.view.project(at));
+  }
+
+  /** The way a handle slides on the screen, a pixel of it seen from its side; null: one looks along it. */
+  private slides(at: Point, out: Point): readonly [number, number] | null {
+    const [from, to] = [this.view.project(at), this.view.project(along(at, out, 1 / Math.max(this.view.metre(at), 1e-6)))];
+    const way = [to[0] - from[0], to[1] - from[1]] as const;
+    return Math.hypot(...way) < SEEN ? null : way;
+  }
+
+  private say(words: string, [x, y]: readonly [number, number]): void {
+    this.words.textContent = words;
+    this.words.hidden = words === "";
+    const beside = x + BESIDE + this.words.offsetWidth < this.view.stage.wide ? `${BESIDE}px` : `calc(-100% - ${BESIDE}px)`;
+    this.words.style.transform = `translate(${x.toFixed(1)}px, ${y.toFixed(1)}px) translate(${beside}, -50%)`;
+  }
+
+  private quiet(): void {
+    this.guide.hide();
+    this.words.hidden = true;
   }
 
   private room(one: Reached, share: number): readonly [number, number] {
@@ -86,14 +107,14 @@ export class Handles {
     const one = this.one;
     const at = placeAt(one.path, one.share, share);
     this.dragging = true;
+    this.told = 0;
     const [farthest, nearest] = this.room(one, share);
     this.guide.show(at, one.out, [farthest, nearest]);
     let metres = 0;
     const moved = (event: PointerEvent): void => {
       const wish = pulled(at, one.out, event.clientX - down.clientX, event.clientY - down.clientY, this.view.project, this.view.metre(at));
       metres = Math.min(nearest, Math.max(farthest, wish));
-      this.words.textContent = metres === 0 ? "" : `${inMetres(Math.abs(metres))} ${metres > 0 ? "nearer" : "farther"}`;
-      this.words.hidden = metres === 0;
+      this.say(metres === 0 ? "" : `${inMetres(Math.abs(metres))} ${metres > 0 ? "nearer" : "farther"}`, this.view.project(along(at, one.out, metres)));
       this.pull(one, share, metres, true);
     };
     const done = (event: PointerEvent): void => {
@@ -101,14 +122,20 @@ export class Handles {
       handle.removeEventListener("pointerup", done);
       handle.removeEventListener("pointercancel", done);
       this.dragging = false;
-      this.guide.hide();
-      this.words.hidden = true;
+      this.quiet();
       if (event.type === "pointerup" && metres !== 0) this.pull(one, share, metres, false);
-      else this.renew();
+      else this.letGo();
     };
     handle.addEventListener("pointermove", moved);
     handle.addEventListener("pointerup", done);
     handle.addEventListener("pointercancel", done);
+  }
+
+  /** Nothing comes of it: neither here nor in what the program shows of it. */
+  private letGo(): void {
+    this.moving = null;
+    if (this.told) this.store.send({ type: "sketching", stroke: null });
+    this.renew();
   }
 
   private key(event: KeyboardEvent, share: number): void {
@@ -146,10 +173,8 @@ export class Handles {
       const room = last === null || Math.hypot(here[0] - last[0], here[1] - last[1]) > ROOM || handle.matches(":focus"); // asked of itself: in a notebook it is in a shadow root
       handle.style.visibility = room ? "visible" : "hidden";
       if (room) last = here;
-      const step = this.view.project(along(at, this.one.out, 1 / Math.max(this.view.metre(at), 1e-6))); // a pixel long, seen from its side
-      const [right, down] = [step[0] - this.view.project(at)[0], step[1] - this.view.project(at)[1]];
-      handle.style.cursor = Math.hypot(right, down) < SEEN ? "ns-resize" : cursorAlong(right, down);
-      if (this.moving?.share === share) this.words.style.transform = `translate(${here[0].toFixed(1)}px, ${here[1].toFixed(1)}px) translate(18px, -50%)`;
+      const way = this.slides(at, this.one.out);
+      handle.style.cursor = way === null ? "ns-resize" : cursorAlong(...way);
       handle.style.transform = `translate(${here[0].toFixed(1)}px, ${here[1].toFixed(1)}px) translate(-50%, -50%)`;
     }
   }

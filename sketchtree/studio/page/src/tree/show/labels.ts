@@ -9,6 +9,7 @@ import { placeAt } from "../hand/drag";
 import { TALL, type Figure } from "../stage/figure";
 import type { View } from "../view";
 
+const HIGHEST = 36; // pixels below the view's upper edge
 const MOST = 60; // locks: more would hide the tree
 
 export class Labels {
@@ -46,8 +47,9 @@ export class Labels {
 
   private follow(): void {
     for (const { label, at } of this.placed) {
-      const [x, y] = this.view.project(at());
-      label.style.transform = `translate(${x.toFixed(1)}px, ${y.toFixed(1)}px) translate(-50%, -110%)`;
+      const [x, low] = this.view.project(at());
+      const y = label.classList.contains("whole") ? Math.max(low, HIGHEST) : low; // a top that is out of sight still has its height
+      label.style.transform = `translate(${x.toFixed(1)}px, ${y.toFixed(1)}px) translate(-50%, -145%)`;
     }
   }
 }

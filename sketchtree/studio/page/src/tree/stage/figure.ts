@@ -4,7 +4,9 @@ import { DoubleSide, Group, Mesh, MeshBasicMaterial, Shape, ShapeGeometry, type 
 
 export const TALL = 1.8; // metres
 const HALF = 0.45; // metres: half the width that a person needs
-const ROOM = 1.2; // metres, before and behind
+const ROOM = 1.2; // metres behind
+const STEP = 0.2; // metres
+const SIDES = [0, 24].map((degrees) => [Math.cos((degrees * Math.PI) / 180), Math.sin((degrees * Math.PI) / 180)] as const);
 
 export class Figure {
   readonly group = new Group();
@@ -55,12 +57,19 @@ export class Figure {
   }
 }
 
-/** The place nearest to `x`, to its left, with nothing of the tree around a person there. */
+/** The place nearest to `x`, to its left, around and before which nothing of the tree hangs low: seen from the front, and from where one looks at first. */
 export function clear(spots: ArrayLike<number>, x: number, z: number): number {
-  const low: number[] = [];
-  for (let k = 0; k + 2 < spots.length; k += 3) if (spots[k + 1]! < TALL + HALF && Math.abs(spots[k + 2]! - z) < ROOM && spots[k]! < x + HALF) low.push(spots[k]!);
+  const low: [number, number][] = [];
+  let least = x;
+  for (let k = 0; k + 2 < spots.length; k += 3) {
+    if (spots[k + 1]! > TALL + HALF) continue;
+    low.push([spots[k]!, spots[k + 2]!]);
+    least = Math.min(least, spots[k]!);
+  }
+  const hides = (at: number, [sx, sz]: readonly [number, number]): boolean => SIDES.some(([cos, sin]) =>
+    Math.abs((sx - at) * cos - (sz - z) * sin) < HALF && (sx - at) * sin + (sz - z) * cos > -ROOM);
   let at = x;
-  for (const one of low.sort((a, b) => b - a)) if (one > at - HALF) at = Math.min(at, one - HALF);
+  for (const end = least - HALF; at > end && low.some((spot) => hides(at, spot)); ) at = Math.max(end, at - STEP);
   return at;
 }
 
