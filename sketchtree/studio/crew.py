@@ -24,7 +24,7 @@ from sketchtree.studio.making.basis import Basis
 
 _ROLES = ("quick", "full", "side")
 _SMALL, _LINES = 1_000_000, (".svg", ".json", ".excalidraw", ".inkml")  # bytes, and kinds, of drawings that are read at once
-_AFTER_PAINT = 1.0  # seconds from a tree that is there at once to the beginning of the next process: a page is being painted
+_AFTER_PAINT, _AFTER_TREE = 1.0, 4.0  # seconds to the beginning of the next process: from a tree that is there at once, while a page is painted; from one that was made
 _PAUSE = 0.1  # seconds between two tellings of how far a stage is
 
 
@@ -44,7 +44,8 @@ class Crew:
         self._made, self._revived = -1, -1  # revisions: of the newest full tree, and of the last for which the process of full trees had to be begun again
         self._told = (0.0, "")
         self._catalogue: messages.Welcome | None = None
-        self._whole_shown, self._soon = -1, None  # the revision whose whole tree the pages have already; when the hurried one begins then
+        self._whole_shown = -1  # the revision whose whole tree the pages have already
+        self._soon: dict[str, asyncio.TimerHandle] = {}  # processes that begin in a while
 
     @property
     def shown(self) -> tuple[dict[str, str], Basis | None]:
@@ -54,7 +55,12 @@ class Crew:
     def has_shown(self, revision: int, digests: dict[str, str], basis: Basis) -> None:
         """The pages have the whole tree of this revision, which was asked for just now. It is made all the same, and what is different of it is sent."""
         self._whole_shown, self._known, self._basis = revision, dict(digests), basis
-        self._soon = self._loop.call_later(_AFTER_PAINT, self._hands["quick"].ready)
+        self._later(_AFTER_PAINT, "quick")
+
+    def _later(self, seconds: float, role: str) -> None:
+        """Begin a process in a while, unless it was needed before."""
+        if role not in self._soon:
+            self._soon[role] = self._loop.call_later(seconds, self._hands[role].ready)
 
     async def start(self) -> None:
         """Begin the processes."""
@@ -67,8 +73,8 @@ class Crew:
         """End all processes."""
         for task in self._tasks:
             task.cancel()
-        if self._soon is not None:
-            self._soon.cancel()
+        for begin in self._soon.values():
+            begin.cancel()
         for hand in self._hands.values():
             hand.end()
 
@@ -114,8 +120,8 @@ class Crew:
         frame, digests, basis = found
         self._known, self._basis, self._made, self._job = digests, basis, revision, number
         self.on_outcome(Outcome(revision, frame, settled=basis.settled))
-        for role in ("quick", "side"):
-            self._hands[role].ready()
+        self._hands["quick"].ready()
+        self._later(_AFTER_TREE, "side")
         self._say(messages.Working(state="idle", revision=revision))
 
     def _revive(self, revision: int, error: Ended) -> bool:

@@ -44,12 +44,6 @@ class Jobs:
         """What trees are made with."""
         from sketchtree.studio.making import chunks, found, ghosts, remarks, warm, work  # noqa: F401
 
-    def warm_up(self, quick: bool) -> None:
-        """Compile what every drawing needs, before it is asked for."""
-        from sketchtree.studio.making.warm import warm_up
-
-        warm_up(quick)
-
     def _full(self, number, watch, revision: int, document: Document, known: dict[str, str], shown: int):
         from sketchtree.keys import root_key
         from sketchtree.studio.making import work

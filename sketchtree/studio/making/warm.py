@@ -5,6 +5,7 @@ inferred with all but one limb held, as after a stroke; the sizes met first come
 """
 
 import dataclasses
+from collections.abc import Callable
 
 import numpy as np
 
@@ -21,9 +22,10 @@ from sketchtree.sketch.strokes import Sketch, Stroke
 _LIMBS = (4, 10, 20, 15, 40, 30)  # of drawings padded to 32 rows and 8 limbs, 32 and 16, 64 and 32, 64 and 16, 128 and 64, 128 and 32
 
 
-def warm_up(quick: bool, limbs: tuple[int, ...] = _LIMBS) -> None:
-    """Compile, or read what was compiled before: the programs of hurried answers, or of full ones."""
+def warm_up(quick: bool, before_each: Callable[[], None] = lambda: None, limbs: tuple[int, ...] = _LIMBS) -> None:
+    """Compile, or read what was compiled before: the programs of hurried answers, or of full ones. `before_each` may wait for a good moment."""
     for count in limbs:
+        before_each()
         factors = factor_graph(sketch_graph(_little(count)))
         last = factors.limb_count - 1
         locked = {int(row): 0.0 for row in np.flatnonzero((factors.limb != last) & ~factors.is_base)}

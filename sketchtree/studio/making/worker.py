@@ -13,8 +13,10 @@ import pickle
 import queue
 import signal
 import threading
+import time
 import traceback
-from collections.abc import Callable
+from collections.abc import Callable, Iterator
+from contextlib import contextmanager
 from multiprocessing.connection import Connection
 from pathlib import Path
 
@@ -24,6 +26,7 @@ NEWEST = ("full", "quick", "ghost", "glance", "alternatives")
 LAST = ("picture",)
 KNOWN = ("find", "frame")
 
+_REST = 0.4  # seconds without a job, after which what nobody waits for goes on
 _NICE = {"quick": 0, "full": 4, "side": 8}  # what a pen waits for goes before what a tree waits for, and that before pictures
 
 
@@ -35,6 +38,7 @@ class Desk:
         self.pipe, self.jobs, self.known, self.gone = pipe, queue.PriorityQueue(), queue.SimpleQueue(), gone
         self._saying = threading.Lock()
         self.newest: dict[str, int] = {}
+        self._idle_since: float | None = float("-inf")  # None: a job is being done
         self.ended = -1  # jobs up to this number are to stop
         threading.Thread(target=self._listen, daemon=True).start()
 
@@ -53,6 +57,20 @@ class Desk:
     def stopped(self, number: int, kind: str) -> bool:
         """Is the job not wanted any more?"""
         return kind in NEWEST and (number <= self.ended or number < self.newest[kind])
+
+    @contextmanager
+    def working(self) -> Iterator[None]:
+        """While a job is done."""
+        self._idle_since = None
+        try:
+            yield
+        finally:
+            self._idle_since = time.monotonic()
+
+    def rests(self) -> None:
+        """Returns when there has been nothing to do for a while."""
+        while (since := self._idle_since) is None or not self.jobs.empty() or time.monotonic() - since < _REST:
+            time.sleep(_REST / 8)
 
     def say(self, number: int, what: str, value: object = None) -> None:
         """An outcome."""
@@ -75,7 +93,7 @@ def main(pipe: Connection, database: str | None, role: str) -> None:
     if role != "side":
         jobs.import_all()  # before there is another thread
     threading.Thread(target=_answer, args=(jobs, desk), daemon=True).start()
-    warm = threading.Thread(target=jobs.warm_up, args=(role == "quick",), daemon=True)
+    warm = threading.Thread(target=_warm, args=(role == "quick", desk), daemon=True)
     if role == "quick":
         warm.start()
     while True:
@@ -83,9 +101,17 @@ def main(pipe: Connection, database: str | None, role: str) -> None:
         if desk.stopped(number, kind):
             desk.say(number, "stopped")
             continue
-        _do(jobs, desk, number, kind, arguments)
+        with desk.working():
+            _do(jobs, desk, number, kind, arguments)
         if role == "full" and warm.ident is None:
             warm.start()  # after the first tree, which somebody waits for
+
+
+def _warm(quick: bool, desk: Desk) -> None:
+    """Compile what every drawing needs, before it is asked for; never while somebody waits for something else."""
+    from sketchtree.studio.making.warm import warm_up
+
+    warm_up(quick, desk.rests)
 
 
 def _answer(jobs, desk: Desk) -> None:
