@@ -1,8 +1,11 @@
-"""How soon is the studio there, and how much memory does it take? `python -m benchmarks.studio_start [--edits 200]`
+"""How soon is the studio there, and how much memory does it take? `python -m benchmarks.studio_start [--starts 4] [--edits 200]`
 
-Three starts one after the other, so that the caches are warm, each of `sketchtree studio --no-browser` with its example and a real browser. Seconds from the command to
+Starts one after the other, each of `sketchtree studio --no-browser` with its example and a real browser: the first with nothing in the stock of trees and pictures
+(compiled programs are warm), as after the program was installed anew; the others with it. Seconds from the command to
 
-    address    its line is printed: connections are accepted       paint    the browser has painted (the browser's own start left out)      tree    the whole tree is there
+    address    its line is printed: connections are accepted       paint    the browser has painted (the browser's own start left out)
+    page       one can draw                                        tree     the whole tree is there
+    cpu        not since the command, but spent by the server and its processes until the tree was there: what a busy machine leaves as it is
 
 and megabytes of the server and its three processes, then and after so many edits of one page.
 """
@@ -42,15 +45,24 @@ def one_start(browser) -> dict[str, float]:
                 page.wait_for_timeout(20)
             paint = page.evaluate("performance.getEntriesByName('first-contentful-paint')[0].startTime") / 1000
             found["paint"] = asked - began + paint
+            page.locator('[data-testid="page-canvas"]').first.wait_for()
+            found["page"] = time.perf_counter() - began
             status = page.locator('[data-testid="status"]')
             while not (status.get_attribute("data-state") == "idle" and int(status.get_attribute("data-segments") or 0)):
                 page.wait_for_timeout(50)
-            found["tree"] = time.perf_counter() - began
+            found["tree"], found["cpu"] = time.perf_counter() - began, seconds_of(process)
         finally:
             page.close()
             process.terminate()
             process.wait(20)
     return found
+
+
+def seconds_of(process: subprocess.Popen) -> float:
+    """CPU seconds of the server and of all its children so far."""
+    children = subprocess.run(["ps", "-o", "pid=", "--ppid", str(process.pid)], capture_output=True, text=True).stdout.split()
+    fields = [Path(f"/proc/{pid}/stat").read_text().rpartition(")")[2].split() for pid in (str(process.pid), *children)]
+    return sum(int(field[11]) + int(field[12]) for field in fields) / os.sysconf("SC_CLK_TCK")
 
 
 def megabytes(process: subprocess.Popen) -> dict[str, float]:
@@ -91,13 +103,17 @@ def main(argv=None) -> None:
     from playwright.sync_api import sync_playwright
 
     parser = argparse.ArgumentParser(description=__doc__.splitlines()[0])
+    parser.add_argument("--starts", type=int, default=4)
     parser.add_argument("--edits", type=int, default=200)
     asked = parser.parse_args(argv)
-    with sync_playwright() as play:
+    with sync_playwright() as play, tempfile.TemporaryDirectory() as stock:
+        os.environ["SKETCHTREE_CACHE"] = stock
         browser = play.chromium.launch(executable_path="/usr/bin/chromium" if Path("/usr/bin/chromium").exists() else None, args=ARGUMENTS)
-        for _ in range(3):
+        for _ in range(asked.starts):
             print(json.dumps({name: round(seconds, 2) for name, seconds in one_start(browser).items()}), flush=True)
         browser.close()
+    if not asked.edits:
+        return
     with tempfile.TemporaryDirectory() as folder:
         process, address, _ = start(folder)
         try:
