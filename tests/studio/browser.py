@@ -42,6 +42,21 @@ def launch():
     return playwright, playwright.chromium.launch(executable_path=program, args=ARGUMENTS)
 
 
+def open_window(browser, width: int = 1280, height: int = 720, **more):
+    """A window of the least size that the page is made for; one pixel a CSS pixel."""
+    return browser.new_context(viewport={"width": width, "height": height}, **more)
+
+
+STATUS = """(element, seen) => new Promise((done) => {
+  const said = () => ({ ...element.dataset });
+  const isNew = () => !seen || Object.entries(said()).some(([name, value]) => String(seen[name]) !== value);
+  if (isNew()) return done(said());
+  const watch = new MutationObserver(() => isNew() && end());
+  const end = () => { watch.disconnect(); clearTimeout(timer); done(said()); };
+  const timer = setTimeout(end, 500);
+  watch.observe(element, { attributes: true });
+})"""  # what the status line says, once that is not what was seen; after half a second in any case
+
 CONTRASTS = (Path(__file__).parent / "contrasts.js").read_text("utf-8")
 
 
@@ -147,19 +162,22 @@ class Page:
     @property
     def status(self) -> dict:
         """What the status line says: state, segments, triangles, revision; figures are numbers."""
-        data = self.get("status").evaluate("(element) => ({...element.dataset})")
+        return self._status_after(None)
+
+    def _status_after(self, seen: dict | None) -> dict:
+        """The next status that is another one, or the same after a while; without `seen` the one there is."""
+        data = self.get("status").evaluate(STATUS, seen)
         return {name: int(value) if name in ("segments", "triangles", "revision") and value else value for name, value in data.items()}
 
     def wait(self, holds: Callable[[dict], bool], what: str = "the status line", patience: float = PATIENCE) -> dict:
         """The status once this holds of it."""
         end = time.monotonic() + patience
-        while True:
-            status = self.status
-            if holds(status):
-                return status
+        status = self.status
+        while not holds(status):
             if time.monotonic() > end:
                 raise AssertionError(f"{what} did not come; the status line says {status}; odd: {self.odd}")
-            self.page.wait_for_timeout(40)
+            status = self._status_after(status)
+        return status
 
     def settle(self) -> dict:
         """The status once nothing is being worked at."""

@@ -4,7 +4,7 @@ import pytest
 
 pytest.importorskip("msgspec", reason="the studio is not installed: pip install 'sketchtree[studio]'")
 
-from browser import Page, launch, without
+from browser import Page, open_window, without
 from running import running
 
 from sketchtree.studio import built
@@ -29,14 +29,6 @@ KEPT = """() => new Promise((done) => {
 
 
 @pytest.fixture(scope="module")
-def browser():
-    playwright, browser = launch()
-    yield browser
-    browser.close()
-    playwright.stop()
-
-
-@pytest.fixture(scope="module")
 def dist():
     if not (built.DIST / "index.html").is_file():
         without("the page was not built")
@@ -55,7 +47,7 @@ def work(tmp_path, monkeypatch):
 @pytest.fixture
 def desk(browser, dist, work):
     """An empty page and the server behind it."""
-    context = browser.new_context(viewport={"width": 1280, "height": 720})
+    context = open_window(browser)
     with running(work, page=dist) as server:
         server.engine.answers = False
         yield Desk(Page(context, server.url), server)
@@ -185,7 +177,7 @@ def test_a_line_is_pulled_moved_and_deleted_with_the_select_tool(desk):
 
 
 def test_lines_drawn_while_the_program_was_away_come_to_it_in_order(browser, dist, work):
-    context = browser.new_context(viewport={"width": 1280, "height": 720})
+    context = open_window(browser)
     with running(work, page=dist) as server:
         server.engine.answers = False
         desk = Desk(Page(context, server.url), server)

@@ -16,7 +16,7 @@ import pytest
 
 pytest.importorskip("msgspec", reason="the studio is not installed: pip install 'sketchtree[studio]'")
 
-from browser import PATIENCE, Page, Studio, launch
+from browser import PATIENCE, Page, Studio, open_window
 from PIL import Image
 from wire_ear import Ear
 
@@ -33,14 +33,6 @@ MORE = {"id": "more", "kind": "branch", "xy": [300, 360, 250, 300, 245, 260]}
 
 
 @pytest.fixture(scope="module")
-def browser():
-    playwright, browser = launch()
-    yield browser
-    browser.close()
-    playwright.stop()
-
-
-@pytest.fixture(scope="module")
 def studio(tmp_path_factory, browser):
     folder = tmp_path_factory.mktemp("studio")
     (folder / "work").mkdir()
@@ -53,7 +45,7 @@ def studio(tmp_path_factory, browser):
 
 @pytest.fixture(scope="module")
 def context(browser, studio):
-    context = browser.new_context(viewport={"width": 1280, "height": 720}, accept_downloads=True)
+    context = open_window(browser, accept_downloads=True)
     yield context
     context.close()
 
@@ -100,7 +92,7 @@ def small_tree(page, ear):
 
 def test_an_example_is_there_at_once_and_a_hint_says_what_to_draw(browser, tmp_path):
     own = Studio(tmp_path)
-    context = browser.new_context(viewport={"width": 1280, "height": 720})
+    context = open_window(browser)
     page = Page(context, own.address)
     page.get("hint").get_by_text("Draw a trunk").wait_for()
     ear = Ear(own.address, context.cookies())
@@ -271,12 +263,23 @@ def test_a_locked_limb_stays_where_it_is_and_is_let_go_by_the_same_button(page, 
     assert limb["id"] not in ear.edits
 
 
+def _from_the_side(page, handle) -> dict:
+    """Where a handle is, once the eye has come to the side, where depth is to the right."""
+    before = last = handle.bounding_box()
+    page.page.keyboard.press("2")
+    for _ in range(200):
+        page.page.wait_for_timeout(250)
+        now = handle.bounding_box()
+        if now == last != before:
+            return now
+        last = now
+    raise AssertionError(f"the eye did not come to rest: {before}, {last}")
+
+
 def test_a_depth_is_dragged_by_the_mouse_and_held(page, small_tree, ear):
     _select(page, ear, "left")
     before = _path(ear, "left")
-    page.page.keyboard.press("2")  # from the side, where depth is to the right
-    page.page.wait_for_timeout(600)  # the eye is there
-    box = page.page.locator("[data-testid^=handle-]").last.bounding_box()
+    box = _from_the_side(page, page.page.locator("[data-testid^=handle-]").last)
     x, y = box["x"] + box["width"] / 2, box["y"] + box["height"] / 2
 
     def drag():
@@ -307,8 +310,10 @@ def test_a_depth_is_changed_by_keys(page, small_tree, ear):
 
 def test_an_undrawn_limb_is_kept_and_another_is_cleared_whatever_changes(page, small_tree, ear):
     kept, cleared = ear.undrawn[0], ear.undrawn[-1]
-    ear.do("delete", limb=cleared)
-    ear.do("lock", limb=kept, on=True)
+    for count, request in enumerate(({"type": "delete", "limb": cleared}, {"type": "lock", "limb": kept, "on": True}), 1):
+        ear.ask(request)
+        ear.wait(lambda count=count: len(ear.edits) == count, "the limb, which is looked for aside")
+    ear.rest()
     before = _adopted(ear, kept)
     _change_everything(ear)
     assert _adopted(ear, kept) == pytest.approx(before, rel=1e-6, abs=1e-6), "another template has other metres and depths, but on its branch it stays"
@@ -512,7 +517,7 @@ def test_text_is_read_on_its_ground(page, small_tree, theme):
 def test_a_killed_studio_loses_the_stroke_in_hand_and_nothing_else(browser, tmp_path):
     (tmp_path / "work").mkdir()
     (tmp_path / "work" / "small.json").write_text(json.dumps(SMALL))
-    own, context = Studio(tmp_path, "small.json"), browser.new_context(viewport={"width": 1280, "height": 720})
+    own, context = Studio(tmp_path, "small.json"), open_window(browser)
     page = Page(context, own.address)
     page.settle()
     ear = Ear(own.address, context.cookies())

@@ -9,7 +9,7 @@ import pytest
 
 pytest.importorskip("anywidget", reason="the studio is not installed: pip install 'sketchtree[studio]'")
 
-from browser import Page, launch, without
+from browser import Page, open_window, without
 from fake_engine import FakeEngine
 
 from sketchtree.studio import built
@@ -32,14 +32,6 @@ HOST = """<!doctype html><meta charset="utf-8"><title>A notebook</title><link re
   addEventListener("keydown", () => { window.keysHeard += 1; });
   window.unmount = widget.render({ model, el: document.getElementById("cell") });
 </script>"""
-
-
-@pytest.fixture(scope="module")
-def browser():
-    playwright, browser = launch()
-    yield browser
-    browser.close()
-    playwright.stop()
 
 
 @pytest.fixture(scope="module")
@@ -83,7 +75,7 @@ class Notebook:
         self.widget = DrawingWidget(engine=NoTree)
         self._waiting: queue.Queue = queue.Queue()
         self.widget.send = lambda content, buffers=(): self._waiting.put((content, [base64.b64encode(one).decode() for one in buffers]))
-        self.context = browser.new_context(viewport={"width": 1000, "height": 620})
+        self.context = open_window(browser, 1000, 620)
         self.context.expose_function("toKernel", lambda content: self.widget._handle_custom_msg(content, []))
         self.page = Page(self.context, address)
 
