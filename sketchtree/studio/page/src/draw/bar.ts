@@ -43,9 +43,10 @@ export function mountBar(root: HTMLElement, store: Store): void {
 function title(store: Store): HTMLElement {
   const name = element("span", { class: "name" });
   const unsaved = element("span", { class: "unsaved", title: "Not saved to a file yet. It is kept safe all the same.", role: "img", aria: { label: "not saved" } });
-  const root = element("span", { class: "title", title: "Name of the project" }, name, unsaved);
+  const root = element("span", { class: "title" }, name, unsaved);
   const show = (): void => {
     name.textContent = (store.known.name ?? "Untitled").replace(/\.sketchtree$/, "");
+    root.title = `${name.textContent}: the project's name`;
     root.classList.toggle("saved", store.known.saved);
     document.title = `${name.textContent} – SketchTree`;
   };

@@ -22,6 +22,9 @@ import { newPage } from "../draw/new_page";
 import type { Store } from "../store";
 import "./panel.css";
 
+const LOW = 340; // CSS pixels: where the page is no higher, a drawing below what is said on it would be too small to draw on
+const WIDE = 1100; // over a page as wide as this there is room beside what is said
+
 export type Dialog = "open" | "save" | "gallery" | "export";
 
 export interface PanelRoots {
@@ -46,7 +49,8 @@ export function mountPanels(roots: PanelRoots, store: Store, views: Views): void
   const words = document.createElement("div");
   words.className = "page-words";
   words.append(goneBanner(store), troubleCard(store), hint.root, turnedNote(store));
-  const covered = (): void => camera.cover("head", store.ui.layout === "beside" && words.offsetHeight ? words.offsetTop + words.offsetHeight : 0); // else there is room beside them
+  const hides = (): boolean => words.offsetHeight > 0 && roots.page.clientHeight > LOW && (store.ui.layout === "beside" || roots.page.clientWidth < WIDE);
+  const covered = (): void => camera.cover("head", hides() ? words.offsetTop + words.offsetHeight : 0);
   new ResizeObserver(covered).observe(words);
   store.on("layout", covered);
   roots.page.append(emptyPage(store, { gallery: () => openDialog("gallery"), open: () => openDialog("open") }), words, hintButton(store, hint));
