@@ -17,3 +17,4 @@ class Foliage:
     leaf: Mixture  # colours of the foliage
     background: Mixture  # and of what is between it
     warnings: tuple[str, ...] = ()
+    bare: bool = False  # a tree without leaves: the mask is what its twigs span, and `leaf` has the colours of wood
