@@ -67,6 +67,8 @@ class Crew:
         self._loop = asyncio.get_running_loop()
         for role in _ROLES:
             self._hands[role] = Hand(role, self._database, self._event if role == "full" else lambda number, value: None, self._full_ended if role == "full" else lambda: None)
+        self._begun = 1
+        self._empty: bytes | None = None  # the tree of a page without a stroke, if that was told last
         self._hands["full"].begin()  # the others once there is a tree, or when they are asked
 
     async def stop(self) -> None:
@@ -104,7 +106,11 @@ class Crew:
         await self._whole(revision, document)
 
     async def _whole(self, revision: int, document: Document) -> None:
-        number, answer = self._hands["full"].ask("full", revision, document, dict(self._known), self._job)
+        hand = self._hands["full"]
+        hand.ready()
+        if hand.begun != self._begun:
+            self._begun, self._known = hand.begun, {}  # pages that joined meanwhile had no tree from it
+        number, answer = hand.ask("full", revision, document, dict(self._known), self._job)
         self._full_number = number
         try:
             found = await answer
@@ -129,7 +135,7 @@ class Crew:
         if self._revived == revision:
             self._trouble(revision, Ended(error.message, remedy="It ended twice at this step: undo it. Should that not help, save, and start the studio again."))
             return False
-        self._revived, self._known = revision, {}  # a page that joins meanwhile has nothing of it
+        self._revived = revision
         again = messages.Trouble(message=error.message, remedy="It is begun again by itself; nothing of the drawing is lost.", about="program")
         self.on_outcome(Outcome(revision, again))
         return True
@@ -160,9 +166,11 @@ class Crew:
 
     async def frame(self) -> bytes | None:
         """As `Engine.frame`."""
-        if self._basis is None:
-            return None
-        return await self._hands["full"].ask("frame", self._job)[1]
+        frame, job = self._empty, None
+        while self._basis is not None and job != self._job:  # a newer one may be made meanwhile
+            job = self._job
+            frame = await self._hands["full"].ask("frame", job)[1]
+        return frame if self._basis is not None else self._empty
 
     def ghost(self, revision: int, document: Document, stroke: messages.Stroke | None, hold: messages.Hold | None) -> None:
         """As `Engine.ghost`."""
@@ -258,7 +266,8 @@ class Crew:
             revision=revision, phase="full", scale=1.0, root=[0.0, 0.0], owners=[], chunks=[], cards=[], materials=[], limbs=[], segments=0, drawn=0, leaves=0,
             triangles=[0, 0], height=0.0, low=[0.0] * 3, high=[0.0] * 3, template=None, leaf=None, bark="", warnings=[], arrays=[],
         )  # fmt: skip
-        self.on_outcome(Outcome(revision, Arrays().frame(head), settled=Settled(template=self._document.settled.template)))
+        self._empty = Arrays().frame(head)
+        self.on_outcome(Outcome(revision, self._empty, settled=Settled(template=self._document.settled.template)))
         self._say(messages.Working(state="idle", revision=revision))
 
     def _trouble(self, revision: int, error: SketchTreeError) -> None:

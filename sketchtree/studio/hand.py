@@ -44,10 +44,12 @@ class Hand:
         self._loop = asyncio.get_running_loop()
         self._waiting: dict[int, asyncio.Future] = {}
         self._number, self._pipe, self._process = 0, None, None
+        self.begun = 0  # how many times: another process knows nothing of what the one before had made
 
     def begin(self) -> None:
         """Start the process."""
         self._lose()
+        self.begun += 1
         context = multiprocessing.get_context("spawn")
         self._pipe, theirs = context.Pipe()
         from sketchtree.studio.making.worker import main
