@@ -54,7 +54,9 @@ const SKY = "uniform sampler3D uSky; uniform vec3 uSkyLow; uniform vec3 uSkySize
 const SKY_IN = "varying vec2 vSky;\n";
 const SKY_AT = `vSky = mix(vec2(${DARKEST}, 1.0 - uSunByGrid), vec2(1.0), texture(uSky, (transformed - uSkyLow) / uSkySize).rg);
 vSky = mix(vec2(1.0), vSky, 0.25 + 0.75 * uLeafShare);`; // what is hidden shades little
-const SKY_FALLS = "#include <aomap_fragment>\nreflectedLight.indirectDiffuse *= vSky.x; reflectedLight.directDiffuse *= vSky.y; reflectedLight.directSpecular *= vSky.y;";
+/** With the sky's own gleam on bark and leaves: neutral tone mapping takes as much away (0.04), and where there was none the dark becomes too deep and too gaudy. */
+const SKY_FALLS = "#include <aomap_fragment>\nreflectedLight.indirectDiffuse *= vSky.x; reflectedLight.directDiffuse *= vSky.y; reflectedLight.directSpecular *= vSky.y;\n"
+  + "reflectedLight.indirectSpecular += 0.04 * RECIPROCAL_PI * irradiance * vSky.x;";
 
 /** three's own edge begins at the cut and lies inside the drawing, so that far leaves, all edge, are thinned; this one lies across it. */
 const COVERED = `
