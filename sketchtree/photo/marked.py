@@ -14,3 +14,4 @@ class Marked:
     branches: tuple[Float[np.ndarray, "point 2"], ...]  # each from its lower end; the trunk's first, from the root. May be empty: then the trunk is not known
     names: tuple[str, ...] = ()  # id of each branch stroke, in the file
     crown_name: str = "crown"
+    warnings: tuple[str, ...] = ()  # of the whole file, on its first tree
