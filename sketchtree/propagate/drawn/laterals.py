@@ -46,6 +46,18 @@ def split_long(
     return _insert(tree, points, at, owner, number, served)
 
 
+def split_at(tree: TreeSkeleton, row: Int[np.ndarray, " node"], at: Float[np.ndarray, " node"]) -> tuple[Split, Int[np.ndarray, " node"]]:
+    """(the tree with a node `at` metres along each of these rows' drawn curves, strictly within them; the new row that ends at each node). Equal places are one node."""
+    places, which = np.unique(np.stack([row, at], axis=1), axis=0, return_inverse=True)
+    owner, at = places[:, 0].astype(np.int64), places[:, 1]
+    points = _polyline(tree, arc_length(tree))
+    split = _insert(tree, points, points[0][points[2][owner]] + at, owner, np.arange(len(owner)), np.full(len(tree), NULL))
+    node = np.flatnonzero(split.number != NULL)
+    place = np.empty(len(owner), np.int64)
+    place[split.number[node]] = node
+    return split, place[which.reshape(-1)]
+
+
 def _served(tree, arc, spacing, eligible):
     """k of the rows whose drawn tip serves as the node k; of two at one k the nearer one."""
     number = np.rint(arc / spacing).astype(np.int64)
