@@ -218,6 +218,7 @@ def pictures(out: Path) -> None:
         page = opened(browser, address, 1280, 760)
         page.get_by_test_id("hint-close").click()
         page.get_by_test_id("page-zoom").click()
+        page.locator(".template:nth-child(-n + 9) .thumbnail:not([data-picture])").first.wait_for(state="detached", timeout=1000 * PATIENCE)
         settle(page)
         still(page, out / "studio_first.png")
         taken(page)

@@ -195,8 +195,7 @@ function followPage(view: View, store: Store, ink: Ink): void {
   });
   pageCamera.on(() => { if (store.ui.layout === "over") view.stage.draw(true); });
   store.on(["turn", "layout"], () => {
-    const turned = { ...view.eye, azimuth: store.ui.turn, elevation: Math.min(view.eye.elevation, 12) };
-    if (store.ui.layout === "over" || Math.abs(shortest(view.eye.azimuth - store.ui.turn)) > 0.5) view.fly(turned);
+    if (store.ui.layout === "over" || Math.abs(shortest(view.eye.azimuth - store.ui.turn)) > 0.5) view.turnTo(store.ui.turn, Math.min(view.eye.elevation, 12));
   });
 }
 

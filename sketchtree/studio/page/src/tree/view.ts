@@ -66,6 +66,12 @@ export class View {
     this.seesAll = true;
   }
 
+  /** Look from there; where the whole tree was seen, it still is: from another side it may be wider. */
+  turnTo(azimuth: number, elevation: number): void {
+    if (this.seesAll) this.showAll(azimuth, elevation);
+    else this.fly({ ...this.eye, azimuth, elevation });
+  }
+
   /** The tree is another: where the whole of it was seen, it still is. */
   follow(atOnce: boolean): void {
     if (!this.seesAll) return;
