@@ -59,6 +59,17 @@ _FILES = (
 )  # fmt: skip
 
 
+def limits(command):
+    """How large a picture may be, of commands that read one that is no drawing."""
+    return _apply([option for option in _DRAWING if _named(option, "max_mb", "max_megapixels")], command)
+
+
+def dress(command):
+    """What a tree wears, how it is pruned and what is written beside it, of commands that grow it in another way than `build`."""
+    chosen = [option for option in _TREE if _named(option, "sag", "shed", "shed_twigs", "untangle", "prune", "leaf", "season", "bark", "wood", "solid")]
+    return _apply((*chosen, *_BESIDE), command)
+
+
 def leaves(command):
     """--leaves merged|instanced, of commands whose files hold one level of detail."""
     return _LEAVES(command)
@@ -89,6 +100,16 @@ def tree(max_segments: int, of_what: str, *, beside: bool = True):
     what to write `beside` the one output, unless left out."""
     most = click.option("--max-segments", type=click.IntRange(1), default=max_segments, show_default=True, help=f"Segments of {of_what} at most.")
     return lambda command: _apply((*_TREE, *(_BESIDE if beside else ()), most), command)
+
+
+def _named(option, *names: str) -> bool:
+    """Whether a decorator adds one of the options of these names."""
+
+    def bare() -> None:
+        pass
+
+    option(bare)
+    return bare.__click_params__[0].name in names
 
 
 def _apply(options, command):

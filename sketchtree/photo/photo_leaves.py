@@ -1,7 +1,8 @@
 """Which leaves of a grown tree does the photo confirm, and in which colours does it show them (§4)?
 
 "We keep only those leaves that are projected inside the foliage region in the input image. Leaves are textured according to their projected position." A leaf
-looks through the page at its middle. Its colour is the mean of the foliage within half a leaf of there, so that the sky between leaves stays out.
+looks through the page at its middle. Its colour is the mean of the pixels within half a leaf of there that have a leaf's colour rather than that of what is between the leaves, or of
+the nearest such pixels, so that no leaf is as blue as the sky.
 """
 
 from dataclasses import dataclass, replace
@@ -12,6 +13,7 @@ from scipy import ndimage
 
 from sketchtree.foliage.leaves import Leaves, select
 from sketchtree.foliage.painting import to_linear
+from sketchtree.photo.foliage import Foliage
 from sketchtree.photo.photo import Photo, at_pixels, turned_over
 from sketchtree.similarity import Similarity
 
@@ -23,10 +25,15 @@ class SeenFoliage:
     photo: Photo
     mask: Bool[np.ndarray, "row column"]
     similarity: Similarity  # pixels, y up → metres
+    leafy: Bool[np.ndarray, "row column"] | None = None  # pixels of the mask that show a leaf; None: all
 
     def pixels(self, place: Float[np.ndarray, "place 3"]) -> Float[np.ndarray, "place 2"]:
         """Where places of the world are seen in the photo (orthographic camera, §3.1); pixels, y down."""
         return turned_over(self.similarity.to_sketch(place)[:, :2])
+
+    def moved(self, by: Float[np.ndarray, " 3"]) -> "SeenFoliage":
+        """The same hanging elsewhere in the world, metres."""
+        return replace(self, similarity=Similarity(self.similarity.scale, tuple((np.asarray(self.similarity.translate) + by).tolist())))
 
     def confirmed(self, leaves: Leaves) -> Leaves:
         """The leaves that project into the foliage, and the short shoots that end in it."""
@@ -47,13 +54,21 @@ class SeenFoliage:
 
     def _foliage_alone(self, reach: int) -> tuple[Float[np.ndarray, "row column 3"], Bool[np.ndarray, "row column"]]:
         """(means of the foliage's linear colours over squares, where there is any)."""
-        weight = self.mask.astype(np.float32)
+        weight = (self.mask if self.leafy is None else self.leafy).astype(np.float32)
         side = 2 * reach + 1
         near = ndimage.uniform_filter(weight, side, mode="constant")
         lit = to_linear(np.arange(256) / 255.0).astype(np.float32)[self.photo.rgb] * weight[..., None]
         total = ndimage.uniform_filter(lit, (side, side, 1), mode="constant")
         known = near > 0.5 / side**2
         return np.where(known[..., None], total / np.maximum(near, 1e-9)[..., None], 0.0), known
+
+
+def leafy_pixels(photo: Photo, foliage: Foliage) -> Bool[np.ndarray, "row column"]:
+    """The pixels of the foliage whose colour is likelier a leaf's than that of what is between the leaves; all of them where none is."""
+    own = np.zeros_like(foliage.mask)
+    colour = photo.rgb[foliage.mask]
+    own[foliage.mask] = foliage.leaf.log_density(colour) > foliage.background.log_density(colour)
+    return own if own.any() else foliage.mask
 
 
 def middles(leaves: Leaves) -> Float[np.ndarray, "leaf 3"]:

@@ -3,7 +3,7 @@
 VTK ends the process where no OpenGL can be had, so `picture.py` and `window.py` run this file as a child. It imports nothing
 of the package. The request holds, for each mesh k, `k.position`, `k.normal`, `k.uv`, `k.triangle`, `k.tint`,
 `k.light` (sun and sky, 0-1), `k.albedo` (sRGB, 4 channels), `k.normal_map`, `k.look` (cutoff, leaf, gloss), the
-ground's light, and the cameras.
+ground's light, and the cameras; `parallel`, the height of what is seen, where there is to be no perspective.
 """
 
 import sys
@@ -85,6 +85,9 @@ def main(request_path: str, png_path: str) -> None:
     pictures = []
     for camera in request["camera"]:
         _aim(plotter, shaders, camera, request["sun"])
+        if "parallel" in request:
+            plotter.camera.parallel_projection, plotter.camera.parallel_scale = True, float(request["parallel"]) / 2
+            plotter.reset_camera_clipping_range()
         plotter.render()
         picture = Image.fromarray(plotter.screenshot(None, return_img=True)[..., :3])
         pictures.append(picture.reduce(scale) if scale > 1 else picture)

@@ -1,0 +1,36 @@
+"""How is a tree to be made of a photo? Every choice, with its range."""
+
+from dataclasses import dataclass
+
+from sketchtree.errors import OptionError
+from sketchtree.photo.trace.trace import Tracing
+
+RULES = ("contrast", "paper")
+COLOURS = ("photo", "season")
+LIBRARIES = ("visible", "I", "II")
+
+
+@dataclass(frozen=True)
+class PhotoOptions:
+    """How the foliage and the limbs are found in the photo, and how the rest grows. Raises OptionError for a value out of range."""
+
+    foliage: str = RULES[0]  # contrast: what sets the crown apart from what is round it; paper: the greenest or reddest of ten colours (§2)
+    trace: bool = True  # follow the wood on from the strokes; False: the strokes alone
+    library: tuple[str, ...] = LIBRARIES  # subtrees that grow: of the visible branches, predefined of type I, of type II (§3.1)
+    replacements: int = 100  # about, 0-10000 (§3.1)
+    alternate: bool = True  # image and 3D attractors by turns; False: image attractors alone (Figure 6a)
+    colours: str = COLOURS[0]  # photo: leaves in the colours they are seen in (§4); season: the species'
+
+    def __post_init__(self):
+        for name, known in (("foliage", RULES), ("colours", COLOURS)):
+            if getattr(self, name) not in known:
+                raise OptionError(f"`{name}` is {getattr(self, name)!r}.", remedy=f"Choose one of: {', '.join(known)}.")
+        if not self.library or any(name not in LIBRARIES for name in self.library):
+            raise OptionError(f"`--library {','.join(self.library)}` names no library of subtrees.", remedy=f"Choose all, or some of: {', '.join(LIBRARIES)}.")
+        if not 0 <= self.replacements <= 10_000:
+            raise OptionError(f"`--replacements {self.replacements}` is out of range.", remedy="Give 0 to 10000; about 100 fill a crown.")
+
+    @property
+    def tracing(self) -> Tracing:
+        """How limbs are traced."""
+        return Tracing(most=2_000 if self.trace else 0)

@@ -1,0 +1,167 @@
+"""One photo and a few strokes in, a complete tree out (Tan et al. 2008): every stage in order.
+
+    photo, strokes → foliage → limbs traced → depths → growth towards attractors → radii → leaves that the photo confirms → meshes
+
+Several trees in one photo are each made of their own strokes, in one scale: that of the first, whose height is the template's or the one asked for.
+"""
+
+import dataclasses
+from collections.abc import Callable, Sequence
+from dataclasses import dataclass
+
+import numpy as np
+from jaxtyping import Array, Bool, Float, Key
+
+from sketchtree.choose import bark_model, leaf_model
+from sketchtree.drawn_tree import DrawnTree, draw_out_graph
+from sketchtree.foliage.leaves import Leaves
+from sketchtree.forest import Forest
+from sketchtree.geometry.wood import check_wood
+from sketchtree.keys import stage_key
+from sketchtree.options import ReadingOptions, TreeOptions
+from sketchtree.parameters import Habit
+from sketchtree.photo.as_graph import as_drawing
+from sketchtree.photo.foliage import Foliage
+from sketchtree.photo.foliage_mask import foliage_mask
+from sketchtree.photo.known_foliage import known_foliage
+from sketchtree.photo.marked import Marked
+from sketchtree.photo.photo import Photo
+from sketchtree.photo.photo_leaves import SeenFoliage, leafy_pixels
+from sketchtree.photo.trace.palette import Palette
+from sketchtree.photo.trace.traced import Traced
+from sketchtree.photo.wanted import PhotoOptions
+from sketchtree.pipeline import Grown, TreeModel, finish
+from sketchtree.planting import tree_key
+from sketchtree.propagate.after.prune import Prune
+from sketchtree.propagate.attractors.stage import Attract, Attraction
+from sketchtree.propagate.attractors.target import Target
+from sketchtree.similarity import Similarity
+from sketchtree.skeleton import TreeSkeleton
+from sketchtree.skeleton_joined import joined
+from sketchtree.templates.store.database import Database
+from sketchtree.watch import Watch
+
+
+@dataclass(frozen=True, eq=False)
+class PhotoTree:
+    """One tree of a photo, and all that was found on the way to it."""
+
+    marked: Marked
+    foliage: Foliage
+    traced: Traced
+    drawn: DrawnTree  # its visible limbs, in space
+    grown: Attraction
+    seen: SeenFoliage
+    model: TreeModel
+
+
+@dataclass(frozen=True, eq=False)
+class PhotoModel:
+    """All trees of a photo."""
+
+    photo: Photo
+    trees: tuple[PhotoTree, ...]
+    place: Float[np.ndarray, "tree 3"]  # of each foot, metres; the first at the origin
+
+    @property
+    def model(self) -> TreeModel | Forest:
+        """What files are written of: the one tree, or all of them as a forest."""
+        if len(self.trees) == 1:
+            return self.trees[0].model
+        names = tuple(f"{self.photo.name} ({k})" for k in range(1, len(self.trees) + 1))
+        warnings = tuple(dict.fromkeys(told for tree in self.trees for told in tree.model.warnings))
+        copies = tuple(range(len(self.trees)))
+        return Forest(names, copies, names, self.place, tuple(tree.model for tree in self.trees), warnings)
+
+    @property
+    def frame(self) -> tuple[float, float, float, float]:
+        """Left, bottom, right and top edge of the photo in the world, metres."""
+        corners = self.trees[0].seen.similarity.to_world(np.array([(0.0, -self.photo.height), (self.photo.width, 0.0)]))
+        return tuple(corners.reshape(-1).tolist())
+
+    def in_pixels(self) -> TreeSkeleton:
+        """The grown trees in the photo's pixels, y up; depths and radii in pixels too."""
+        return joined([_in_pixels(tree.model.skeleton.replace(tree=np.full(len(tree.model.skeleton), k)), tree.seen.moved(at)) for k, (tree, at) in enumerate(zip(self.trees, self.place, strict=True))])
+
+    def visible_in_pixels(self) -> TreeSkeleton:
+        """The same of the limbs that show in the photo."""
+        return joined([_in_pixels(tree.drawn.skeleton.replace(tree=np.full(len(tree.drawn.skeleton), k)), tree.seen) for k, tree in enumerate(self.trees)])
+
+
+def photo_to_tree(
+    photo: Photo,
+    marked: Sequence[Marked],
+    templates: Database | None = None,
+    *,
+    key: Key[Array, ""],
+    wanted: PhotoOptions = PhotoOptions(),
+    reading: ReadingOptions = ReadingOptions(),
+    tree: TreeOptions = TreeOptions(),
+    mask: Bool[np.ndarray, "row column"] | None = None,
+    depths: Sequence[float] | None = None,
+    watch: Watch | None = None,
+) -> PhotoModel:
+    """Every stage in order. `mask`: the foliage, if it is known; `depths`: how far each further tree stands in front of the first, metres (§5: "the relative positions of trees
+    in 3D is set manually"). Raises SketchError, OptionError."""
+    watch = watch or Watch()
+    leaf_model(tree.leaf, Habit(), templates), bark_model(tree.bark, Habit())  # refuse a wrong name before the work
+    Prune(tree.prune), check_wood(tree.wood, tree.solid)
+    templates = templates if templates is not None or reading.template == "none" else Database.open()
+    with watch("read"):
+        palette = Palette.of(photo)
+    trees: list[PhotoTree] = []
+    for number, own in enumerate(marked):
+        scale = trees[0].drawn.similarity.scale if trees else None
+        at = place_of(own, marked[0], scale, 0.0 if depths is None or number == 0 else depths[number - 1])
+        trees.append(_tree(photo, own, palette, templates, tree_key(key, number), wanted, reading, tree, mask, scale, at, watch))
+    place = np.array([place_of(own, marked[0], trees[0].drawn.similarity.scale, 0.0 if depths is None or k == 0 else depths[k - 1]) for k, own in enumerate(marked)])
+    return PhotoModel(photo, tuple(trees), place)
+
+
+def place_of(own: Marked, first: Marked, scale: float | None, depth: float) -> Float[np.ndarray, " 3"]:
+    """Where a tree's foot stands: as far to the side of the first as the photo shows, so far in front of it, on level ground; metres."""
+    aside = 0.0 if scale is None else scale * float(own.branches[0][0][0] - first.branches[0][0][0])
+    return np.array([aside, 0.0, float(depth)])
+
+
+def _tree(photo, own: Marked, palette, templates, key, wanted: PhotoOptions, reading, options, mask, scale, place, watch: Watch) -> PhotoTree:
+    """One tree of the photo."""
+    with watch("read"):
+        finding = stage_key(key, "foliage mask")
+        foliage = foliage_mask(photo, own, key=finding, rule=wanted.foliage) if mask is None else known_foliage(photo, own, mask, key=finding)
+        traced = wanted.tracing(photo, own, foliage, key=stage_key(key, "trace"), palette=palette)
+        sketch, graph = as_drawing([(traced, own)], photo.name)
+    similarity = None if scale is None else Similarity(scale, tuple((-scale * np.array([*graph.xy[0], 0.0])).tolist()))
+    drawn = draw_out_graph(sketch, graph, templates, key=key, options=reading, similarity=similarity, watch=watch)
+    seen = SeenFoliage(photo, foliage.mask, drawn.similarity, leafy_pixels(photo, foliage))
+    with watch("propagate"):
+        stage = Attract(targets=target_of(seen), library=wanted.library, iterations=wanted.replacements, alternate=wanted.alternate)
+        grown = stage.run(drawn.skeleton, key=stage_key(key, "attract"))
+    model = finish(Grown(drawn, grown, key, options, templates, place, worn_as(seen.moved(place), wanted.colours)), watch)
+    model = dataclasses.replace(model, warnings=(*photo.warnings, *own.warnings, *foliage.warnings, *model.warnings))
+    return PhotoTree(own, foliage, traced, drawn, grown, seen, model)
+
+
+def target_of(seen: SeenFoliage) -> Target:
+    """The foliage as what the tree grows to: its pixels in the world."""
+    left, top = seen.similarity.to_world(np.zeros((1, 2)))[0]
+    return Target(seen.mask, float(left), float(top), seen.similarity.scale)
+
+
+def worn_as(seen: SeenFoliage, colours: str) -> Callable[[Leaves], Leaves]:
+    """What becomes of leaves: those that the photo confirms, in its colours or in the season's. A grey photo has none to give."""
+    seen_in = colours == "photo" and not seen.photo.is_grey
+
+    def worn(leaves: Leaves) -> Leaves:
+        kept = seen.confirmed(leaves)
+        return seen.coloured(kept) if seen_in else kept
+
+    return worn
+
+
+def _in_pixels(tree: TreeSkeleton, seen: SeenFoliage) -> TreeSkeleton:
+    """A skeleton of the world in the pixels of its photo, y up."""
+    scale = seen.similarity.scale
+    return tree.replace(
+        tip=seen.similarity.to_sketch(tree.tip), radius=tree.radius / scale, depth_sd=tree.depth_sd / scale, curve_points=seen.similarity.to_sketch(tree.curve_points)
+    )
