@@ -14,6 +14,8 @@ from sketchtree.propagate.after.prune import Prune
 from sketchtree.propagate.after.sag import Sag
 from sketchtree.propagate.after.shed import Shed
 from sketchtree.propagate.after.untangle import Untangle
+from sketchtree.propagate.attractors.stage import Attract
+from sketchtree.propagate.attractors.target import Target
 from sketchtree.propagate.generations import Propagate
 from sketchtree.skeleton import Kind, TreeSkeleton
 
@@ -21,6 +23,7 @@ CURVY = Path(__file__).resolve().parents[1] / "examples" / "curvy.svg"
 KEY = keys.root_key(5)
 STAGES = {
     "propagate": Propagate(Habit(), GENERIC, generations=2),
+    "attract": Attract(targets=Target(np.ones((50, 50), bool), -5.0, 12.0, 0.2), iterations=4, twigs=False),
     "radii": PipeRadii(Habit()),
     "sag": Sag(1.0),
     "shed": Shed(0.3, 1.0),

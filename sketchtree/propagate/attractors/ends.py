@@ -44,7 +44,8 @@ def ways(
     away, which = away.reshape(len(place), -1), which.reshape(len(place), -1)
     target = np.broadcast_to(place[:, None, :axes], (*which.shape, axes))
     if axes == 2:
-        lean = 2.0 * keys.uniform(key, np.array([one.identity for one in wood.limbs], np.int64)[limb[which]] ^ np.arange(len(place))[:, None], round_) - 1.0
+        seed = np.array([one.identity for one in wood.limbs], np.int64)[limb[which]] ^ np.arange(len(place))[:, None]
+        lean = 2.0 * keys.uniform(key, seed.ravel(), round_).reshape(which.shape) - 1.0
         target = np.concatenate([target, (samples[which, 2] + _DEEP * lean * away)[..., None]], axis=-1)
     foot, heading, at = _feet(wood, limb[which], np.maximum(arc[which] - _BACK * away, 0.35 * arc[which]))
     vector = target - foot

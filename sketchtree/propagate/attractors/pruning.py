@@ -39,4 +39,4 @@ def whole_branches(there: Bool[np.ndarray, "subtree turn piece"], library: Libra
         there = np.einsum("spq,stq->stp", library.below, lost) == 0
         alone = library.with_next[:, None] & ~np.concatenate([there[..., 1:], np.zeros_like(there[..., :1])], axis=-1)
         there = there & ~alone
-    return np.einsum("spq,stq->stp", library.below, (~there).astype(float)) == 0
+    return library.there[:, None] & (np.einsum("spq,stq->stp", library.below, (~there).astype(float)) == 0)

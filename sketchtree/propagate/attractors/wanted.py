@@ -2,16 +2,19 @@
 
 from dataclasses import dataclass
 
+import numpy as np
+
 from sketchtree.errors import OptionError
 from sketchtree.propagate.attractors.library import NAMES
 
 ITERATIONS = 100  # the paper's, about
 MOST_ITERATIONS = 10_000
+_KNOWN = {"depth": ("volume", "joints"), "axis": ("crown", "trunk"), "candidates": ("need", "radius")}
 
 
 @dataclass(frozen=True)
 class Wanted:
-    """How a tree grows to where foliage was seen. Raises OptionError for a value out of range."""
+    """How a tree grows to where foliage was seen. Raises OptionError for a value out of range. `PAPER` has the choices of Tan et al. 2008."""
 
     library: tuple[str, ...] = NAMES  # some of visible | I | II
     iterations: int = ITERATIONS  # 0-10000, at most
@@ -30,3 +33,16 @@ class Wanted:
     def __post_init__(self):
         if not 0 <= self.iterations <= MOST_ITERATIONS:
             raise OptionError(f"iterations is {self.iterations}, but must lie between 0 and {MOST_ITERATIONS}.", remedy="About 100 fill a crown.")
+        for name, known in _KNOWN.items():
+            if getattr(self, name) not in known:
+                raise OptionError(f"{name} is {getattr(self, name)!r}, but must be {' or '.join(known)}.", remedy=f"{known[0]} is what is taken by default.")
+        for name in ("replacements", "in_space", "max_segments"):
+            if getattr(self, name) < 1:
+                raise OptionError(f"{name} is {getattr(self, name)}, but must be 1 or more.", remedy="Give a positive number.")
+        if self.leaf_length is not None and not (np.isfinite(self.leaf_length) and self.leaf_length > 0):
+            raise OptionError(f"leaf_length is {self.leaf_length:g}, but must be above zero.", remedy="Give metres, or nothing: then it goes by the tree's height.")
+        if not (np.isfinite([self.rise, self.apart]).all() and min(self.rise, self.apart) >= 0):
+            raise OptionError(f"rise is {self.rise:g} and apart {self.apart:g}, but neither may be below zero.", remedy="0 switches either off.")
+
+
+PAPER = {"candidates": "radius", "replacements": 1, "depth": "joints", "axis": "trunk", "rise": 0.0, "twigs": False}

@@ -153,7 +153,7 @@ def frames(direction: Float[np.ndarray, "*place 3"]) -> Float[np.ndarray, "*plac
     y = direction / np.maximum(np.linalg.norm(direction, axis=-1, keepdims=True), 1e-300)
     upright = np.abs(y[..., 1:2]) > 0.985
     side = np.where(upright, np.cross(y, [0.0, 0.0, 1.0]), np.cross(y, [0.0, 1.0, 0.0]))
-    x = side / np.linalg.norm(side, axis=-1, keepdims=True)
+    x = side / np.maximum(np.linalg.norm(side, axis=-1, keepdims=True), 1e-300)
     return np.stack([x, y, np.cross(x, y)], axis=-1)
 
 
