@@ -17,7 +17,7 @@ from sketchtree.photo.appearance import Mixture, fit_mixture
 COMPONENTS = 6
 TAIL = 0.1
 ROUNDS = 4
-BLUR = 0.4
+BLUR = 0.3
 _WIDER = 3.0  # added to the standard deviation of every component
 _SHARE = (0.05, 0.95)  # π is within
 
@@ -38,14 +38,15 @@ def learn_leaves(
 
 
 def without_blur(leaf: Mixture, background: Float[np.ndarray, "component 3"]) -> Mixture:
-    """f without components that are mostly a background brighter than the leaves: nearer to one of these colours than BLUR of the way to leaves proper."""
+    """f without components that are mostly a background brighter than they are, and than the leaves: nearer to one of these colours than BLUR of the way to leaves proper."""
+    if not len(background):
+        return leaf
     apart = np.linalg.norm(leaf.mean[:, None] - background[None], axis=2)
-    nearest, away = background[apart.argmin(axis=1)], apart.min(axis=1)
+    nearest, away = background[apart.argmin(axis=1)].mean(axis=1), apart.min(axis=1)
     proper = away >= 0.5 * away.max()
     to_proper = np.linalg.norm(leaf.mean[:, None] - leaf.mean[None, proper], axis=2).min(axis=1)
-    bright = nearest.mean(axis=1) > np.average(leaf.mean[proper], axis=0, weights=leaf.weight[proper]).mean()
-    blur = ~proper & bright & (away < BLUR * (away + to_proper))
-    return leaf.only(~blur)
+    bright = (nearest > leaf.mean.mean(axis=1)) & (nearest > np.average(leaf.mean[proper], axis=0, weights=leaf.weight[proper]).mean())
+    return leaf.only(proper | ~bright | (away >= BLUR * (away + to_proper)))
 
 
 def leaf_probability(leaf: Float[np.ndarray, " pixel"], background: Float[np.ndarray, " pixel"], share: float) -> Float[np.ndarray, " pixel"]:

@@ -22,7 +22,6 @@ import numpy as np
 from jaxtyping import Array, Bool, Float, Key, UInt8
 from PIL import Image
 from scipy import ndimage
-from skimage.draw import polygon
 
 from sketchtree.errors import OptionError, SketchError
 from sketchtree.keys import numpy_generator, stage_key
@@ -83,9 +82,13 @@ def foliage_mask(photo: Photo, marked: Marked, *, key: Key[Array, ""], rule: Rul
 
 def within(outline: Float[np.ndarray, "point 2"], shape: tuple[int, int]) -> Bool[np.ndarray, "row column"]:
     """The pixels whose middles a closed line surrounds."""
-    mask = np.zeros(shape, bool)
-    mask[polygon(outline[:, 1] - 0.5, outline[:, 0] - 0.5, shape)] = True
-    return mask
+    turns = np.zeros((shape[0], shape[1] + 1), bool)
+    for (x0, y0), (x1, y1) in zip(outline, np.roll(outline, -1, axis=0), strict=True):
+        first, last = (int(np.clip(np.ceil(y - 0.5), 0, shape[0])) for y in sorted((y0, y1)))
+        rows = np.arange(first, last)  # whose middles the side passes
+        crossing = x0 + (rows + 0.5 - y0) * (x1 - x0) / (y1 - y0) if len(rows) else rows
+        turns[rows, np.clip(np.ceil(crossing - 0.5), 0, shape[1]).astype(np.int64)] ^= True
+    return np.logical_xor.accumulate(turns, axis=1)[:, :-1]
 
 
 def _by_colour(rgb, inside, region, marked: Marked, *, key: Key[Array, ""]) -> _Found:
@@ -111,9 +114,9 @@ def _by_contrast(rgb, inside, region, marked: Marked, *, key: Key[Array, ""]) ->
         told = "The crown's stroke leaves nothing of the photo around it to compare with; foliage was told by its green or red alone."
         found = _by_colour(rgb, inside, region, marked, key=key)
         return _Found(found.mask, found.leaf, found.background, (told, *found.warnings))
-    pixels, ring, own = Pixels.of(rgb, region), Pixels.of(rgb, ring_mask), Pixels.of(rgb, inside)
+    pixels, ring, own = Pixels.of(rgb | np.uint8(1), region), Pixels.of(rgb, ring_mask), Pixels.of(rgb, inside)  # two levels of 255 are one: an eighth of the colours
     drawn = numpy_generator(stage_key(key, "sample"))
-    own, near = own.some(drawn.permutation(len(own))[:_SAMPLE]), ring.some(drawn.permutation(len(ring))[:_SAMPLE])
+    own, near = own.some(np.sort(drawn.permutation(len(own))[:_SAMPLE])), ring.some(np.sort(drawn.permutation(len(ring))[:_SAMPLE]))
     around = learn_surroundings(own, near, region.shape, size, key=stage_key(key, "around"))
     rare = rarely_around(around, own, near, 0.1)
     if around.leafy.all() or len(rare) < 0.12 * len(own):
@@ -121,7 +124,7 @@ def _by_contrast(rgb, inside, region, marked: Marked, *, key: Key[Array, ""]) ->
             return _Found(region.copy(), warnings=("The crown has the colours of what is around it: all that its stroke surrounds was taken for foliage.",))
         raise _nothing(marked, "it has the colours of what is around it, and none of them is a leaf's")
     leaf, share = learn_leaves(own.colours(), around.log_density(own), rare, key=stage_key(key, "leaves"))
-    kept = without_blur(leaf, around.colours.mean[~around.leafy])
+    kept = without_blur(leaf, around.common())
     sure = leaf_probability(kept.log_density(pixels.colour)[pixels.which], around.log_density(pixels), share)
     sure = np.clip(sure, DOUBT, 1 - DOUBT)
     return _Found(_cut(rgb, region, -np.log(sure), -np.log1p(-sure), SMOOTHNESS["contrast"]))

@@ -31,5 +31,6 @@ class Pixels:
         return self.colour[self.which]
 
     def some(self, rows: Int[np.ndarray, " some"]) -> "Pixels":
-        """A few of them."""
-        return Pixels(self.at[rows], self.colour, self.which[rows], self.width)
+        """A few of them, with the colours that they have."""
+        kept, which = np.unique(self.which[rows], return_inverse=True)
+        return Pixels(self.at[rows], self.colour[kept], which, self.width)

@@ -15,7 +15,7 @@ from jaxtyping import Array, Bool, Float, Int, Key
 from scipy import ndimage
 from scipy.special import logsumexp
 
-from sketchtree.keys import numpy_generator, stage_key
+from sketchtree.keys import stage_key
 from sketchtree.photo.appearance import Mixture, fit_mixture
 from sketchtree.photo.pixels import Pixels
 
@@ -26,8 +26,8 @@ _WIDER = 3.0  # added to the standard deviation of its colours: blur and JPEG at
 _AS_COMMON = 0.7  # share inside / share around it, from which a leafy colour is no background
 _GREEN = 0.06  # excess of green of a leafy colour, of its R + G + B
 _DARK = 0.5  # or its lightness, of that of the ring's brightest tenth
+_COMMON = 0.08  # share of a colour that is common
 _FAR = 1e-6  # weight of the whole ring at a place that has nothing near by
-_SAMPLE = 20_000
 
 
 @dataclass(frozen=True, eq=False)
@@ -38,6 +38,10 @@ class Surroundings:
     share: Float[np.ndarray, "component cell_row cell_column"]  # r_j
     cell: int  # pixels
     leafy: Bool[np.ndarray, " component"]  # left out
+
+    def common(self) -> Float[np.ndarray, "some 3"]:
+        """The colours that are common near the crown."""
+        return self.colours.mean[self.share.mean(axis=(1, 2)) > _COMMON]
 
     def log_density(self, pixels: Pixels) -> Float[np.ndarray, " pixel"]:
         """log b(I | x) of every pixel."""
@@ -52,8 +56,7 @@ def learn_surroundings(inside: Pixels, ring: Pixels, shape: tuple[int, int], siz
     fitted = fit_mixture(ring.colours(), COMPONENTS, key=stage_key(key, "ring"))
     wide = Mixture(np.full(len(fitted), 1 / len(fitted)), fitted.mean, fitted.covariance + _WIDER**2 * np.eye(3))
     share, cell = _shares(_parts(wide, fitted.weight, ring), ring, shape, REACH * size)
-    drawn = numpy_generator(stage_key(key, "inside")).permutation(len(inside))[:_SAMPLE]
-    leafy = _is_leafy(wide, fitted.weight, share, cell, inside.some(drawn), ring)
+    leafy = _is_leafy(wide, fitted.weight, share, cell, inside, ring)
     return Surroundings(wide, share * ~leafy[:, None, None], cell, leafy)
 
 
