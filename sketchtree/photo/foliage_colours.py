@@ -17,7 +17,7 @@ from sketchtree.photo.appearance import Mixture, fit_mixture
 COMPONENTS = 6
 TAIL = 0.1
 ROUNDS = 4
-BLUR = 0.3
+BLUR = 0.4
 _WIDER = 3.0  # added to the standard deviation of every component
 _SHARE = (0.05, 0.95)  # π is within
 
