@@ -22,6 +22,8 @@ _EXTRAS = (
     ("solid", "manifold3d", "manifold3d", "--solid"),
     ("cluster", "distributed", "distributed", "--scheduler"),
     ("studio", "starlette", "starlette", "sketchtree studio"),
+    ("photo", "sklearn", "scikit-learn", "sketchtree photo"),
+    ("photo", "ortools", "ortools", "sketchtree photo"),
 )  # extra, module, distribution, for what
 
 
