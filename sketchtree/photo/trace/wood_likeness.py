@@ -47,7 +47,7 @@ def learn_wood(palette: Palette, marked: Marked, foliage: Foliage | None, *, wid
     """The two mixtures from the strokes of one tree; `width` of a stroke, pixels. Needs a branch stroke at least."""
     under = [palette.colour[_under(palette.number, stroke, width)] for stroke in marked.branches]
     wood = fit_mixture(np.concatenate(under), COMPONENTS, key=stage_key(key, "wood"))
-    if foliage is not None:
+    if foliage is not None and not foliage.bare:  # the twigs of a bare tree are wood
         wood = apart_from_leaves(wood, foliage.leaf, under[0][: max(int(_FOOT * len(under[0])), 8)])
     other = fit_mixture(palette.colour[_others(palette.number, marked, width, key)], COMPONENTS, key=stage_key(key, "other"))
     ratio = (wood.log_density(palette.colour) - other.log_density(palette.colour)).astype(np.float32)
