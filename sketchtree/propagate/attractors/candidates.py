@@ -13,7 +13,7 @@ from jaxtyping import Float
 from sketchtree import keys
 from sketchtree.propagate.attractors.wood import Stretch, Wood
 
-SET = 5  # branches
+SET = 4  # branches
 
 
 def candidates(stretches: list[Stretch], wood: Wood, key: np.uint64, iteration: int, need: Float[np.ndarray, " limb"] | None = None, most: int = SET) -> list[int]:

@@ -2,7 +2,7 @@
 
     repeat   a small set of branches (`candidates`) × every subtree of the library × 12 turns (`placement`), pruned by the foliage (`pruning`);
              the one that lowers the energy most replaces its branch; E2D drives one iteration, E3D the next
-    until    no replacement lowers either energy, or about a hundred iterations are done
+    until    no replacement lowers either energy, about a hundred iterations are done, or few attractors are far (ours)
 
 The few best by gain alone are pruned by what stands there already, then the best of them is taken. Ours, each to be switched off by `Wanted`: several branches
 are replaced in one iteration, those near which attractors are far are candidates first, and single twigs go to what is still far in the end (`ends`).
@@ -38,6 +38,8 @@ _SHORTEST = 1.6  # leaf lengths: a shorter branch isn't replaced
 _PIECE = 0.35  # leaf lengths: a shorter piece isn't grown
 _SAMPLE = 0.5  # leaf lengths between places along the wood
 _WIDE = 0.9  # of the distance between attractors in 3D: what is farther from the tree is empty
+_FEW = 0.08  # of the attractors on the page still far: single twigs do the rest
+_FEW_IN_SPACE = 0.25  # of those in space likewise
 _RANK = 1 << 20  # ranks of limbs grown here start there, so that other stages' are others
 
 
@@ -66,6 +68,7 @@ class Engine:
         self.image = Attractors.at(image_attractors(self.seen, leaf))
         self.space = Attractors.at(self._in_space())
         self.stretches: list[Stretch] = []
+        self.parts: list[np.ndarray] = []  # places along each limb
         self.samples, self.course, self.grown, self.iteration = np.zeros((0, 3)), Course(), 0, 0
         self.forked: set[tuple[int, float]] = set()  # (limb, metres along it): where a subtree of type I stands already; a shoot forks at its end once
         self._taken = 0
@@ -74,7 +77,7 @@ class Engine:
     def run(self, pulse=lambda: None) -> str:
         """Iteration after iteration; what ended it."""
         idle = 0
-        while self.iteration < self.wanted.iterations and idle < _IDLE:
+        while self.iteration < self.wanted.iterations and idle < _IDLE and not self._is_filled():
             pulse()
             driver = "image" if not self.wanted.alternate or self.iteration % 2 == 0 else "space"
             idle = 0 if self._iterate(driver) else idle + 1
@@ -83,7 +86,14 @@ class Engine:
             if self.grown >= self.wanted.max_segments:
                 return "max_segments"
         self._end_in_twigs(pulse)
-        return "stalled" if idle >= _IDLE else "iterations"
+        return "stalled" if idle >= _IDLE else "iterations" if self.iteration >= self.wanted.iterations else "filled"
+
+    def _is_filled(self) -> bool:
+        """Whether what is left is the work of twigs: few attractors are still far."""
+        if not self.wanted.twigs or self.wanted.depth != "volume":
+            return False
+        few = np.mean(self.image.distance > self.leaf) < _FEW
+        return bool(few and (not self.wanted.alternate or np.mean(self.space.distance > _WIDE * self.interval) < _FEW_IN_SPACE))
 
     def _end_in_twigs(self, pulse) -> None:
         """Single twigs to what is still far, on the page and in space by turns (`ends`)."""
@@ -103,10 +113,10 @@ class Engine:
         far = far[: (self.wanted.max_segments - self.grown) // ends.PIECES + 1]
         if len(far) == 0 or len(self.samples) == 0:
             return False
-        wood, samples = self.wood, [limb.samples(_SAMPLE * self.leaf) for limb in self.wood.limbs]
+        wood, samples = self.wood, self.parts
         number = np.repeat(np.arange(len(wood)), [len(one) for one in samples])
         arc = np.concatenate([np.arange(1, len(one) + 1) / len(one) * limb.length for one, limb in zip(samples, wood.limbs, strict=True)])
-        parent, at, point = ends.ways(attractors.place[far], np.concatenate(samples), number, arc, wood, self.leaf, self.key, round_)
+        parent, at, point = ends.ways(attractors.place[far], self.samples, number, arc, wood, self.leaf, self.key, round_)
         free = self.target.inside(point[:, 1:]).all(axis=1) & (self.axes.out(point[:, -1]) <= np.maximum(DEEP, self.axes.out(point[:, 0])))
         for bearer, place, line in zip(parent[free].tolist(), at[free].tolist(), point[free], strict=True):
             self._bear(bearer, place, line)
@@ -203,6 +213,7 @@ class Engine:
         for attractors in (self.image, self.space):
             attractors.approach(*wood.pieces(first))
         new = [limb.samples(_SAMPLE * self.leaf) for limb in wood.limbs[first:]]
+        self.parts += new
         self.samples = np.concatenate([self.samples, *new])
         self.tree = cKDTree(self.samples)
         for number in range(first, len(wood)):

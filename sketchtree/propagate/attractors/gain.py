@@ -12,7 +12,7 @@ from jaxtyping import Bool, Float
 from sketchtree.propagate.attractors.attractors import Attractors
 from sketchtree.propagate.attractors.placement import Placed
 
-MOST = 160  # attractors looked at for one branch
+MOST = 112  # attractors looked at for one branch
 _BLOCK = 150_000  # pairs at a time: they stay in a processor's cache
 
 

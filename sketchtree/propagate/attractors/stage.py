@@ -36,7 +36,7 @@ class Grown:
     space: Attractors  # in 3D
     course: Course
     leaf_length: float  # metres
-    ended: str  # stalled | iterations | max_segments
+    ended: str  # stalled | iterations | filled | max_segments
     library: tuple[str, ...]  # names of the subtrees it was grown with
 
 
