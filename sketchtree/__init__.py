@@ -12,6 +12,9 @@ The public names, in the order of the pipeline; each is imported when it is firs
     write_glb, write_swc, preview        files and pictures
     sketch_to_tree                       all of it in one call → TreeModel
     sketches_to_forest                   several, grown together → Forest
+    read_photo, read_strokes             a photo, and what is marked in it → Photo, (Marked, …)
+    photo_to_tree                        one photo and a few strokes in one call → PhotoModel
+    Attract                              a tree grows to where foliage was seen
     draw                                 a page to draw on in a cell of a notebook → DrawingWidget
 """
 
@@ -54,6 +57,15 @@ _HOMES = {
     "sketchtree.options": ("ReadingOptions", "TreeOptions"),
     "sketchtree.pipeline": ("sketch_to_tree", "draw_out", "complete", "TreeModel"),
     "sketchtree.forest": ("sketches_to_forest", "Forest"),
+    "sketchtree.photo.photo": ("Photo",),
+    "sketchtree.photo.marked": ("Marked",),
+    "sketchtree.photo.read_photo": ("read_photo", "as_photo"),
+    "sketchtree.photo.read_strokes": ("read_strokes",),
+    "sketchtree.photo.auto.propose": ("propose",),
+    "sketchtree.photo.wanted": ("PhotoOptions",),
+    "sketchtree.photo_tree": ("photo_to_tree", "PhotoModel", "PhotoTree", "PhotoSource"),
+    "sketchtree.propagate.attractors.stage": ("Attract",),
+    "sketchtree.propagate.attractors.target": ("Target",),
     "sketchtree.studio.widget": ("draw", "DrawingWidget"),
     "sketchtree.errors": ("SketchTreeError", "SketchError", "SkeletonError", "TemplateError", "ExportError"),
 }

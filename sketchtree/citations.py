@@ -38,6 +38,9 @@ WORKS = (
     Work("chen2008sketch", ("Xuejin Chen", "Boris Neubert", "Ying-Qing Xu", "Oliver Deussen", "Sing Bing Kang"),
          "Sketch-Based Tree Modeling Using Markov Random Field", "ACM Transactions on Graphics", 2008,
          "reading depths off a sketch, templates, replication blocks; `--method chen`", "27", "5"),
+    Work("tan2008single", ("Ping Tan", "Tian Fang", "Jianxiong Xiao", "Peng Zhao", "Long Quan"),
+         "Single Image Tree Modeling", "ACM Transactions on Graphics", 2008,
+         "`sketchtree photo`: foliage, tracing, growth by attractors", "27", "5"),
     Work("okabe2005interactive", ("Makoto Okabe", "Shigeru Owada", "Takeo Igarashi"),
          "Interactive Design of Botanical Trees Using Freehand Sketches and Example-Based Editing", "Computer Graphics Forum", 2005,
          "`--method okabe`", "24", "3"),
@@ -61,8 +64,9 @@ def program_bibtex() -> str:
     return f"@software{{{PROGRAM_KEY},\n{body}\n}}"
 
 
-def works_for(method: str | None) -> tuple[Work, ...]:
-    """The works behind a run with that `--method`; all for None."""
-    if method is None:
+def works_for(command: str | None, method: str | None = None) -> tuple[Work, ...]:
+    """The works behind a run of that command with that `--method` (of a photo: `--lift`); all for None."""
+    if command is None:
         return WORKS
-    return tuple(work for work in WORKS if work.key != "okabe2005interactive" or method == "okabe")
+    unused = {"okabe2005interactive": method != "okabe", "tan2008single": command != "photo"}
+    return tuple(work for work in WORKS if not unused.get(work.key, False))

@@ -8,6 +8,7 @@ Several trees in one photo are each made of their own strokes, in one scale: tha
 import dataclasses
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass
+from pathlib import Path
 
 import numpy as np
 from jaxtyping import Array, Bool, Float, Key
@@ -27,6 +28,7 @@ from sketchtree.photo.known_foliage import known_foliage
 from sketchtree.photo.marked import Marked
 from sketchtree.photo.photo import Photo
 from sketchtree.photo.photo_leaves import SeenFoliage, leafy_pixels
+from sketchtree.photo.read_photo import read_photo
 from sketchtree.photo.trace.palette import Palette
 from sketchtree.photo.trace.traced import Traced
 from sketchtree.photo.wanted import PhotoOptions
@@ -37,14 +39,14 @@ from sketchtree.propagate.attractors.stage import Attract, Attraction
 from sketchtree.propagate.attractors.target import Target
 from sketchtree.similarity import Similarity
 from sketchtree.skeleton import TreeSkeleton
-from sketchtree.skeleton_joined import joined
+from sketchtree.skeleton_joined import joined, moved
 from sketchtree.templates.store.database import Database
 from sketchtree.watch import Watch
 
 
 @dataclass(frozen=True, eq=False)
-class PhotoTree:
-    """One tree of a photo, and all that was found on the way to it."""
+class GrownInPhoto:
+    """One tree of a photo, and all that was found on the way to it; its trunk's foot at the origin."""
 
     marked: Marked
     foliage: Foliage
@@ -52,6 +54,12 @@ class PhotoTree:
     drawn: DrawnTree  # its visible limbs, in space
     grown: Attraction
     seen: SeenFoliage
+
+
+@dataclass(frozen=True, eq=False)
+class PhotoTree(GrownInPhoto):
+    """The same with radii, leaves and meshes, where it stands."""
+
     model: TreeModel
 
 
@@ -109,23 +117,32 @@ def photo_to_tree(
     templates = templates if templates is not None or reading.template == "none" else Database.open()
     with watch("read"):
         palette = Palette.of(photo)
-    trees: list[PhotoTree] = []
+    trees, places, scale = [], [], None
     for number, own in enumerate(marked):
-        scale = trees[0].drawn.similarity.scale if trees else None
         at = place_of(own, marked[0], scale, 0.0 if depths is None or number == 0 else depths[number - 1])
-        trees.append(_tree(photo, own, palette, templates, tree_key(key, number), wanted, reading, tree, mask, scale, at, watch))
-    place = np.array([place_of(own, marked[0], trees[0].drawn.similarity.scale, 0.0 if depths is None or k == 0 else depths[k - 1]) for k, own in enumerate(marked)])
-    return PhotoModel(photo, tuple(trees), place)
+        its = tree_key(key, number)
+        found = grow_in_photo(photo, own, templates, key=its, wanted=wanted, reading=reading, palette=palette, mask=mask, scale=scale, watch=watch)
+        trees.append(_dressed(found, its, tree, templates, at, wanted.colours, watch))
+        places.append(at)
+        scale = trees[0].drawn.similarity.scale
+    return PhotoModel(photo, tuple(trees), np.array(places))
 
 
-def place_of(own: Marked, first: Marked, scale: float | None, depth: float) -> Float[np.ndarray, " 3"]:
-    """Where a tree's foot stands: as far to the side of the first as the photo shows, so far in front of it, on level ground; metres."""
-    aside = 0.0 if scale is None else scale * float(own.branches[0][0][0] - first.branches[0][0][0])
-    return np.array([aside, 0.0, float(depth)])
-
-
-def _tree(photo, own: Marked, palette, templates, key, wanted: PhotoOptions, reading, options, mask, scale, place, watch: Watch) -> PhotoTree:
-    """One tree of the photo."""
+def grow_in_photo(
+    photo: Photo,
+    own: Marked,
+    templates: Database | None = None,
+    *,
+    key: Key[Array, ""],
+    wanted: PhotoOptions = PhotoOptions(),
+    reading: ReadingOptions = ReadingOptions(),
+    palette: Palette | None = None,
+    mask: Bool[np.ndarray, "row column"] | None = None,
+    scale: float | None = None,
+    watch: Watch | None = None,
+) -> GrownInPhoto:
+    """One tree of the photo, up to its last twig. `scale`: metres a pixel; None: as the template's height, or the one asked for, has it."""
+    watch = watch or Watch()
     with watch("read"):
         finding = stage_key(key, "foliage mask")
         foliage = foliage_mask(photo, own, key=finding, rule=wanted.foliage) if mask is None else known_foliage(photo, own, mask, key=finding)
@@ -137,9 +154,42 @@ def _tree(photo, own: Marked, palette, templates, key, wanted: PhotoOptions, rea
     with watch("propagate"):
         stage = Attract(targets=target_of(seen), library=wanted.library, iterations=wanted.replacements, alternate=wanted.alternate)
         grown = stage.run(drawn.skeleton, key=stage_key(key, "attract"))
-    model = finish(Grown(drawn, grown, key, options, templates, place, worn_as(seen.moved(place), wanted.colours)), watch)
-    model = dataclasses.replace(model, warnings=(*photo.warnings, *own.warnings, *foliage.warnings, *model.warnings))
-    return PhotoTree(own, foliage, traced, drawn, grown, seen, model)
+    return GrownInPhoto(own, foliage, traced, drawn, grown, seen)
+
+
+@dataclass(frozen=True)
+class PhotoSource:
+    """The built-in source: a photo becomes the grown trees that are marked in it, as wood; without marks, the tree that it seems to show (`photo.auto`)."""
+
+    wanted: PhotoOptions = PhotoOptions()
+    reading: ReadingOptions = ReadingOptions()
+
+    def __call__(self, input: Photo | str | Path | tuple[Photo, Sequence[Marked]], *, key: Key[Array, ""]) -> TreeSkeleton:
+        from sketchtree.photo.auto.propose import propose
+
+        photo, marked = input if isinstance(input, tuple) else (input, None)
+        photo = photo if isinstance(photo, Photo) else read_photo(photo, max_mb=self.reading.max_mb, max_megapixels=self.reading.max_megapixels)
+        marked = propose(photo, key=key).trees if marked is None else marked
+        trees, scale = [], None
+        for number, own in enumerate(marked):
+            found = grow_in_photo(photo, own, key=tree_key(key, number), wanted=self.wanted, reading=self.reading, scale=scale)
+            wood = found.grown.skeleton.replace(tree=np.full(len(found.grown.skeleton), number))
+            trees.append(moved(wood, place_of(own, marked[0], scale, 0.0)))
+            scale = found.drawn.similarity.scale if scale is None else scale
+        return joined(trees)
+
+
+def place_of(own: Marked, first: Marked, scale: float | None, depth: float) -> Float[np.ndarray, " 3"]:
+    """Where a tree's foot stands: as far to the side of the first as the photo shows, so far in front of it, on level ground; metres."""
+    aside = 0.0 if scale is None else scale * float(own.branches[0][0][0] - first.branches[0][0][0])
+    return np.array([aside, 0.0, float(depth)])
+
+
+def _dressed(found: GrownInPhoto, key: Key[Array, ""], options: TreeOptions, templates: Database | None, place, colours: str, watch: Watch) -> PhotoTree:
+    """A grown tree with radii, leaves and meshes, at its place."""
+    model = finish(Grown(found.drawn, found.grown, key, options, templates, place, worn_as(found.seen.moved(place), colours)), watch)
+    told = (*found.seen.photo.warnings, *found.marked.warnings, *found.foliage.warnings, *model.warnings)
+    return PhotoTree(**vars(found), model=dataclasses.replace(model, warnings=tuple(dict.fromkeys(told))))
 
 
 def target_of(seen: SeenFoliage) -> Target:

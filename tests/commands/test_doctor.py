@@ -74,6 +74,19 @@ def test_a_report_cites_only_what_its_run_used(tmp_path, capsys, method, okabe):
     assert ("Okabe" in capsys.readouterr().out) == okabe
 
 
+@pytest.mark.parametrize(("command", "tan"), [("build", False), ("photo", True)])
+def test_only_a_report_of_a_photo_cites_the_paper_on_photos(tmp_path, capsys, command, tan):
+    (tmp_path / "r.json").write_text(json.dumps({"schema": 1, "command": command, "infer": {"method": "elevation"}}))
+    assert app.run(["cite", str(tmp_path / "r.json")]) == 0
+    assert ("Single Image Tree Modeling" in capsys.readouterr().out) == tan
+
+
+def test_both_packages_that_photos_need_are_looked_for(quick, capsys, monkeypatch):
+    monkeypatch.setattr("importlib.util.find_spec", lambda name: None)
+    assert app.run(["doctor"]) == 0
+    assert capsys.readouterr().out.count("missing photo: for sketchtree photo. `pip install 'sketchtree[photo]'`") == 2
+
+
 @pytest.mark.parametrize(("content", "said"), [(None, "can't be read: no such file or directory. Check the path."), ("{", "is no report. Give the file that `--report` wrote."), ("[]", "is no report.")])
 def test_what_is_no_report_is_refused(tmp_path, capsys, content, said):
     path = tmp_path / "r.json"
