@@ -15,7 +15,7 @@ from scipy.spatial import cKDTree
 from sketchtree import keys
 from sketchtree.propagate.attractors.wood import Wood
 
-ROUNDS = 6
+ROUNDS = 9
 _LONGEST = 6.0  # leaf lengths, of a twig
 _SHORTEST = 0.6
 CELL = 1.8  # leaf lengths: one twig in such a cell and round
@@ -38,7 +38,7 @@ def ways(
     place: Float[np.ndarray, "far axis"], samples: Float[np.ndarray, "sample 3"], limb: Int[np.ndarray, " sample"], arc: Float[np.ndarray, " sample"],
     wood: Wood, leaf: float, key: np.uint64, round_: int,
 ) -> tuple[Int[np.ndarray, " twig"], Float[np.ndarray, " twig"], Float[np.ndarray, "twig point 3"]]:  # fmt: skip
-    """(the limb that each twig grows on, metres along it, its points from its foot); one for each place, as far as any wood serves."""
+    """(the limb that each twig grows on, metres along it, its points from its foot), shortest first; one for each place, as far as any wood serves, and one from each leaf length of wood."""
     axes, many = place.shape[1], min(_CHOICES, len(samples))
     away, which = cKDTree(samples[:, :axes]).query(place, k=many)
     away, which = away.reshape(len(place), -1), which.reshape(len(place), -1)
@@ -59,7 +59,11 @@ def ways(
     t = np.linspace(0.0, 1.0, PIECES + 1)[:, None]
     point = foot[:, None] + 2 * t * (1 - t) * (_BENDS * length[:, None] * heading)[:, None] + t**2 * vector[:, None]
     keep = (length > _SHORTEST * leaf) & (along > -0.2)
-    return limb[which][row, best][keep], at[row, best][keep], point[keep]
+    keep = np.flatnonzero(keep)[np.argsort(length[keep], kind="stable")]
+    bearer, at = limb[which][row, best], at[row, best]
+    _, first = np.unique(np.stack([bearer[keep], np.floor(at[keep] / leaf).astype(np.int64)], axis=1), axis=0, return_index=True)
+    keep = keep[np.sort(first)]  # one from a place, the shortest; the others wait for what has grown nearer by then
+    return bearer[keep], at[keep], point[keep]
 
 
 def _feet(wood: Wood, limb, arc):
