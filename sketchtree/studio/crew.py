@@ -12,20 +12,22 @@ import dataclasses
 import sys
 import traceback
 from collections.abc import Callable
+from functools import partial
 from pathlib import Path
 
 from sketchtree.editing.document import Document
 from sketchtree.editing.settled import Settled
 from sketchtree.errors import SketchTreeError
 from sketchtree.studio import messages
-from sketchtree.studio.engine import Outcome
-from sketchtree.studio.hand import Ended, Fault, Hand
+from sketchtree.studio.engine import Fault, Outcome
+from sketchtree.studio.hand import Ended, Hand
 from sketchtree.studio.making.basis import Basis
 
 _ROLES = ("quick", "full", "side")
 _SMALL, _LINES = 1_000_000, (".svg", ".json", ".excalidraw", ".inkml")  # bytes, and kinds, of drawings that are read at once
 _AFTER_PAINT, _AFTER_TREE = 1.0, 4.0  # seconds to the beginning of the next process: from a tree that is there at once, while a page is painted; from one that was made
 _PAUSE = 0.1  # seconds between two tellings of how far a stage is
+_MAKES = "makes"  # tasks that a tree comes of
 
 
 class Crew:
@@ -36,7 +38,7 @@ class Crew:
         self._database = database
         self._hands: dict[str, Hand] = {}
         self._tasks: set[asyncio.Task] = set()
-        self._hurrying = False  # a hurried answer is under way
+        self._hurrying, self._cancelled = False, False  # a hurried answer is under way; what was asked last is not wanted any more
         self._known: dict[str, str] = {}  # owner → digest of the chunk that every page has of the last full tree; hurried ones take theirs out
         self._basis, self._job = None, 0  # of the last full tree: what it was, and the number of its job
         self._revision, self._full_number, self._glancing = 0, 0, False
@@ -66,7 +68,7 @@ class Crew:
         """Begin the processes."""
         self._loop = asyncio.get_running_loop()
         for role in _ROLES:
-            self._hands[role] = Hand(role, self._database, self._event if role == "full" else lambda number, value: None, self._full_ended if role == "full" else lambda: None)
+            self._hands[role] = Hand(role, self._database, self._event if role == "full" else lambda number, value: None, partial(self._ended, role))
         self._begun = 1
         self._empty: bytes | None = None  # the tree of a page without a stroke, if that was told last
         self._hands["full"].begin()  # the others once there is a tree, or when they are asked
@@ -82,11 +84,11 @@ class Crew:
 
     def make(self, revision: int, document: Document) -> None:
         """As `Engine.make`."""
-        self._revision, self._document = revision, document.replace(underlay=None)  # no tree hangs on the picture, which may be large
+        self._revision, self._document, self._cancelled = revision, document.replace(underlay=None), False  # no tree hangs on the picture, which may be large
         self._hands["full"].stop()
         self._say(messages.Working(state="working", revision=revision, stage="read"))
         if not self._hurrying:
-            self._run(self._make())
+            self._run(self._make(), makes=True)
 
     async def _make(self) -> None:
         """Hurried answers until one is of the newest drawing, then its whole tree. However many drawings come meanwhile, one at a time is made."""
@@ -102,8 +104,8 @@ class Crew:
             self._hurrying = False
         if not document.strokes:
             self._nothing(revision)
-            return
-        await self._whole(revision, document)
+        elif not self._cancelled:
+            await self._whole(revision, document)
 
     async def _whole(self, revision: int, document: Document) -> None:
         hand = self._hands["full"]
@@ -115,7 +117,7 @@ class Crew:
         try:
             found = await answer
         except Ended as error:
-            if revision == self._revision and self._revive(revision, error):
+            if revision == self._revision and not self._cancelled and self._revive(revision, error):
                 await self._whole(revision, document)
             return
         except SketchTreeError as error:
@@ -140,10 +142,11 @@ class Crew:
         self.on_outcome(Outcome(revision, again))
         return True
 
-    def _full_ended(self) -> None:
-        """It ended while it had nothing to do: pages that join, and who picks a limb, need the tree that it knew."""
-        if self._made == self._revision and self._basis is not None and self._revive(self._revision, Ended("A process that makes the tree ended.", remedy="")):
-            self._run(self._whole(self._revision, self._document.replace(settled=self._basis.settled)))
+    def _ended(self, role: str) -> None:
+        """A process ended by itself: the terminal is told. The full one, if it had nothing to do: pages that join, and who picks a limb, need the tree that it knew."""
+        print(f"A process of the studio ended ({role}). It is begun again when it is needed; nothing of the drawing is lost.", file=sys.stderr)
+        if role == "full" and self._made == self._revision and self._basis is not None and self._revive(self._revision, Ended("A process that makes the tree ended.", remedy="")):
+            self._run(self._whole(self._revision, self._document.replace(settled=self._basis.settled)), makes=True)
 
     async def _hurry(self, revision: int, document: Document) -> Document:
         """What was touched, first; returns the document with what that settled for now: the full tree begins there."""
@@ -155,14 +158,18 @@ class Crew:
         if found is None or revision != self._revision:
             return document
         frame, digests, settled = found
-        self._known = {owner: digest for owner, digest in self._known.items() if owner not in digests}
+        there = {str(limb) for limb in settled.limbs}  # pages drop the chunks of all others
+        self._known = {owner: digest for owner, digest in self._known.items() if owner in there and owner not in digests}
         if self._basis is not None:
-            self._basis = dataclasses.replace(self._basis, owners=tuple(dict.fromkeys((*self._basis.owners, *digests))), settled=settled)
+            owners = tuple(owner for owner in dict.fromkeys((*self._basis.owners, *digests)) if owner in there)
+            self._basis = dataclasses.replace(self._basis, owners=owners, settled=settled)
         self.on_outcome(Outcome(revision, frame, rough=settled))
         return document.replace(settled=dataclasses.replace(settled, manner=document.settled.manner))
 
     def refresh(self) -> None:
         """A page that joins asks for `frame` itself."""
+        if not document.settled.limbs:
+            return document  # as a file that is opened: its tree is the one that `build` makes of it, whatever was shown before
 
     async def frame(self) -> bytes | None:
         """As `Engine.frame`."""
@@ -192,7 +199,10 @@ class Crew:
     async def _back(self, revision: int) -> None:
         """The tree itself again, after a glance."""
         self._glancing = False
-        frame = await self.frame()
+        try:
+            frame = await self.frame()
+        except Ended:
+            return  # the tree is made again
         if frame is not None and not self._glancing:
             self.on_outcome(Outcome(revision, frame))
 
@@ -224,6 +234,7 @@ class Crew:
         """As `Engine.read`. Small drawings of lines are read here, on a thread: they are there before any other process is."""
         if len(data) < _SMALL and Path(name).suffix.lower() in _LINES:
             from sketchtree.studio.making.documents import document_of
+        self._cancelled = True
 
             return await asyncio.to_thread(document_of, data, name)
         return await self._hands["side"].ask("read", data, name)[1]
@@ -293,12 +304,16 @@ class Crew:
     def _say(self, event: messages.Event) -> None:
         self.on_outcome(Outcome(self._revision, event))
 
-    def _run(self, work) -> None:
-        task = self._loop.create_task(work)
+    def _run(self, work, *, makes: bool = False) -> None:
+        task = self._loop.create_task(work, name=_MAKES if makes else None)
         self._tasks.add(task)
+        if self._cancelled:
+            return  # it was said before the process heard of it
         task.add_done_callback(self._finished)
 
     def _finished(self, task: asyncio.Task) -> None:
         self._tasks.discard(task)
         if not task.cancelled() and task.exception() is not None:
             traceback.print_exception(task.exception(), file=sys.stderr)
+            if task.get_name() == _MAKES:  # pages must not wait for what never comes
+                self._trouble(self._revision, Fault.here())

@@ -17,7 +17,7 @@ from sketchtree.editing.settled import Settled
 from sketchtree.errors import SketchTreeError
 from sketchtree.studio import journal_lines, messages, wire
 from sketchtree.studio.change import Change, change
-from sketchtree.studio.engine import Engine, Outcome
+from sketchtree.studio.engine import Engine, Fault, Outcome
 from sketchtree.studio.folder import Folder, Signature
 from sketchtree.studio.history import History
 from sketchtree.studio.ledger import Ledger
@@ -295,4 +295,4 @@ class Desk:
 def trouble_of(error: SketchTreeError, about: str | None = None) -> messages.Trouble:
     """An error as the page is told."""
     stroke = getattr(error, "stroke", None)
-    return messages.Trouble(message=error.message, remedy=error.remedy, stroke=None if stroke is None else str(stroke), about=about or "drawing")
+    return messages.Trouble(message=error.message, remedy=error.remedy, stroke=None if stroke is None else str(stroke), about=about or ("program" if isinstance(error, Fault) else "drawing"))

@@ -10,9 +10,16 @@ from typing import Any, Protocol
 
 from sketchtree.editing.document import Document
 from sketchtree.editing.settled import Settled
+from sketchtree.errors import SketchTreeError
 from sketchtree.studio import messages
 
 
+class Fault(SketchTreeError):
+    """A fault of ours."""
+    @classmethod
+    def here(cls) -> "Fault":
+        """One whose details are in the terminal."""
+        return cls("Something went wrong in the program.", remedy="Undo the last step; the terminal that runs the studio has the details.")
 @dataclass(frozen=True, eq=False)
 class Outcome:
     """Something to tell: an event as it goes to the pages, and what the server is to keep of it."""
@@ -46,6 +53,7 @@ class Engine(Protocol):
     def ghost(self, revision: int, document: Document, stroke: messages.Stroke | None, hold: messages.Hold | None) -> None:
         """A `Ghost` of the stroke in hand, or of a limb that is being dragged."""
 
+        """The drawing in which those limbs stand for the strokes that mark them. Raises SketchTreeError where there are none."""
     def glance(self, revision: int, document: Document | None) -> None:
         """A `Tree` of phase "glance" of a document that is not kept."""
 
@@ -53,7 +61,7 @@ class Engine(Protocol):
         """Other readings, and where the depths are in each."""
 
     def cancel(self) -> None:
-        """Stop what is going on."""
+        """Stop what is going on. A hurried tree that is there already stays; the whole one comes with the next step."""
 
     async def find(self, document: Document, limb: int) -> Any:
         """An undrawn limb of the tree that is shown as an `edits.Adopted`, whatever is being made; raises SketchTreeError where there is none of that id."""

@@ -12,6 +12,7 @@ from multiprocessing import resource_tracker
 from pathlib import Path
 
 from sketchtree.errors import SketchTreeError
+from sketchtree.studio.engine import Fault
 
 
 @contextlib.contextmanager
@@ -26,10 +27,6 @@ def _no_ctrl_c() -> Iterator[None]:
         yield
     finally:
         signal.pthread_sigmask(signal.SIG_SETMASK, before)
-
-
-class Fault(SketchTreeError):
-    """A fault of ours."""
 
 
 class Ended(Fault):
@@ -122,7 +119,7 @@ class Hand:
             answer.set_exception(error)
         elif what == "fault":
             print(value, file=sys.stderr)
-            answer.set_exception(Fault("Something went wrong in the program.", remedy="Undo the last step; the terminal that runs the studio has the details."))
+            answer.set_exception(Fault.here())
         else:
             answer.set_result(value if what == "done" else None)
 

@@ -29,7 +29,7 @@ class ActingHand:
         self.number, self.stopped, self.newest = 0, -1, {}
         self.made: dict[int, tuple] = {}
         self.asked: dict[int, asyncio.Future] = {}
-        self.runs, self.begun = False, 0
+        self.runs, self.begun, self.kills = False, 0, 0
         ActingHand.all[role] = self
 
     def begin(self):
@@ -56,6 +56,7 @@ class ActingHand:
 
     def kill(self):
         """The process ends; what it knew is gone."""
+        self.kills += 1
         self.made, asked, self.asked, self.runs = {}, self.asked, {}, False
         for answer in asked.values():
             if not answer.done():
@@ -66,6 +67,8 @@ class ActingHand:
         wanted = kind not in NEWEST
         for _ in range(self.chance.randrange(1, 12)):
             await asyncio.sleep(0)
+            if self.chance.random() < 0.3:  # said, perhaps, before it heard that it was stopped
+                self.tell(number, ("working", "infer", self.chance.random()))
             if not wanted and (number <= self.stopped or number < self.newest[kind]) and self.chance.random() < 0.7:
                 self._answer(number, answer, None)
                 return

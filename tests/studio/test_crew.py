@@ -2,6 +2,7 @@
 
 import asyncio
 import dataclasses
+import json
 
 import numpy as np
 import pytest
@@ -16,6 +17,7 @@ from sketchtree.options import FileOptions, ReadingOptions, TreeOptions
 from sketchtree.sketch.strokes import Stroke
 from sketchtree.studio import messages
 from sketchtree.studio.crew import Crew
+from sketchtree.studio.making.documents import document_of
 from sketchtree.studio.making.frames import opened
 from sketchtree.tree_output import Made, write_output
 
@@ -98,6 +100,16 @@ def test_a_stroke_more_is_answered_in_a_hurry_with_its_own_chunk_then_in_full(wa
     assert set(quick[0].owners) == set(full[0].owners)
     sides = [next(limb.path[-1] for limb in head.limbs if limb.strokes == ["more"]) for head in (quick[0], full[0])]
     assert np.sign(sides[0]) == np.sign(sides[1])
+
+
+def test_a_drawing_that_is_opened_is_the_tree_that_build_makes_of_it_whatever_was_there_before(watched, tmp_path):
+    data = json.dumps({"sketchtree": 1, "strokes": [{"id": one.id, "kind": "branch", "points": one.points.tolist()} for one in STROKES]}).encode()
+    (tmp_path / "small.json").write_bytes(data)
+    built = pipeline.sketch_to_tree(tmp_path / "small.json", key=root_key(0), reading=ReadingOptions(), tree=TreeOptions())
+    for _ in range(2):
+        watched.make(DOCUMENT.replace(settled=watched.settled))
+        head, *_ = _trees(watched.make(document_of(data, "small.json")))[-1]
+        assert (head.phase, head.segments, head.leaves) == ("full", built.skeleton.segment_count, len(built.leaves))
 
 
 def test_the_newest_wins(watched):
