@@ -26,8 +26,8 @@ from sketchtree.studio.making.basis import Basis
 _ROLES = ("quick", "full", "side")
 _SMALL, _LINES = 1_000_000, (".svg", ".json", ".excalidraw", ".inkml")  # bytes, and kinds, of drawings that are read at once
 _AFTER_PAINT, _AFTER_TREE = 1.0, 4.0  # seconds to the beginning of the next process: from a tree that is there at once, while a page is painted; from one that was made
-_PAUSE = 0.1  # seconds between two tellings of how far a stage is
 _MAKES = "makes"  # tasks that a tree comes of
+_PAUSE = 0.1  # seconds between two tellings of how far a stage is
 
 
 class Crew:
@@ -164,12 +164,12 @@ class Crew:
             owners = tuple(owner for owner in dict.fromkeys((*self._basis.owners, *digests)) if owner in there)
             self._basis = dataclasses.replace(self._basis, owners=owners, settled=settled)
         self.on_outcome(Outcome(revision, frame, rough=settled))
+        if not document.settled.limbs:
+            return document  # as a file that is opened: its tree is the one that `build` makes of it, whatever was shown before
         return document.replace(settled=dataclasses.replace(settled, manner=document.settled.manner))
 
     def refresh(self) -> None:
         """A page that joins asks for `frame` itself."""
-        if not document.settled.limbs:
-            return document  # as a file that is opened: its tree is the one that `build` makes of it, whatever was shown before
 
     async def frame(self) -> bytes | None:
         """As `Engine.frame`."""
@@ -222,6 +222,7 @@ class Crew:
 
     def cancel(self) -> None:
         """As `Engine.cancel`."""
+        self._cancelled = True
         for hand in self._hands.values():
             hand.stop()
         self._say(messages.Working(state="idle", revision=self._revision))
@@ -234,7 +235,6 @@ class Crew:
         """As `Engine.read`. Small drawings of lines are read here, on a thread: they are there before any other process is."""
         if len(data) < _SMALL and Path(name).suffix.lower() in _LINES:
             from sketchtree.studio.making.documents import document_of
-        self._cancelled = True
 
             return await asyncio.to_thread(document_of, data, name)
         return await self._hands["side"].ask("read", data, name)[1]
@@ -295,6 +295,8 @@ class Crew:
         if value[0] == "event":
             self.on_outcome(Outcome(self._revision, value[1]))
             return
+        if self._cancelled:
+            return  # it was said before the process heard of it
         _, stage, done = value
         now = self._loop.time()
         if stage != self._told[1] or now - self._told[0] >= _PAUSE:
@@ -307,8 +309,6 @@ class Crew:
     def _run(self, work, *, makes: bool = False) -> None:
         task = self._loop.create_task(work, name=_MAKES if makes else None)
         self._tasks.add(task)
-        if self._cancelled:
-            return  # it was said before the process heard of it
         task.add_done_callback(self._finished)
 
     def _finished(self, task: asyncio.Task) -> None:

@@ -16,10 +16,13 @@ from sketchtree.studio import messages
 
 class Fault(SketchTreeError):
     """A fault of ours."""
+
     @classmethod
     def here(cls) -> "Fault":
         """One whose details are in the terminal."""
         return cls("Something went wrong in the program.", remedy="Undo the last step; the terminal that runs the studio has the details.")
+
+
 @dataclass(frozen=True, eq=False)
 class Outcome:
     """Something to tell: an event as it goes to the pages, and what the server is to keep of it."""
@@ -53,7 +56,6 @@ class Engine(Protocol):
     def ghost(self, revision: int, document: Document, stroke: messages.Stroke | None, hold: messages.Hold | None) -> None:
         """A `Ghost` of the stroke in hand, or of a limb that is being dragged."""
 
-        """The drawing in which those limbs stand for the strokes that mark them. Raises SketchTreeError where there are none."""
     def glance(self, revision: int, document: Document | None) -> None:
         """A `Tree` of phase "glance" of a document that is not kept."""
 
