@@ -6,6 +6,7 @@ from sketchtree.errors import SketchError
 
 FIRST = "oak_50.svg"  # shown when the studio is started with no file
 _KINDS = (".svg", ".json")
+_TITLES = {"curvy.svg": "Wind-swept pine", "oak_50.svg": "Old oak", "poplar.svg": "Lombardy poplar"}  # where the file's name says less
 
 
 def folder() -> Path:
@@ -21,7 +22,7 @@ def names() -> list[str]:
 
 def title(name: str) -> str:
     """What a person calls it."""
-    return Path(name).stem.replace("_", " ").capitalize()
+    return _TITLES.get(name) or Path(name).stem.replace("_", " ").capitalize()
 
 
 def data(name: str) -> bytes:
