@@ -12,7 +12,7 @@ from sketchtree.sketch.strokes import Sketch, Stroke
 
 @dataclass(frozen=True)
 class Underlay:
-    """A picture to trace over. It has no part in the tree."""
+    """A picture to trace over. It has no part in the tree: strokes have, and limbs that were traced in it once they are taken over."""
 
     picture: bytes = field(repr=False)  # PNG, JPEG or WebP, as it came
     x: float  # of its top left corner, sketch units
@@ -20,6 +20,7 @@ class Underlay:
     width: float  # sketch units
     height: float
     opacity: float = 0.4
+    photo: bool = False  # it shows the tree: strokes mark its crown and limbs (`sketchtree.photo`)
 
 
 BEGINNING = "english_oak"  # what an empty page grows by until the drawing says otherwise

@@ -22,6 +22,7 @@ from sketchtree.studio import messages
 from sketchtree.studio.engine import Fault, Outcome
 from sketchtree.studio.hand import Ended, Hand
 from sketchtree.studio.making.basis import Basis
+from sketchtree.studio.tracer import Tracer
 
 _ROLES = ("quick", "full", "side")
 _SMALL, _LINES = 1_000_000, (".svg", ".json", ".excalidraw", ".inkml")  # bytes, and kinds, of drawings that are read at once
@@ -69,6 +70,8 @@ class Crew:
         self._loop = asyncio.get_running_loop()
         for role in _ROLES:
             self._hands[role] = Hand(role, self._database, self._event if role == "full" else lambda number, value: None, partial(self._ended, role))
+        photo = Hand("photo", self._database, lambda number, value: None, partial(self._ended, "photo"))
+        self._tracer = Tracer(photo, lambda: self._hands["side"], lambda revision, event: self.on_outcome(Outcome(revision, event)), self._run)
         self._begun = 1
         self._empty: bytes | None = None  # the tree of a page without a stroke, if that was told last
         self._hands["full"].begin()  # the others once there is a tree, or when they are asked
@@ -81,6 +84,7 @@ class Crew:
             begin.cancel()
         for hand in self._hands.values():
             hand.end()
+        self._tracer.end()
 
     def make(self, revision: int, document: Document) -> None:
         """As `Engine.make`."""
@@ -178,6 +182,14 @@ class Crew:
             job = self._job
             frame = await self._hands["full"].ask("frame", job)[1]
         return frame if self._basis is not None else self._empty
+
+    def trace(self, revision: int, document: Document) -> None:
+        """As `Engine.trace`."""
+        self._tracer.make(revision, document)
+
+    async def with_traced(self, document: Document) -> Document:
+        """As `Engine.with_traced`."""
+        return await self._tracer.taken_over(document)
 
     def ghost(self, revision: int, document: Document, stroke: messages.Stroke | None, hold: messages.Hold | None) -> None:
         """As `Engine.ghost`."""

@@ -26,7 +26,7 @@ from sketchtree.studio.recovery import Journal, Recovered
 from sketchtree.studio.scribe import Scribe
 from sketchtree.studio.settling import known_at_once, sharing
 
-_KEPT = (messages.Working, messages.Matches, messages.Read, messages.Alternatives)  # the newest of each is told to pages that join later
+_KEPT = (messages.Working, messages.Matches, messages.Read, messages.Alternatives, messages.Traced, messages.Foliage)  # the newest of each is told to pages that join later
 _NO_TREE = frozenset({"underlay", "name", "units", "page"})  # fields of a document that its tree does not hang on
 
 
@@ -97,6 +97,7 @@ class Desk:
             self.notes.append(messages.Trouble(message=note, remedy="Nothing of it was deleted.", about="file"))
         self._remember_picture()
         self.ready.set()
+        self.engine.trace(self.revision, self.document)
         self.engine.make(self.revision, self.document)
 
     async def end(self) -> None:
@@ -219,7 +220,10 @@ class Desk:
             self._settled_since = self.revision
         told = wire.changed(what, document, since, self.revision, **self._state())
         self.scribe.write(lines, lambda: self.tell(told))
-        if what.put or what.gone or what.order is not None or what.others.keys() - _NO_TREE:
+        redrawn = bool(what.put or what.gone or what.order is not None)
+        if redrawn or what.others.keys() & {"underlay", "seed"}:
+            self.engine.trace(self.revision, document)
+        if redrawn or what.others.keys() - _NO_TREE:
             self.engine.make(self.revision, document)
 
     # What comes of it

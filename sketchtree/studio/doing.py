@@ -217,6 +217,11 @@ async def _set_underlay(desk: Desk, page: Page, request: messages.SetUnderlay) -
         desk.step(document.replace(underlay=wire.underlay_in(said, picture)), "picture", alike="underlay")
 
 
+async def _use_traced(desk: Desk, page: Page, request: messages.UseTraced) -> None:
+    async with desk.turn:
+        desk.step(await desk.engine.with_traced(desk.document), "traced limbs")
+
+
 def _aside(desk: Desk, page: Page, work: Callable[[], Awaitable[None]], only: str | None = None) -> asyncio.Task:
     """Do it beside the other requests; of the same `only`, the newest wins."""
     for task in desk.tasks if only is not None else ():
@@ -240,4 +245,5 @@ _DOING: dict[type, Callable[[Desk, Page, Any], Awaitable[None]]] = {
     messages.Hold: _hold, messages.Flip: _flip, messages.Mirror: _mirror, messages.Lock: _lock, messages.Delete: _delete, messages.Settle: _settle,
     messages.Readings: _readings, messages.Pick: _pick, messages.Undo: _undo, messages.Redo: _redo, messages.Cancel: _cancel, messages.New: _new,
     messages.Open: _open, messages.Save: _save, messages.SetUnderlay: _set_underlay,
+    messages.UseTraced: _use_traced,
 }  # fmt: skip

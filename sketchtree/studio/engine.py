@@ -53,6 +53,12 @@ class Engine(Protocol):
     async def frame(self) -> bytes | None:
         """A `Tree` frame with everything in it, as last made; None: nothing yet."""
 
+    def trace(self, revision: int, document: Document) -> None:
+        """`Traced`, the limbs that show in the photo under the page, and later `Foliage`; nothing where there is no photo."""
+
+    async def with_traced(self, document: Document) -> Document:
+        """The drawing in which those limbs stand for the strokes that mark them. Raises SketchTreeError where there are none."""
+
     def ghost(self, revision: int, document: Document, stroke: messages.Stroke | None, hold: messages.Hold | None) -> None:
         """A `Ghost` of the stroke in hand, or of a limb that is being dragged."""
 

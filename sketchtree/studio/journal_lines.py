@@ -37,6 +37,7 @@ class _Placed(_Line):
     width: float
     height: float
     opacity: float
+    photo: bool = False
 
 
 class _Resettled(_Line):
@@ -129,7 +130,7 @@ def differing(document: Document, said: Different, pictures: Mapping[str, bytes]
         others["settled"] = replace(kept.reading(kept.settled_from_json, said.settled.rest), limbs=limbs)
     if said.underlay is not UNSET:
         place = said.underlay
-        others["underlay"] = place and Underlay(pictures[place.digest], place.x, place.y, place.width, place.height, place.opacity)
+        others["underlay"] = place and Underlay(pictures[place.digest], place.x, place.y, place.width, place.height, place.opacity, place.photo)
     order = None if said.order is None else tuple(said.order)
     return apply(document, Change({stroke.id: stroke for stroke in said.put}, tuple(said.gone), order, others))
 
@@ -160,7 +161,7 @@ def _placed(underlay: Underlay | None) -> _Placed | None:
     if underlay is None:
         return None
     place = (underlay.x, underlay.y, underlay.width, underlay.height, underlay.opacity)
-    return _Placed(digest=wire.digest(underlay.picture), **dict(zip(("x", "y", "width", "height", "opacity"), map(float, place))))
+    return _Placed(digest=wire.digest(underlay.picture), photo=underlay.photo, **dict(zip(("x", "y", "width", "height", "opacity"), map(float, place))))
 
 
 def _plain(value: Any) -> Any:

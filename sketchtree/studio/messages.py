@@ -83,6 +83,7 @@ class Underlay(_Record):
     width: Annotated[float, Meta(gt=0, le=1e6)]  # page units
     height: Annotated[float, Meta(gt=0, le=1e6)]
     opacity: Share = 0.4
+    photo: bool = False  # it shows the tree: strokes mark its crown and limbs, and its limbs are traced
 
 
 class Edit(_Record):
@@ -213,9 +214,13 @@ class SetUnderlay(_Said):
     underlay: Underlay | None = None
 
 
+class UseTraced(_Said):
+    """The limbs that were traced in the photo become the drawing, in place of the strokes that mark them; the photo is a picture to trace over again."""
+
+
 Request = (
     Hello | Strokes | Sketching | Choose | Glance | Hold | Flip | Mirror | Lock | Delete | Settle | Readings | Pick | Undo | Redo | Cancel | New
-    | Open | Save | SetUnderlay
+    | Open | Save | SetUnderlay | UseTraced
 )  # fmt: skip
 
 
@@ -339,6 +344,30 @@ class Read(_Said):
     warnings: list[str]
 
 
+class TracedTree(_Record):
+    """The limbs of one tree that show in the photo, as joints, parents first."""
+
+    xy: list[float]  # x, y of each joint; page units, y down
+    parent: list[int]  # number of the joint before; -1 at the root
+    width: list[float]  # of the limb that ends there, page units
+    drawn: list[bool]  # lies on a stroke; the others were found in the photo
+
+
+class Traced(_Said):
+    """What shows of limbs in the photo under the page, as the strokes mark it; none where no stroke marks any, or the picture is only one to trace over."""
+
+    revision: int
+    trees: list[TracedTree]
+    remark: str  # what is missing, or went wrong; empty: nothing
+
+
+class Foliage(_Said):
+    """Where foliage shows in the photo, within its crowns. It comes later than the limbs, when a crown is another."""
+
+    revision: int
+    png: str  # base64; as large as the picture, or smaller; opaque where foliage is. Empty: not known
+
+
 class Array(_Record):
     """Where an array lies in the frame, and what it is."""
 
@@ -444,4 +473,4 @@ class Ghost(_Said):
     arrays: list[Array]
 
 
-Event = Welcome | Changed | Working | Trouble | Matches | Alternatives | Saved | Read | Tree | Ghost
+Event = Welcome | Changed | Working | Trouble | Matches | Alternatives | Saved | Read | Traced | Foliage | Tree | Ghost

@@ -91,13 +91,14 @@ def underlay_out(underlay: Underlay | None) -> messages.Underlay | None:
     if underlay is None:
         return None
     return messages.Underlay(
-        digest=digest(underlay.picture), x=underlay.x, y=0.0 - underlay.y, width=underlay.width, height=underlay.height, opacity=underlay.opacity
-    )
+        digest=digest(underlay.picture), x=underlay.x, y=0.0 - underlay.y, width=underlay.width, height=underlay.height, opacity=underlay.opacity,
+        photo=underlay.photo,
+    )  # fmt: skip
 
 
 def underlay_in(said: messages.Underlay, picture: bytes) -> Underlay:
     """The picture to trace over, at its place."""
-    return Underlay(picture, said.x, 0.0 - said.y, said.width, said.height, said.opacity)
+    return Underlay(picture, said.x, 0.0 - said.y, said.width, said.height, said.opacity, said.photo)
 
 
 @lru_cache(maxsize=8)

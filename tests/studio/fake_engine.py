@@ -1,5 +1,6 @@
 """An engine that makes nothing, at once: what it was asked is kept for tests to look at."""
 
+import dataclasses
 import json
 
 import numpy as np
@@ -21,6 +22,7 @@ class FakeEngine:
         self.made: list[tuple[int, Document]] = []
         self.ghosts: list[tuple] = []
         self.glances: list = []
+        self.traced: list[tuple[int, Document]] = []
         self.cancelled = self.refreshed = 0
         self.size = 8  # bytes of a frame's arrays
         self.answers = True  # tells a tree for every document
@@ -43,6 +45,17 @@ class FakeEngine:
         self.whole = frame(revision, size=self.size)
         self.on_outcome(Outcome(revision, self.whole, settled=settled(document)))
         self.on_outcome(Outcome(revision, messages.Working(state="idle", revision=revision)))
+
+    def trace(self, revision, document):
+        self.traced.append((revision, document))
+        if document.underlay is not None and document.underlay.photo:
+            self.on_outcome(Outcome(revision, messages.Traced(revision=revision, trees=[], remark=f"{len(document.strokes)} strokes")))
+
+    async def with_traced(self, document):
+        if not document.strokes:
+            raise SketchError("No stroke marks a limb in the photo.", remedy="Draw along the trunk, from its foot.")
+        strokes = {"limb": Stroke("limb", [[0, 0], [0, 10]], wood=True)}
+        return document.replace(strokes=strokes, underlay=dataclasses.replace(document.underlay, photo=False))
 
     def refresh(self):
         self.refreshed += 1

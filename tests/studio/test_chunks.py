@@ -125,7 +125,7 @@ def test_a_project_keeps_the_picture_and_the_options():
     document = Document(strokes, reading=ReadingOptions(template="none"), tree=TreeOptions(generations=0, leaf="none", season="autumn"), seed=4)
     drawn = pipeline.draw_out(document.sketch, key=KEY, options=document.reading)
     model = pipeline.complete(drawn, key=KEY, options=document.tree)
-    underlay = Underlay(b"\x89PNG...", 1.0, 2.0, 30.0, 40.0, 0.3)
+    underlay = Underlay(b"\x89PNG...", 1.0, 2.0, 30.0, 40.0, 0.3, photo=True)
     with tempfile.TemporaryDirectory() as folder:
         path = Path(folder) / "tree.sketchtree"
         write_output(model, path, Made(4, dataclasses.asdict(document.reading) | dataclasses.asdict(document.tree)), underlay=underlay)

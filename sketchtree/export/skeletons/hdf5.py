@@ -6,7 +6,7 @@ A project (`.sketchtree`) is all that a tree was made of, so that it can be made
     sketch                            the drawing, as sketch JSON: no stroke, width or pressure is lost
     edits                             JSON: what was done by hand, operations by limb id (`editing.kept`)
     settled                           JSON: what the depths of drawn limbs have come to, likewise
-    underlay                          a picture that was traced over, as it came; attributes x, y, width, height, opacity (sketch units, y up)
+    underlay                          a picture that was traced over, as it came; attributes x, y, width, height, opacity (sketch units, y up), photo
     options                           JSON: as used
     skeleton/                         every column of the complete tree
     posterior/                        what is known of the drawn segments' depths: depth and depth_sd (sketch units), log_posterior,
@@ -60,6 +60,7 @@ def write_project(path: str | os.PathLike, model, *, seed: int, options: dict, u
             put(file, "underlay", np.frombuffer(underlay.picture, np.uint8), "byte")
             for name in ("x", "y", "width", "height", "opacity"):
                 file["underlay"].attrs[name] = float(getattr(underlay, name))
+            file["underlay"].attrs["photo"] = bool(underlay.photo)
         _put_text(file, "options", json.dumps(options, sort_keys=True))
         put_columns(file.create_group("skeleton"), model.skeleton)
         _put_posterior(file.create_group("posterior"), model.drawn.fit)

@@ -56,7 +56,7 @@ def _with_choices(document: Document, data: bytes, name: str) -> Document:
         underlay = None
         if "underlay" in file:
             at = file["underlay"].attrs
-            underlay = Underlay(column(file, "underlay").astype(np.uint8).tobytes(), *(float(at[one]) for one in ("x", "y", "width", "height", "opacity")))
+            underlay = Underlay(column(file, "underlay").astype(np.uint8).tobytes(), *(float(at[one]) for one in ("x", "y", "width", "height", "opacity")), photo=bool(at.get("photo", False)))
     said, meshes = _without_meshes(said)
     told = tuple(f"The studio opens no file that a project names: the tree is made without {name}. `sketchtree build` takes it." for name in meshes)
     return document.replace(

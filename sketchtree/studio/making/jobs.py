@@ -40,6 +40,20 @@ class Jobs:
 
         return Bench(self.templates)
 
+    @cached_property
+    def photo_bench(self):
+        """Where the photo under the page lies."""
+        from sketchtree.studio.making.photo_bench import PhotoBench
+
+        return PhotoBench()
+
+    @cached_property
+    def photo_answers(self):
+        """What is answered about it."""
+        from sketchtree.studio.making import photo_answers
+
+        return photo_answers
+
     def import_all(self) -> None:
         """What trees are made with."""
         from sketchtree.studio.making import chunks, found, ghosts, remarks, warm, work  # noqa: F401
@@ -110,6 +124,24 @@ class Jobs:
             raise OptionError("The tree is not ready yet.", remedy="Wait until it is, then pick the branch again.")
         _, _, drawn, tree, _ = made
         return found_limb(drawn, tree.skeleton, limb)
+
+    def _photo(self, number, watch, digest: str, picture: bytes):
+        self.photo_bench.read(digest, picture)
+
+    def _trace(self, number, watch, revision: int, asked):
+        return self.photo_answers.traced(self.photo_bench, revision, asked)
+
+    def _limbs(self, number, watch, asked):
+        return self.photo_answers.limbs(self.photo_bench, asked)
+
+    def _foliage(self, number, watch, crowns: dict[str, bytes], seed: int):
+        return self.photo_answers.foliages(self.photo_bench, crowns, seed)
+
+    def _learn(self, number, watch, found: dict[str, bytes]):
+        self.photo_answers.learnt(self.photo_bench, found)
+
+    def _tint(self, number, watch, revision: int, names: tuple[str, ...]):
+        return self.photo_answers.tinted(self.photo_bench, revision, names)
 
     def _read(self, number, watch, data: bytes, name: str):
         from sketchtree.studio.making.documents import document_of

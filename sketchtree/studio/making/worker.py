@@ -22,12 +22,12 @@ from pathlib import Path
 
 from sketchtree.errors import SketchTreeError
 
-NEWEST = ("full", "quick", "ghost", "glance", "alternatives")
+NEWEST = ("full", "quick", "ghost", "glance", "alternatives", "trace", "tint", "foliage")
 LAST = ("picture",)
 KNOWN = ("find", "frame")
 
 _REST = 0.4  # seconds without a job, after which what nobody waits for goes on
-_NICE = {"quick": 0, "full": 4, "side": 8}  # what a pen waits for goes before what a tree waits for, and that before pictures
+_NICE = {"quick": 0, "photo": 0, "full": 4, "side": 8}  # what a pen waits for goes before what a tree waits for, and that before pictures
 
 
 class Desk:
@@ -82,7 +82,7 @@ class Desk:
 
 
 def main(pipe: Connection, database: str | None, role: str) -> None:
-    """Work until the pipe closes, as one of the crew: quick, full or side."""
+    """Work until the pipe closes, as one of the crew: quick, full, side, or photo."""
     signal.signal(signal.SIGINT, signal.SIG_IGN)
     if hasattr(os, "nice"):
         os.nice(_NICE[role])
@@ -90,7 +90,9 @@ def main(pipe: Connection, database: str | None, role: str) -> None:
     from sketchtree.studio.making.jobs import Jobs
 
     jobs = Jobs(None if database is None else Path(database), desk)
-    if role != "side":
+    if role == "photo":
+        jobs.photo_answers.get_ready()
+    elif role != "side":
         jobs.import_all()  # before there is another thread
     threading.Thread(target=_answer, args=(jobs, desk), daemon=True).start()
     warm = threading.Thread(target=_warm, args=(role == "quick", desk), daemon=True)

@@ -74,6 +74,7 @@ export interface Underlay {
   width: number; // page units
   height: number;
   opacity: number;
+  photo: boolean; // it shows the tree: strokes mark its crown and limbs, and its limbs are traced
 }
 
 /** The drawing, or what became different in it since `since` (0: everything; whatever the page has goes). */
@@ -165,6 +166,29 @@ export interface Read {
   marks: Mark[];
   roles: Record<string, string>; // stroke id → crown, obstacle, ground, shadow, leaves, dot …, for those that are no branch
   warnings: string[];
+}
+
+/** The limbs of one tree that show in the photo, as joints, parents first. */
+export interface TracedTree {
+  xy: number[]; // x, y of each joint; page units, y down
+  parent: number[]; // number of the joint before; -1 at the root
+  width: number[]; // of the limb that ends there, page units
+  drawn: boolean[]; // lies on a stroke; the others were found in the photo
+}
+
+/** What shows of limbs in the photo under the page, as the strokes mark it; none where no stroke marks any, or the picture is only one to trace over. */
+export interface Traced {
+  type: "traced";
+  revision: number;
+  trees: TracedTree[];
+  remark: string; // what is missing, or went wrong; empty: nothing
+}
+
+/** Where foliage shows in the photo, within its crowns. It comes later than the limbs, when a crown is another. */
+export interface Foliage {
+  type: "foliage";
+  revision: number;
+  png: string; // base64; as large as the picture, or smaller; opaque where foliage is. Empty: not known
 }
 
 /** The wood of one chunk in one material. Arrays, by `array` + one of these: `position` f4 (vertex 3) metres, `normal` i1 (vertex 4) of 127, `uv` f4 (vertex 2), `limb` u2 (vertex) index of `limbs`, `index` u4 (triangle 3). */
@@ -399,6 +423,7 @@ export interface SentUnderlay {
   width: number; // page units
   height: number;
   opacity?: number;
+  photo?: boolean; // it shows the tree: strokes mark its crown and limbs, and its limbs are traced
 }
 
 /** Another place for the picture to trace over; `None` takes it away. */
@@ -407,5 +432,10 @@ export interface SetUnderlay {
   underlay?: SentUnderlay | null;
 }
 
-export type Request = Hello | Strokes | Sketching | Choose | Glance | Hold | Flip | Mirror | Lock | Delete | Settle | Readings | Pick | Undo | Redo | Cancel | New | Open | Save | SetUnderlay;
-export type Event = Welcome | Changed | Working | Trouble | Matches | Alternatives | Saved | Read | Tree | Ghost;
+/** The limbs that were traced in the photo become the drawing, in place of the strokes that mark them; the photo is a picture to trace over again. */
+export interface UseTraced {
+  type: "usetraced";
+}
+
+export type Request = Hello | Strokes | Sketching | Choose | Glance | Hold | Flip | Mirror | Lock | Delete | Settle | Readings | Pick | Undo | Redo | Cancel | New | Open | Save | SetUnderlay | UseTraced;
+export type Event = Welcome | Changed | Working | Trouble | Matches | Alternatives | Saved | Read | Traced | Foliage | Tree | Ghost;

@@ -1,0 +1,62 @@
+"""What a worker answers about the photo under the page. What only other workers read goes through the server as bytes, so that it need not know what they are made of."""
+
+import pickle
+from collections.abc import Iterable
+
+import numpy as np
+
+from sketchtree.errors import SketchTreeError
+from sketchtree.photo.photo import Photo
+from sketchtree.sketch.strokes import Stroke, StrokeKind
+from sketchtree.studio import messages
+from sketchtree.studio.making.photo_asked import Asked, Place
+from sketchtree.studio.making.photo_bench import PhotoBench, foliage_of, limbs_as_strokes, tint, told_limbs
+
+
+def traced(bench: PhotoBench, revision: int, asked: Asked) -> tuple[messages.Traced, tuple[str, ...], dict[str, bytes]]:
+    """(the limbs that show, names of the crowns whose foliage is known, those whose foliage is not: for `foliages`)."""
+    try:
+        shown = bench.trace(asked)
+    except SketchTreeError as error:
+        return messages.Traced(revision=revision, trees=[], remark=f"{error.message} {error.remedy}"), (), {}
+    told = messages.Traced(revision=revision, trees=told_limbs(shown.limbs, asked.place, bench.photo), remark=shown.marks.remark)
+    return told, shown.known, {crown.name: pickle.dumps(crown) for crown in shown.unknown}
+
+
+def limbs(bench: PhotoBench, asked: Asked) -> list[Stroke]:
+    """The traced limbs as strokes on the page; none where nothing is marked. Raises SketchError."""
+    shown = bench.trace(asked)
+    return limbs_as_strokes(shown.marks, shown.limbs, asked.place, bench.photo)
+
+
+def foliages(bench: PhotoBench, crowns: dict[str, bytes], seed: int) -> tuple[dict[str, bytes], dict[str, str]]:
+    """(the foliage of each crown: for `learnt`, why others have none)."""
+    found, reasons = {}, {}
+    for name, crown in crowns.items():
+        try:
+            found[name] = pickle.dumps(foliage_of(bench.photo, pickle.loads(crown), seed))
+        except SketchTreeError as error:
+            reasons[name] = f"{error.message} {error.remedy}"
+    return found, reasons
+
+
+def learnt(bench: PhotoBench, found: dict[str, bytes]) -> None:
+    """The foliage of some crowns is known."""
+    bench.learn({name: pickle.loads(foliage) for name, foliage in found.items()})
+
+
+def tinted(bench: PhotoBench, revision: int, names: Iterable[str]) -> messages.Foliage:
+    """Where the foliage of these crowns is."""
+    return messages.Foliage(revision=revision, png=tint(bench.foliages[name].mask for name in names if name in bench.foliages))
+
+
+def get_ready() -> None:
+    """What is slow only the first time: a little painted photo is traced."""
+    y, x = np.mgrid[0:96, 0:96]
+    grain = ((7 * x + 13 * y) % 11)[..., None]
+    rgb = np.where((np.abs(x - 48) < 5)[..., None], (90, 60, 40), (150, 170, 220)) + grain
+    bench = PhotoBench()
+    bench.lay("a little photo", Photo(rgb.astype(np.uint8)))
+    trunk = Stroke("trunk", np.array([(48.0, -95.0), (48.0, -4.0)]))
+    crown = Stroke("crown", np.array([(20.0, -60.0), (76.0, -60.0), (76.0, -2.0), (20.0, -2.0)]), StrokeKind.CROWN, labelled=True, closed=True)
+    bench.trace(Asked(bench.digest, Place(0.0, 0.0, 96.0, 96.0), (trunk, crown)))

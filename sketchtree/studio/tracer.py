@@ -1,0 +1,144 @@
+"""Which limbs show in the photo under the page? Asked at each stroke, of a process of its own, so that they are there before the tree is.
+
+    stroke → limbs traced → pages                 ≤ 100 ms; the newest wins
+           → a crown that is new → its foliage, found aside → limbs traced again, now apart from leaves → pages, and its tint
+
+The process begins when a photo is first marked. It keeps the photo; should it end, it is begun again and told what it knew.
+"""
+
+import asyncio
+from collections.abc import Callable, Coroutine
+from dataclasses import replace
+
+from sketchtree.editing.document import Document
+from sketchtree.errors import SketchError, SketchTreeError
+from sketchtree.sketch.strokes import StrokeKind
+from sketchtree.studio import messages, wire
+from sketchtree.studio.hand import Hand
+from sketchtree.studio.ids import fitting
+from sketchtree.studio.making.photo_asked import Asked, is_mark, is_photo
+
+_NOTHING = "No stroke marks a limb in the photo."
+_KEPT = 8  # crowns whose foliage is kept
+
+
+class Tracer:
+    """`tell` is given what pages are to know; `run` does work aside; `side` is the process that finds foliage."""
+
+    def __init__(self, hand: Hand, side: Callable[[], Hand], tell: Callable[[int, messages.Event], None], run: Callable[[Coroutine], None]):
+        self._hand, self._side, self._tell, self._run = hand, side, tell, run
+        self._asked: tuple[int, Asked] | None = None  # what the page shows now: revision, and what is to be traced; None: nothing
+        self._picture: tuple[str, bytes] = ("", b"")
+        self._laid: dict[Hand, tuple[int, str]] = {}  # the process of each hand that has the photo, and which
+        self._foliage: dict[str, bytes] = {}  # of crowns, by name: for a process that is begun again
+        self._reasons: dict[str, str] = {}  # why crowns have none
+        self._finding: set[str] = set()  # crowns whose foliage is looked for
+        self._tinted: tuple[str, ...] = ()  # crowns whose foliage the pages have
+        self._is_on = False
+
+    def make(self, revision: int, document: Document) -> None:
+        """The drawing is this now."""
+        if not is_photo(document.underlay):
+            self._asked = None
+            if self._is_on:
+                self._is_on, self._tinted = False, ()
+                self._tell(revision, messages.Traced(revision=revision, trees=[], remark=""))
+                self._tell(revision, messages.Foliage(revision=revision, png=""))
+            return
+        self._asked = revision, self._lay(document)
+        self._is_on = True
+        self._run(self._trace(revision))
+
+    async def taken_over(self, document: Document) -> Document:
+        """The drawing in which the traced limbs stand for the strokes that mark them. Raises SketchTreeError."""
+        if not is_photo(document.underlay):
+            raise SketchError("The picture under the page is only one to trace over.", remedy="Switch 'From photo' on first.")
+        asked = self._lay(document)
+        self._show(self._hand, asked)
+        limbs = await self._hand.ask("limbs", asked)[1]
+        if not limbs:
+            raise SketchError(_NOTHING, remedy="Draw along the trunk, from its foot.")
+        rest = {name: stroke for name, stroke in document.strokes.items() if not (is_mark(stroke) and stroke.kind == StrokeKind.BRANCH)}
+        strokes = rest | {stroke.id if stroke.id not in rest else f"{stroke.id}'": stroke for stroke in limbs}
+        strokes = {name: stroke if stroke.id == name else replace(stroke, id=name) for name, stroke in strokes.items()}
+        return fitting(document.replace(strokes=strokes, underlay=replace(document.underlay, photo=False)))
+
+    def end(self) -> None:
+        """End the process."""
+        self._hand.end()
+
+    def _lay(self, document: Document) -> Asked:
+        """What is asked; the picture is at hand."""
+        digest = wire.digest(document.underlay.picture)
+        if digest != self._picture[0]:
+            self._picture, self._foliage, self._reasons = (digest, document.underlay.picture), {}, {}
+        return Asked.of(document, digest)
+
+    def _show(self, hand: Hand, asked: Asked) -> None:
+        """The process has the photo, and what is known of it."""
+        hand.ready()
+        has = hand.begun, asked.picture
+        if self._laid.get(hand) == has or asked.picture != self._picture[0]:
+            return
+        self._laid[hand] = has
+        _unheard(hand.ask("photo", *self._picture)[1])
+        if hand is self._hand and self._foliage:
+            _unheard(hand.ask("learn", self._foliage)[1])
+
+    async def _trace(self, revision: int) -> None:
+        """The limbs of the newest drawing, and after them what became known of foliage."""
+        if self._asked is None or self._asked[0] != revision:
+            return
+        asked = self._asked[1]
+        self._show(self._hand, asked)
+        try:
+            answer = await self._hand.ask("trace", revision, asked)[1]
+        except SketchTreeError as error:
+            answer = messages.Traced(revision=revision, trees=[], remark=f"{error.message} {error.remedy}"), (), {}
+        if answer is None or self._asked is None or self._asked[0] != revision:
+            return
+        told, known, unknown = answer
+        reasons = [self._reasons[name] for name in unknown if name in self._reasons]
+        self._tell(revision, told if told.remark or not reasons else messages.Traced(revision=revision, trees=told.trees, remark=reasons[0]))
+        wanted = {name: crown for name, crown in unknown.items() if name not in self._reasons and name not in self._finding}
+        if wanted:
+            self._run(self._find(asked, wanted))
+        if known != self._tinted:
+            await self._tint(revision, known)
+
+    async def _tint(self, revision: int, names: tuple[str, ...]) -> None:
+        try:
+            event = await self._hand.ask("tint", revision, names)[1]
+        except SketchTreeError:
+            return
+        if event is not None and self._asked is not None and self._asked[0] == revision:
+            self._tinted = names
+            self._tell(revision, event)
+
+    async def _find(self, asked: Asked, wanted: dict[str, bytes]) -> None:
+        """The foliage of crowns; then the limbs once more."""
+        side = self._side()
+        self._finding |= wanted.keys()
+        try:
+            self._show(side, asked)
+            answer = await side.ask("foliage", wanted, asked.seed)[1]
+        except SketchTreeError:
+            return  # it is asked again with the next stroke
+        finally:
+            self._finding -= wanted.keys()
+        if answer is None or asked.picture != self._picture[0]:
+            return
+        found, reasons = answer
+        self._reasons |= reasons
+        self._foliage |= found
+        for name in list(self._foliage)[:-_KEPT]:
+            del self._foliage[name]
+        if found and self._hand.runs:
+            _unheard(self._hand.ask("learn", found)[1])
+        if self._asked is not None:
+            await self._trace(self._asked[0])
+
+
+def _unheard(answer: asyncio.Future) -> None:
+    """Whatever comes of it is not waited for: what is asked next fails where this does."""
+    answer.add_done_callback(lambda done: done.cancelled() or done.exception())

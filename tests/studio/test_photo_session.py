@@ -1,0 +1,93 @@
+"""A photo under the page, as a session has it: what is asked of the engine, what pages are told, and what can be undone."""
+
+import asyncio
+
+import painted_photo as painted
+from talking import Talk, drawn, talking
+
+from sketchtree.studio import messages
+from sketchtree.studio.recovery import journal_of
+
+TRUNK = painted.mark("trunk", painted.TRUNK)
+PICTURE = b"\x89PNG" + bytes(100)
+
+
+def page_with(*strokes, is_photo=True):
+    return painted.document(*strokes, picture=PICTURE, is_photo=is_photo)
+
+
+def switched(talk, on):
+    said = talk.last("changed")["underlay"] or talk.all("changed")[0]["underlay"]
+    return talk.say(messages.SetUnderlay(underlay=messages.Underlay(**said | {"photo": on})))
+
+
+def test_a_picture_is_a_photo_when_a_page_says_so_and_undo_takes_it_back():
+    async def test():
+        async with talking(page_with(TRUNK, is_photo=False)) as talk:
+            assert talk.all("traced") == [] and not talk.last("changed")["underlay"]["photo"]
+            await switched(talk, True)
+            assert talk.session.document.underlay.photo and talk.last("changed")["underlay"]["photo"]
+            assert talk.last("traced") == {"type": "traced", "revision": 2, "trees": [], "remark": "1 strokes"}
+            await talk.say(messages.Undo())
+            assert not talk.session.document.underlay.photo and talk.engine.traced[-1][1] is talk.session.document
+
+    asyncio.run(test())
+
+
+def test_every_stroke_is_traced_and_the_tree_is_made_as_ever():
+    async def test():
+        async with talking(page_with(TRUNK)) as talk:
+            await talk.say(drawn("a"), drawn(gone=("trunk",), label="erase"), messages.Undo())
+            assert [event["remark"] for event in talk.all("traced")][-3:] == ["2 strokes", "1 strokes", "2 strokes"]
+            assert [revision for revision, _ in talk.engine.traced] == [1, 2, 3, 4] == [revision for revision, _ in talk.engine.made]
+            await talk.say(messages.Choose(options={"season": "autumn"}))
+            assert len(talk.engine.traced) == 4
+            await talk.say(messages.Choose(options={"seed": 7}))
+            assert len(talk.engine.traced) == 5
+
+    asyncio.run(test())
+
+
+def test_a_page_that_joins_later_is_told_what_shows():
+    async def test():
+        async with talking(page_with(TRUNK)) as talk:
+            other = Talk(talk.session)
+            await other.say(messages.Hello(version=messages.VERSION))
+            assert other.last("traced") == talk.last("traced")
+
+    asyncio.run(test())
+
+
+def test_traced_limbs_are_taken_over_as_one_step():
+    async def test():
+        async with talking(page_with(TRUNK)) as talk:
+            await talk.say(messages.UseTraced())
+            assert list(talk.session.document.strokes) == ["limb"] == talk.strokes() and not talk.session.document.underlay.photo
+            assert talk.last("changed")["undo"] == "traced limbs"
+            await talk.say(messages.Undo())
+            assert list(talk.session.document.strokes) == ["trunk"] == talk.strokes() and talk.session.document.underlay.photo
+
+    asyncio.run(test())
+
+
+def test_where_nothing_is_marked_nothing_is_taken_over():
+    async def test():
+        async with talking(page_with()) as talk:
+            await talk.say(messages.UseTraced())
+            assert talk.last("trouble")["message"] == "No stroke marks a limb in the photo." and talk.desk.history.undo_label is None
+
+    asyncio.run(test())
+
+
+def test_it_is_found_again_after_a_crash(tmp_path, monkeypatch):
+    monkeypatch.setenv("SKETCHTREE_RECOVERY", str(tmp_path))
+
+    async def test():
+        journal = journal_of(None)
+        async with talking(page_with(TRUNK, is_photo=False), journal=journal) as talk:
+            await switched(talk, True)
+
+    asyncio.run(test())
+    again = journal_of(None)
+    assert again.play().history.document.underlay.photo
+    again.close()

@@ -1,0 +1,91 @@
+"""The limbs of a photo, from the processes that make trees: traced at each stroke, apart from leaves as soon as those are known."""
+
+import asyncio
+
+import painted_photo as painted
+import pytest
+
+from sketchtree.errors import SketchError
+from sketchtree.sketch.strokes import StrokeKind
+from sketchtree.studio import messages
+from sketchtree.studio.crew import Crew
+
+PATIENCE = 120.0
+CROWN, TRUNK, LEFT = painted.mark("crown", painted.CROWN, crown=True), painted.mark("trunk", painted.TRUNK), painted.mark("left", painted.LEFT)
+
+
+class Traces:
+    """A crew of which only the photo is asked, and all that it told."""
+
+    def __init__(self):
+        self.loop = asyncio.new_event_loop()
+        self.crew, self.told, self.revision, self.picture = Crew(), [], 0, painted.photo()
+        self.crew.on_outcome = lambda outcome: self.told.append(outcome.event)
+        self.run(self.crew.start())
+
+    def run(self, work):
+        return self.loop.run_until_complete(asyncio.wait_for(work, PATIENCE))
+
+    def document(self, *strokes, **options):
+        return painted.document(*strokes, picture=self.picture, **options)
+
+    def trace(self, *strokes, until, **options):
+        """What was told since, once something is."""
+        begun, self.revision = len(self.told), self.revision + 1
+
+        async def traced():
+            self.crew.trace(self.revision, self.document(*strokes, **options))
+            while not any(until(event) for event in self.told[begun:]):
+                await asyncio.sleep(0.01)
+
+        self.run(traced())
+        return self.told[begun:]
+
+    def limbs(self, *strokes):
+        """The first answer to these strokes."""
+        return next(event for event in self.trace(*strokes, until=lambda event: isinstance(event, messages.Traced)) if isinstance(event, messages.Traced))
+
+
+@pytest.fixture(scope="module")
+def traces():
+    one = Traces()
+    yield one
+    one.run(one.crew.stop())
+    one.loop.close()
+
+
+def test_limbs_come_first_and_once_more_when_the_foliage_is_known(traces):
+    told = traces.trace(CROWN, TRUNK, until=lambda event: isinstance(event, messages.Foliage))
+    assert [type(event) for event in told] == [messages.Traced, messages.Traced, messages.Foliage]
+    assert all(event.revision == traces.revision for event in told) and told[-1].png and told[0].trees and told[1].trees
+
+
+def test_another_stroke_in_the_same_crown_asks_for_no_foliage(traces):
+    limbs = traces.limbs(CROWN, TRUNK, LEFT)
+    assert len(limbs.trees) == 1 and limbs.remark == ""
+    told = traces.trace(CROWN, TRUNK, until=lambda event: isinstance(event, messages.Traced))
+    traces.run(asyncio.sleep(0.3))
+    assert not any(isinstance(event, messages.Foliage) for event in traces.told[-len(told) - 1 :])
+
+
+def test_the_process_begins_again_with_all_that_it_knew(traces):
+    before = traces.limbs(CROWN, TRUNK)
+    traces.crew._tracer._hand._process.kill()
+    traces.run(asyncio.sleep(0.5))
+    assert traces.limbs(CROWN, TRUNK).trees == before.trees
+
+
+def test_without_the_photo_nothing_shows(traces):
+    told = traces.trace(CROWN, TRUNK, is_photo=False, until=lambda event: isinstance(event, messages.Foliage))
+    assert [type(event) for event in told] == [messages.Traced, messages.Foliage]
+    assert told[0].trees == [] and told[0].remark == "" and told[1].png == ""
+
+
+def test_traced_limbs_stand_for_the_strokes_that_mark_them(traces):
+    document = traces.document(CROWN, TRUNK, LEFT)
+    made = traces.run(traces.crew.with_traced(document))
+    assert not made.underlay.photo and made.underlay.picture == document.underlay.picture and made.strokes["crown"] is document.strokes["crown"]
+    limbs = [stroke for stroke in made.strokes.values() if stroke.kind == StrokeKind.BRANCH]
+    assert {"trunk", "left"} < {stroke.id for stroke in limbs} and all(stroke.wood for stroke in limbs)
+    with pytest.raises(SketchError, match="^No stroke marks a limb in the photo. Draw along the trunk, from its foot.$"):
+        traces.run(traces.crew.with_traced(traces.document(CROWN)))
