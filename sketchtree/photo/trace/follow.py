@@ -1,7 +1,8 @@
 """What grows off the strokes? A circle is moved along every stroke, and on from every branch it finds, breadth first (§2, Figure 3).
 
 At each place wood crosses the circle in clusters. Those in sight of its centre are gone to, but for the one it came from, those that lie on a stroke, and those where another walk
-has been. Ours: a cluster wider than the limb it would grow from is no branch but leaves or a wall; where a limb is thicker than the circle, the circle grows to see past it.
+has been. Ours: a cluster wider than the limb it would grow from is no branch but leaves or a wall; where a limb is thicker than the circle, the circle grows to see past it,
+and what lies within a limb's thickness of its stroke is that limb.
 """
 
 from collections import deque
@@ -20,6 +21,8 @@ _BACK = np.cos(np.radians(40.0))  # a cluster within 40° of the way back is whe
 _BEEN = 0.45  # of the circle's radius: nearer to a place that is known already is no new one
 _WIDER = 2.5  # times its parent's thickness: no branch is as wide
 _WIDEST = 1.1  # the same of a limb under a stroke, whose thickness is known better
+_ASIDE = 0.35  # of the circle's radius: what is nearer to a stroke is the limb under it
+_WITHIN = 1.25  # the same of that limb's half width: its own edge, or moss on it
 _LEAST = 0.25  # of the circle's radius: half a limb counts as that at least
 _PAST = 1.5  # of the limb's half width: the circle that sees past it
 _TEXTURE = 8  # clusters on one circle: more of them are leaves or grass
@@ -52,11 +55,13 @@ def follow(
 ) -> Walk:
     """Add to the places on strokes all that can be reached from them over wood. `on_strokes`: points along all strokes, a pixel or so apart; `within`: where branches may be
     found; at most `most` places."""
-    strokes = cKDTree(on_strokes)
+    drawn = np.flatnonzero(walk.drawn)
+    strokes, half = cKDTree(on_strokes), np.array(walk.half)[drawn]
+    within_wood = _WITHIN * half[cKDTree(np.array(walk.xy)[drawn]).query(on_strokes)[1]]  # of each point on a stroke: what is nearer is the same limb
     queue = deque(range(len(walk.parent)))
     while queue and len(walk.parent) < most:
         row = queue.popleft()
-        for place, half in _onward(likeness, walk, row, radius, strokes, strict):
+        for place, half in _onward(likeness, walk, row, radius, strokes, within_wood, strict):
             known = np.array(walk.xy)
             near = np.hypot(known[:, 0] - place[0], known[:, 1] - place[1]) < _BEEN * radius
             near[row] = False
@@ -68,7 +73,7 @@ def follow(
     return walk
 
 
-def _onward(likeness: WoodLikeness, walk: Walk, row: int, radius: float, strokes: cKDTree, strict: bool) -> list[tuple[np.ndarray, float]]:
+def _onward(likeness: WoodLikeness, walk: Walk, row: int, radius: float, strokes: cKDTree, within_wood: Float[np.ndarray, " point"], strict: bool) -> list[tuple[np.ndarray, float]]:
     """(place, half width) of every cluster that leads somewhere new from a place."""
     here, half = walk.xy[row], walk.half[row]
     reach = max(radius, _PAST * half)
@@ -83,7 +88,8 @@ def _onward(likeness: WoodLikeness, walk: Walk, row: int, radius: float, strokes
             back = walk.xy[walk.parent[row]] - here
             if float((place - here) @ back) > _BACK * reach * np.hypot(*back):
                 continue
-        if strokes.query(place)[0] < max(0.35 * reach, width / 2):
+        away, point = strokes.query(place)
+        if away < max(_ASIDE * reach, width / 2, within_wood[point]):
             continue
         onward.append((place, max(width / 2, 0.5)))
     return onward

@@ -7,10 +7,10 @@ from dataclasses import dataclass
 
 import numpy as np
 import shapely
-from jaxtyping import Array, Float, Key
+from jaxtyping import Array, Bool, Float, Int, Key
 
 from sketchtree.axes import NULL
-from sketchtree.errors import SketchError
+from sketchtree.errors import OptionError, SketchError
 from sketchtree.photo.foliage import Foliage
 from sketchtree.photo.marked import Marked
 from sketchtree.photo.photo import Photo
@@ -21,6 +21,7 @@ from sketchtree.photo.trace.thickness import TAPER, half_widths, largest_circle
 from sketchtree.photo.trace.traced import Traced
 from sketchtree.photo.trace.wood_likeness import WoodLikeness, learn_wood
 
+WIDTHS = ("measured", "paper")
 CIRCLE = 50.0 / 1500.0  # radius of the circle / longer side of the photo (§2)
 _UNDER = 3.0 / 1500.0  # width of a stroke
 _THICKEST = 0.12  # half a trunk / longer side of the photo
@@ -30,12 +31,16 @@ _ONE_PLACE = 0.25  # of the circle's radius: a stroke that starts so near to ano
 
 @dataclass(frozen=True)
 class Tracing:
-    """How limbs are traced."""
+    """How limbs are traced. `Tracing(strict=True, widths="paper")` is the paper's way."""
 
-    circle: float = CIRCLE
+    circle: float = CIRCLE  # its radius / longer side of the photo
     strict: bool = False  # the paper's line of sight: not one pixel of it may be anything but wood
-    widths: str = "measured"  # measured: where the photo shows them; "paper": the root's, × 0.75 a generation
-    most: int = 2_000  # places
+    widths: str = "measured"  # measured: where the photo shows them; paper: the root's, × 0.75 a generation
+    most: int = 2_000  # places found, at most; 0: the strokes alone
+
+    def __post_init__(self):
+        if self.widths not in WIDTHS:
+            raise OptionError(f"widths is {self.widths!r}, but must be {' or '.join(WIDTHS)}.", remedy=f"{WIDTHS[0]} is what is taken by default.")
 
     def __call__(self, photo: Photo, marked: Marked, foliage: Foliage | None = None, *, key: Key[Array, ""], palette: Palette | None = None) -> Traced:
         """The visible limbs of one tree. `palette`: the photo's, if it is at hand (strokes that come and go leave it as it is). Raises SketchError without a stroke."""
@@ -112,7 +117,9 @@ def _table(walk: Walk, widths: str) -> Traced:
     return Traced(parent, xy, radius, generation, np.array(walk.stroke), np.array(walk.drawn))
 
 
-def carried_on(parent, xy, half, stroke, drawn) -> np.ndarray:
+def carried_on(
+    parent: Int[np.ndarray, " joint"], xy: Float[np.ndarray, "joint 2"], half: Float[np.ndarray, " joint"], stroke: Int[np.ndarray, " joint"], drawn: Bool[np.ndarray, " joint"]
+) -> Int[np.ndarray, " joint"]:
     """Which child carries each joint's limb on: its own stroke's next place, else the one that bends least for its thickness; NULL at a tip."""
     carries = np.full(len(parent), NULL)
     children: dict[int, list[int]] = {}
@@ -139,10 +146,3 @@ def _narrowing(parent, carries, half) -> Float[np.ndarray, " joint"]:
             most = radius[parent[row]] * (1.0 if carries[parent[row]] == row else TAPER)
             radius[row] = min(radius[row], most)
     return np.maximum(radius, 0.5)
-
-
-def length_of(traced: Traced) -> float:
-    """All its limbs together, pixels."""
-    rows = np.flatnonzero(traced.parent != NULL)
-    return float(np.hypot(*(traced.xy[rows] - traced.xy[traced.parent[rows]]).T).sum())
-

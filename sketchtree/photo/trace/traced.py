@@ -3,7 +3,7 @@
 from dataclasses import dataclass
 
 import numpy as np
-from jaxtyping import Float, Int
+from jaxtyping import Bool, Float, Int
 
 from sketchtree.axes import NULL
 
@@ -17,7 +17,7 @@ class Traced:
     radius: Float[np.ndarray, " joint"]  # half the thickness of the limb that ends here
     generation: Int[np.ndarray, " joint"]  # 0 on the trunk
     stroke: Int[np.ndarray, " joint"]  # the stroke it was traced from (number in `Marked.branches`)
-    drawn: np.ndarray | None = None  # Bool[joint]: lies on its stroke; the others were found in the picture
+    drawn: Bool[np.ndarray, " joint"] | None = None  # lies on its stroke; the others were found in the picture. None: all do
     warnings: tuple[str, ...] = ()
 
     def __post_init__(self):

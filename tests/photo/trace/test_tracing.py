@@ -5,16 +5,18 @@ import dataclasses
 import jax
 import numpy as np
 import pytest
+import shapely
+from PIL import Image, ImageDraw
 
 from painted import LIMBS, TRUNK, bare_tree, distance, marked, walked
 from sketchtree.axes import NULL
 from sketchtree.errors import SketchError
 from sketchtree.photo.appearance import Mixture
 from sketchtree.photo.marked import Marked
+from sketchtree.photo.trace.follow import Walk, follow
 from sketchtree.photo.trace.palette import Palette
 from sketchtree.photo.trace.trace import Tracing, carried_on, root_radius
-from sketchtree.photo.trace.wood_likeness import apart_from_leaves, bhattacharyya, learn_wood
-
+from sketchtree.photo.trace.wood_likeness import WoodLikeness, apart_from_leaves, bhattacharyya, learn_wood
 
 KEY = jax.random.key(0)
 
@@ -145,3 +147,17 @@ def test_the_distance_of_two_gaussians_is_nought_for_the_same_and_grows_with_the
     spread = np.eye(3) * 9.0
     at = [bhattacharyya(np.zeros(3), spread, np.array([gap, 0.0, 0.0]), spread) for gap in (0.0, 3.0, 6.0)]
     np.testing.assert_allclose(at, [0.0, 0.125, 0.5])
+
+
+@pytest.mark.parametrize(("half", "places"), [(15.0, 1), (4.0, 2)])
+def test_what_lies_within_a_limbs_thickness_is_no_branch_of_it(half, places):
+    """Ours: the same strip of wood 16 pixels aside is the flank of a thick limb, and a branch of a thin one."""
+    strip = Image.new("L", (200, 200), 0)
+    ImageDraw.Draw(strip).line((100, 100, 118, 82), fill=1, width=3)
+    mask = np.asarray(strip) > 0
+    one = Mixture(np.ones(1), np.zeros((1, 3)), np.eye(3)[None])
+    walk = Walk()
+    walk.add(NULL, np.array([100.5, 100.5]), half, 0, True, 0)
+    trunk = np.stack([np.full(140, 100.5), np.arange(40.0, 180.0)], axis=1)
+    found = follow(WoodLikeness(one, one, np.zeros(mask.shape, np.float32), mask), walk, 22.5, on_strokes=trunk, within=shapely.box(0, 0, 200, 200))
+    assert len(found.parent) == places
