@@ -68,7 +68,7 @@ class ActingHand:
         for _ in range(self.chance.randrange(1, 12)):
             await asyncio.sleep(0)
             if self.chance.random() < 0.3:  # said, perhaps, before it heard that it was stopped
-                self.tell(number, ("working", "infer", self.chance.random()))
+                self.tell(number, ("working", self.chance.choice(("infer", "mesh")), self.chance.random()))
             if not wanted and (number <= self.stopped or number < self.newest[kind]) and self.chance.random() < 0.7:
                 self._answer(number, answer, None)
                 return

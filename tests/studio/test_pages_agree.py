@@ -8,7 +8,9 @@ import pytest
 from acting_hands import ActingHand
 from talking import stroke
 
+from sketchtree.editing.document import Document
 from sketchtree.limb_ids import stroke_limb_id
+from sketchtree.sketch.strokes import Stroke
 from sketchtree.studio import crew, messages
 from sketchtree.studio.session import Session
 
@@ -155,3 +157,35 @@ def test_whatever_two_pages_do_at_once_they_have_the_same_at_rest_as_one_that_jo
         await made.stop()
 
     asyncio.run(test())
+
+
+def test_a_limb_that_was_erased_in_a_hurry_and_came_back_has_its_chunk_again(monkeypatch):
+    monkeypatch.setattr(crew, "Hand", ActingHand)
+    quick = ActingHand._quick
+    monkeypatch.setattr(ActingHand, "_quick", lambda hand, number, revision, *rest: None if revision == 3 else quick(hand, number, revision, *rest))
+
+    async def test(seed: int):
+        monkeypatch.setattr(ActingHand, "chance", random.Random(seed))
+        made, heads = crew.Crew(), []
+
+        def told(outcome):
+            if isinstance(outcome.event, bytes):
+                heads.append(json.loads(outcome.event[4 : 4 + int.from_bytes(outcome.event[:4], "little")]))
+                if heads[-1]["revision"] == 2 and heads[-1]["phase"] == "quick":
+                    made.make(3, both)
+
+        made.on_outcome = told
+        await made.start()
+        both = Document({name: Stroke(name, [[0, 0], [0, 10]]) for name in "ab"})
+        for revision, document in ((1, both), (2, both.replace(strokes={"a": both.strokes["a"]}))):
+            made.make(revision, document)
+            for _ in range(100):
+                await asyncio.sleep(0)
+        await made.stop()
+        shown = set()
+        for head in heads:
+            shown = (shown | set(head["chunks"])) & set(head["owners"])
+        return heads[-1]["revision"] == 3 and shown == set(heads[-1]["owners"]), heads[-1]["revision"]
+
+    ends = [asyncio.run(test(seed)) for seed in range(12)]
+    assert all(whole for whole, revision in ends if revision == 3) and any(revision == 3 for _, revision in ends)
