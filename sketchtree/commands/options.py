@@ -20,6 +20,7 @@ _DRAWING = (
     click.option("--max-mb", type=click.FloatRange(0, min_open=True), default=100.0, show_default=True, help="Refuse a larger file (MB)."),
     click.option("--max-megapixels", type=click.FloatRange(0, min_open=True), default=200.0, show_default=True, help="Refuse a larger picture."),
 )  # fmt: skip
+_PHOTO = click.option("--max-megapixels", type=click.FloatRange(0, min_open=True), default=64.0, show_default=True, help="Refuse a larger photo (it takes some 30 bytes a pixel).")
 _READING = (
     click.option("--template", default="auto", show_default=True, metavar="auto|none|NAME", help="Exemplar that supplies the prior."),
     click.option("--theta", type=click.Choice(["fit", "fixed"]), default="fit", show_default=True, help="Learn Θ from the sketch, or hold the template's."),
@@ -61,7 +62,7 @@ _FILES = (
 
 def limits(command):
     """How large a picture may be, of commands that read one that is no drawing."""
-    return _apply([option for option in _DRAWING if _named(option, "max_mb", "max_megapixels")], command)
+    return _apply((*(option for option in _DRAWING if _named(option, "max_mb")), _PHOTO), command)
 
 
 def dress(command):
