@@ -3,7 +3,7 @@
 import numpy as np
 
 from sketchtree.errors import OptionError, TemplateError
-from sketchtree.foliage.models import leaf_names
+from sketchtree.foliage.models import leaf_names, plain_names
 from sketchtree.geometry.bark import bark_names
 from sketchtree.parameters import Habit
 from sketchtree.sketch.graph import SketchGraph
@@ -43,11 +43,11 @@ def leaf_model(wanted: str | None, habit: Habit, templates: Database | None) -> 
         return habit.leaf
     if wanted == "none":
         return None
-    if wanted in leaf_names():
+    if wanted in leaf_names() or wanted in plain_names():
         return wanted
     if templates is not None and wanted in templates.names:
         return templates.exemplar(wanted).habit.leaf
-    raise OptionError(f"There is no leaf called “{wanted}”.", remedy=f"Choose none, a template's name or one of: {', '.join(leaf_names())}.")
+    raise OptionError(f"There is no leaf called “{wanted}”.", remedy=f"Choose none, a template's name or one of: {', '.join(leaf_names() + plain_names())}.")
 
 
 def bark_model(wanted: str | None, habit: Habit) -> str:

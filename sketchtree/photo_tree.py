@@ -6,7 +6,7 @@ Several trees in one photo are each made of their own strokes, in one scale: tha
 """
 
 import dataclasses
-from collections.abc import Callable, Sequence
+from collections.abc import Sequence
 from dataclasses import dataclass
 from pathlib import Path
 
@@ -15,7 +15,6 @@ from jaxtyping import Array, Bool, Float, Key
 
 from sketchtree.choose import bark_model, leaf_model
 from sketchtree.drawn_tree import DrawnTree, draw_out_graph
-from sketchtree.foliage.leaves import Leaves
 from sketchtree.forest import Forest
 from sketchtree.geometry.wood import check_wood
 from sketchtree.keys import stage_key
@@ -25,6 +24,7 @@ from sketchtree.photo.as_graph import as_drawing
 from sketchtree.photo.foliage import Foliage
 from sketchtree.photo.foliage_mask import foliage_mask
 from sketchtree.photo.known_foliage import known_foliage
+from sketchtree.photo.leafing import PhotoLeafing
 from sketchtree.photo.marked import Marked
 from sketchtree.photo.photo import Photo
 from sketchtree.photo.photo_leaves import SeenFoliage, leafy_pixels
@@ -122,7 +122,7 @@ def photo_to_tree(
         at = place_of(own, marked[0], scale, 0.0 if depths is None or number == 0 else depths[number - 1])
         its = tree_key(key, number)
         found = grow_in_photo(photo, own, templates, key=its, wanted=wanted, reading=reading, palette=palette, mask=mask, scale=scale, watch=watch)
-        trees.append(_dressed(found, its, tree, templates, at, wanted.colours, watch))
+        trees.append(_dressed(found, its, tree, templates, at, wanted, watch))
         places.append(at)
         scale = trees[0].drawn.similarity.scale
     return PhotoModel(photo, tuple(trees), np.array(places))
@@ -150,7 +150,7 @@ def grow_in_photo(
         sketch, graph = as_drawing([(traced, own)], photo.name)
     similarity = None if scale is None else Similarity(scale, tuple((-scale * np.array([*graph.xy[0], 0.0])).tolist()))
     drawn = draw_out_graph(sketch, graph, templates, key=key, options=reading, similarity=similarity, watch=watch)
-    seen = SeenFoliage(photo, foliage.mask, drawn.similarity, leafy_pixels(photo, foliage))
+    seen = SeenFoliage(photo, foliage.mask, drawn.similarity, leafy_pixels(photo, foliage, traced))
     with watch("propagate"):
         stage = Attract(targets=target_of(seen), library=wanted.library, iterations=wanted.replacements, alternate=wanted.alternate)
         grown = stage.run(drawn.skeleton, key=stage_key(key, "attract"))
@@ -185,9 +185,11 @@ def place_of(own: Marked, first: Marked, scale: float | None, depth: float) -> F
     return np.array([aside, 0.0, float(depth)])
 
 
-def _dressed(found: GrownInPhoto, key: Key[Array, ""], options: TreeOptions, templates: Database | None, place, colours: str, watch: Watch) -> PhotoTree:
+def _dressed(found: GrownInPhoto, key: Key[Array, ""], options: TreeOptions, templates: Database | None, place, wanted: PhotoOptions, watch: Watch) -> PhotoTree:
     """A grown tree with radii, leaves and meshes, at its place."""
-    model = finish(Grown(found.drawn, found.grown, key, options, templates, place, worn_as(found.seen.moved(place), colours)), watch)
+    if wanted.bare_as_seen and found.foliage.bare and options.leaf is None:
+        options = dataclasses.replace(options, leaf="none", season="bare")
+    model = finish(Grown(found.drawn, found.grown, key, options, templates, place, PhotoLeafing(found.seen.moved(place), wanted)), watch)
     told = (*found.seen.photo.warnings, *found.marked.warnings, *found.foliage.warnings, *model.warnings)
     return PhotoTree(**vars(found), model=dataclasses.replace(model, warnings=tuple(dict.fromkeys(told))))
 
@@ -196,17 +198,6 @@ def target_of(seen: SeenFoliage) -> Target:
     """The foliage as what the tree grows to: its pixels in the world."""
     left, top = seen.similarity.to_world(np.zeros((1, 2)))[0]
     return Target(seen.mask, float(left), float(top), seen.similarity.scale)
-
-
-def worn_as(seen: SeenFoliage, colours: str) -> Callable[[Leaves], Leaves]:
-    """What becomes of leaves: those that the photo confirms, in its colours or in the season's. A grey photo has none to give."""
-    seen_in = colours == "photo" and not seen.photo.is_grey
-
-    def worn(leaves: Leaves) -> Leaves:
-        kept = seen.confirmed(leaves)
-        return seen.coloured(kept) if seen_in else kept
-
-    return worn
 
 
 def _in_pixels(tree: TreeSkeleton, seen: SeenFoliage) -> TreeSkeleton:

@@ -119,6 +119,10 @@ class LeafyTree:
     warnings: tuple[str, ...]
 
 
+Leafing = Callable[[TreeSkeleton, Dress, Key[Array, ""]], tuple[Leaves, Leaves | None]]
+"""Makes the leaves, and the blossoms if there are any, of a skeleton."""
+
+
 @dataclass(frozen=True, eq=False)
 class Grown:
     """A tree that has grown, and what the rest of it is to be made with."""
@@ -129,7 +133,7 @@ class Grown:
     options: TreeOptions = TreeOptions()
     templates: Database | None = None  # for their leaves
     place: Float[np.ndarray, " 3"] | None = None  # where it stands, metres; None: where it was drawn
-    worn: Callable[[Leaves], Leaves] | None = None  # what becomes of its leaves and blossoms, where something else has a say in them
+    leafing: Leafing | None = None  # what makes its leaves and blossoms, where that is not `foliage`
 
 
 def leafy(tree: Grown, watch: Watch | None = None) -> LeafyTree:
@@ -140,9 +144,7 @@ def leafy(tree: Grown, watch: Watch | None = None) -> LeafyTree:
     with watch("propagate"):
         skeleton, warnings = weathered(tree.drawn, tree.grown, options, tree.place)
     with watch("foliage"):
-        leaves, flowers = foliage(skeleton, dress, key=tree.key)
-        if tree.worn is not None:
-            leaves, flowers = tree.worn(leaves), None if flowers is None else tree.worn(flowers)
+        leaves, flowers = foliage(skeleton, dress, key=tree.key) if tree.leafing is None else tree.leafing(skeleton, dress, tree.key)
     if leaves.kept < 1:
         warnings += (f"Only {leaves.kept:.1%} of the leaves were kept (at most {len(leaves)}), each larger, so that their area is right.",)
     return LeafyTree(skeleton, leaves, flowers, dress, warnings)

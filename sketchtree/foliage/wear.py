@@ -27,8 +27,8 @@ class Wear:
     whorl: int
 
 
-def wear_of(habit: Habit, model: str | None = None, density: float = 1.0) -> Wear:
-    """The habit's own leaf, or another `model` in its own size, spacing and arrangement. Raises OptionError
+def wear_of(habit: Habit, model: str | None = None, density: float = 1.0, scale: float = 1.0) -> Wear:
+    """The habit's own leaf, or another `model` in its own size, spacing and arrangement; `scale` times as large. Raises OptionError
     for an unknown leaf or arrangement."""
     worn = leaf_model(model or habit.leaf)
     if worn.name == habit.leaf:
@@ -39,7 +39,7 @@ def wear_of(habit: Habit, model: str | None = None, density: float = 1.0) -> Wea
     turn = habit.phyllotaxis if arrangement == "spiral" == habit.leaf_arrangement else GOLDEN_ANGLE
     single = worn.is_blade and worn.needle == 1.0 and not worn.flower
     size *= enlargement(habit) if single and arrangement != "frond" else 1.0
-    return Wear(worn, arrangement, size / worn.needle, spacing * worn.bundle / density, turn, habit.whorl)
+    return Wear(worn, arrangement, scale * size / worn.needle, spacing * worn.bundle / density, turn, habit.whorl)
 
 
 def enlargement(habit: Habit) -> float:

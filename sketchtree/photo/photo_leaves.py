@@ -1,21 +1,27 @@
 """Which leaves of a grown tree does the photo confirm, and in which colours does it show them (§4)?
 
 "We keep only those leaves that are projected inside the foliage region in the input image. Leaves are textured according to their projected position." A leaf
-looks through the page at its middle. Its colour is the mean of the pixels within half a leaf of there that have a leaf's colour rather than that of what is between the leaves, or of
-the nearest such pixels, so that no leaf is as blue as the sky.
+looks through the page at its middle. Its colour is the mean of the pixels within half a leaf of there that show a leaf, or of the nearest such pixels (ours). A pixel shows a leaf where
+its colour is likelier a leaf's than that of what is between the leaves, is not most of the way to the latter (a blossom no broader than a pixel is half sky), and is not on a limb that
+was traced: so no leaf is as blue as the sky, or as brown as the wood.
 """
 
 from dataclasses import dataclass, replace
 
 import numpy as np
 from jaxtyping import Bool, Float
+from PIL import Image, ImageDraw
 from scipy import ndimage
 
+from sketchtree.axes import NULL
 from sketchtree.foliage.leaves import Leaves, select
 from sketchtree.foliage.painting import to_linear
 from sketchtree.photo.foliage import Foliage
 from sketchtree.photo.photo import Photo, at_pixels, turned_over
+from sketchtree.photo.trace.traced import Traced
 from sketchtree.similarity import Similarity
+
+_PURE = 0.6  # of the way that leaves are from what is between them, for the most part
 
 
 @dataclass(frozen=True, eq=False)
@@ -63,12 +69,29 @@ class SeenFoliage:
         return np.where(known[..., None], total / np.maximum(near, 1e-9)[..., None], 0.0), known
 
 
-def leafy_pixels(photo: Photo, foliage: Foliage) -> Bool[np.ndarray, "row column"]:
-    """The pixels of the foliage whose colour is likelier a leaf's than that of what is between the leaves; all of them where none is."""
+def leafy_pixels(photo: Photo, foliage: Foliage, traced: Traced | None = None) -> Bool[np.ndarray, "row column"]:
+    """The pixels of the foliage that show a leaf; all of them where none does."""
+    room = foliage.mask if traced is None else foliage.mask & ~wood_pixels(traced, foliage.mask.shape)
+    if not room.any():
+        return foliage.mask
+    colour = photo.rgb[room].astype(np.float32)
+    likely = foliage.leaf.log_density(colour) > foliage.background.log_density(colour)
+    if not likely.any():
+        return foliage.mask
+    away = np.linalg.norm(colour[:, None] - foliage.background.mean[None].astype(np.float32), axis=2).min(axis=1)
     own = np.zeros_like(foliage.mask)
-    colour = photo.rgb[foliage.mask]
-    own[foliage.mask] = foliage.leaf.log_density(colour) > foliage.background.log_density(colour)
-    return own if own.any() else foliage.mask
+    own[room] = likely & (away >= _PURE * np.percentile(away[likely], 75))
+    return own
+
+
+def wood_pixels(traced: Traced, shape: tuple[int, int]) -> Bool[np.ndarray, "row column"]:
+    """The pixels of limbs that were traced."""
+    image = Image.new("L", shape[::-1])
+    pen = ImageDraw.Draw(image)
+    for row in np.flatnonzero(traced.parent != NULL):
+        up = traced.parent[row]
+        pen.line([*traced.xy[up].tolist(), *traced.xy[row].tolist()], fill=255, width=max(round(2 * float(traced.radius[row])), 1))
+    return np.asarray(image) > 0
 
 
 def middles(leaves: Leaves) -> Float[np.ndarray, "leaf 3"]:

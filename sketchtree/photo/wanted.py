@@ -20,6 +20,10 @@ class PhotoOptions:
     replacements: int = 100  # about, 0-10000 (§3.1)
     alternate: bool = True  # image and 3D attractors by turns; False: image attractors alone (Figure 6a)
     colours: str = COLOURS[0]  # photo: leaves in the colours they are seen in (§4); season: the species'
+    fit_leaves: bool = True  # as large and dense as it takes to cover the foliage; False: as the species has them
+    leaf_size: float = 1.0  # times that, 0.1-10
+    leaf_density: float = 1.0  # times the leaves, 0.1-10
+    bare_as_seen: bool = True  # a tree that stands bare in the photo has no leaves, unless a leaf model is asked for
 
     def __post_init__(self):
         for name, known in (("foliage", RULES), ("colours", COLOURS)):
@@ -29,6 +33,10 @@ class PhotoOptions:
             raise OptionError(f"`--library {','.join(self.library)}` names no library of subtrees.", remedy=f"Choose all, or some of: {', '.join(LIBRARIES)}.")
         if not 0 <= self.replacements <= 10_000:
             raise OptionError(f"`--replacements {self.replacements}` is out of range.", remedy="Give 0 to 10000; about 100 fill a crown.")
+
+        for name in ("leaf_size", "leaf_density"):
+            if not 0.1 <= getattr(self, name) <= 10:
+                raise OptionError(f"`--{name.replace('_', '-')} {getattr(self, name):g}` is out of range.", remedy="Give 0.1 to 10; 1 is as the photo's foliage asks for.")
 
     @property
     def tracing(self) -> Tracing:
