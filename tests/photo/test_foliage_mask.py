@@ -7,7 +7,7 @@ from scipy import ndimage
 
 from sketchtree.errors import OptionError, SketchError
 from sketchtree.keys import root_key
-from sketchtree.photo.foliage_mask import contrast_weight, foliage_mask, within
+from sketchtree.photo.foliage_mask import SMOOTHNESS, contrast_weight, foliage_mask, within
 from sketchtree.photo.greenness import greenest, greenness
 from sketchtree.photo.marked import Marked
 from sketchtree.photo.photo import Photo
@@ -65,6 +65,17 @@ def test_of_equal_scores_the_darker_is_a_leaf():
 def test_the_smooth_term_is_lambda_over_the_difference_at_least_one():
     pair = np.array([(10, 10, 10), (10, 10, 10), (10, 10, 10)], float), np.array([(10, 10, 10), (13, 14, 10), (10.5, 10, 10)], float)
     assert contrast_weight(*pair, 60.0).tolist() == [60.0, 12.0, 60.0]
+
+
+def test_eq_without_smoothness_each_pixel_has_the_label_of_less_energy(monkeypatch):
+    """E_d = −β log G(I, θ^B) − (1 − β) log G(I, θ^F), summed alone where λ = 0."""
+    monkeypatch.setitem(SMOOTHNESS, "paper", 0.0)
+    photo, _ = painted(LEAF)
+    foliage = found(photo, rule="paper")
+    colour = photo.rgb[foliage.region].astype(float)
+    apart = foliage.leaf.log_density(colour) - foliage.background.log_density(colour)
+    clear = np.abs(apart) > 0.01  # capacities are whole numbers
+    assert (foliage.mask[foliage.region] == (apart > 0))[clear].all() and clear.mean() > 0.9
 
 
 def test_the_paper_finds_green_leaves_before_a_blue_sky():

@@ -10,12 +10,12 @@ from PIL import Image, ImageDraw
 
 from painted import LIMBS, TRUNK, bare_tree, distance, marked, walked
 from sketchtree.axes import NULL
-from sketchtree.errors import SketchError
+from sketchtree.errors import OptionError, SketchError
 from sketchtree.photo.appearance import Mixture
 from sketchtree.photo.marked import Marked
 from sketchtree.photo.trace.follow import Walk, follow
 from sketchtree.photo.trace.palette import Palette
-from sketchtree.photo.trace.trace import Tracing, carried_on, root_radius
+from sketchtree.photo.trace.trace import CIRCLE, Tracing, carried_on, root_radius
 from sketchtree.photo.trace.wood_likeness import WoodLikeness, apart_from_leaves, bhattacharyya, learn_wood
 
 KEY = jax.random.key(0)
@@ -67,6 +67,20 @@ def test_taking_a_stroke_away_takes_its_limb_away(photo):
     both = dataclasses.replace(marked(), branches=(*marked().branches, sky), names=("trunk", "sky"))
     with_it, without = Tracing()(photo, both, key=KEY), Tracing()(photo, marked(), key=KEY)
     assert distance(sky[-1:], all_along(with_it)) < 8 < distance(sky[-1:], all_along(without))
+
+
+def test_the_circle_has_a_radius_of_50_pixels_where_the_photo_has_1500():
+    assert 1500 * CIRCLE == pytest.approx(50.0)
+
+
+@pytest.mark.parametrize("wanted", ["thick", ""])
+def test_an_unknown_way_of_measuring_widths_is_named(wanted):
+    with pytest.raises(OptionError, match="must be measured or paper. measured is what is taken by default."):
+        Tracing(widths=wanted)
+
+
+def test_strokes_alone_are_traced_when_nothing_may_be_found(photo):
+    assert Tracing(most=0)(photo, marked("left"), key=KEY).drawn.all()
 
 
 def test_the_trunk_is_as_thick_as_painted(from_the_trunk):
