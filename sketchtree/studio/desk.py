@@ -58,7 +58,8 @@ class Desk:
         self.revision = 1
         self.recovered = False
         self.ready = asyncio.Event()  # the first drawing is there
-        self.turn = asyncio.Lock()  # one request after the other changes the document
+        self.turn = asyncio.Lock()  # one request after the other changes the document; held for moments only
+        self.filing = asyncio.Lock()  # one file after the other is read or written, aside
         self.other_readings: tuple[int, Document, list[Settled]] | None = None  # revision, document, settled: what `Pick` picks of
         self.tasks: set[asyncio.Task] = set()
         self.pending: dict[asyncio.Task, int] = {}  # of them, edits of limbs that are being looked for → the revision at which they were asked
@@ -200,12 +201,18 @@ class Desk:
         self._went(what, (*begin, *self.ledger.walk(before, what, self.document, state, self.history.state, on=on)))
         return True
 
-    def is_in_file(self, name: str, file: str) -> None:
-        """The present state is called so, and is in that file of the folder; its journal begins anew."""
-        self.history.keep(self.document.replace(name=name))
+    def is_in_file(self, document: Document, state: int, name: str, file: str) -> tuple[journal_lines.Line, ...]:
+        """The document of that state is in that file of the folder, under that name. The journal begins anew, with these lines: what was done meanwhile, as one step."""
+        if self.document.name == document.name:  # else another drawing was opened meanwhile
+            self.history.keep(self.document.replace(name=name))
         self.history.part()
-        self.files.saved = {state: own for state, own in self.files.saved.items() if own != file} | {self.history.state: file}
+        self.files.saved = {other: own for other, own in self.files.saved.items() if own != file} | {state: file}
         self.ledger.forget()
+        if self.history.state == state:
+            return ()
+        kept = document.replace(name=name)
+        begin = self.ledger.begin(kept, True, self.files.signatures.get(file))
+        return (*begin, *self.ledger.step(kept, change(kept, self.document), self.document, self.history.undo_label or "undo", state, merges=False))
 
     def _begin(self) -> tuple[journal_lines.Line, ...]:
         name = self.files.saved.get(self.history.state)

@@ -1,6 +1,7 @@
 """What does each request of a page do? One function a request; what can't be done raises SketchTreeError, and nothing has happened then."""
 
 import asyncio
+import traceback
 from collections.abc import Awaitable, Callable
 from typing import Any
 
@@ -14,8 +15,12 @@ from sketchtree.studio.change import Change
 from sketchtree.studio.desk import Desk, Page, trouble_of
 
 _SETTLES = 5.0  # seconds that an edit waits, aside, for a limb that is not there yet
-_PENDING = 32  # edits that may wait so
+_PENDING = 32  # edits that may wait so, and files
+_FILE = "file"  # tasks that read or write one
 Edit = Callable[[Document, int], Document]
+FAULT = messages.Trouble(
+    message="Something went wrong in the program; nothing of the drawing is different.", remedy="The terminal that runs the studio has the details.", about="program"
+)
 
 
 async def do(desk: Desk, page: Page, request: messages.Request) -> None:
@@ -196,13 +201,20 @@ async def _new(desk: Desk, page: Page, request: messages.New) -> None:
 
 
 async def _open(desk: Desk, page: Page, request: messages.Open) -> None:
-    async with desk.turn:
-        await filing.open_named(desk, request.name, example=request.example)
+    task = _file(desk, page, lambda: filing.open_named(desk, request.name, example=request.example))
+    desk.pending[task] = desk.revision  # undo takes it back before it is done
+    task.add_done_callback(desk.pending.pop)
 
 
 async def _save(desk: Desk, page: Page, request: messages.Save) -> None:
-    async with desk.turn:
-        await filing.save(desk, request.name, over=request.over)
+    _file(desk, page, lambda: filing.save(desk, request.name, over=request.over))
+
+
+def _file(desk: Desk, page: Page, work: Callable[[], Awaitable[None]]) -> asyncio.Task:
+    """A file is read or written aside, in the order in which that was asked."""
+    if sum(task.get_name() == _FILE for task in desk.tasks) >= _PENDING:
+        raise OptionError("Too many files wait to be opened or saved.", remedy="Wait until they are.")
+    return _aside(desk, page, work, name=_FILE, about="file")
 
 
 async def _set_underlay(desk: Desk, page: Page, request: messages.SetUnderlay) -> None:
@@ -222,8 +234,10 @@ async def _use_traced(desk: Desk, page: Page, request: messages.UseTraced) -> No
         desk.step(await desk.engine.with_traced(desk.document), "traced limbs")
 
 
-def _aside(desk: Desk, page: Page, work: Callable[[], Awaitable[None]], only: str | None = None) -> asyncio.Task:
-    """Do it beside the other requests; of the same `only`, the newest wins."""
+def _aside(
+    desk: Desk, page: Page, work: Callable[[], Awaitable[None]], only: str | None = None, name: str | None = None, about: str | None = None
+) -> asyncio.Task:
+    """Do it beside the other requests; of the same `only`, the newest wins. What can't be done is `about` that."""
     for task in desk.tasks if only is not None else ():
         if task.get_name() == only:
             task.cancel()
@@ -232,9 +246,12 @@ def _aside(desk: Desk, page: Page, work: Callable[[], Awaitable[None]], only: st
         try:
             await work()
         except SketchTreeError as error:
-            page.outbox.put(trouble_of(error))
+            page.outbox.put(trouble_of(error, about))
+        except Exception as error:  # noqa: BLE001 - whatever it is, the page is told
+            traceback.print_exception(error)
+            page.outbox.put(FAULT)
 
-    task = asyncio.get_running_loop().create_task(run(), name=only)
+    task = asyncio.get_running_loop().create_task(run(), name=only or name)
     desk.tasks.add(task)
     task.add_done_callback(desk.tasks.discard)
     return task

@@ -2,6 +2,7 @@
 
 import asyncio
 import os
+from collections.abc import Callable
 from pathlib import Path
 
 import msgspec
@@ -12,6 +13,7 @@ from sketchtree.studio import examples, messages
 from sketchtree.studio.desk import Desk, Page
 from sketchtree.studio.folder import PROJECT, is_name, project_name
 from sketchtree.studio.ids import fitting
+from sketchtree.studio.journal_lines import Line
 from sketchtree.studio.recovery import StudioError, journal_of
 from sketchtree.studio.underlays import placed
 
@@ -30,23 +32,28 @@ async def welcome(desk: Desk, page: Page) -> None:
 
 
 async def open_named(desk: Desk, name: str, *, example: bool) -> None:
-    """A file of the folder, or an example, is opened as a step. Raises SketchTreeError."""
+    """A file of the folder, or an example, takes the place of what is there, once it is read, as a step. Raises SketchTreeError."""
     if example:
         await open_bytes(desk, examples.data(name), name)
         return
     folder = desk.files.folder
     if folder is None:
         raise SketchError("There is no folder to open from.", remedy="Upload the file instead.")
-    signature = folder.signature(name)
-    data = await asyncio.to_thread(folder.read, name)
-    desk.files.signatures[name] = signature
-    await open_bytes(desk, data, name, saved_as=name if name.lower().endswith(PROJECT) else None)
+    async with desk.filing:
+        signature = folder.signature(name)
+        data = await asyncio.to_thread(folder.read, name)
+        document = await read(desk, data, name)
+        async with desk.turn:
+            desk.files.signatures[name] = signature
+            desk.step(document, "open", saved_as=name if name.lower().endswith(PROJECT) else None)
 
 
-async def open_bytes(desk: Desk, data: bytes, name: str, *, saved_as: str | None = None) -> None:
-    """A drawing or a project takes the place of what is there, as a step. `desk.turn` is held. Raises SketchTreeError."""
-    document = await read(desk, data, name)
-    desk.step(document, "open", saved_as=saved_as)
+async def open_bytes(desk: Desk, data: bytes, name: str) -> None:
+    """A drawing or a project takes the place of what is there, once it is read, as a step. Raises SketchTreeError."""
+    async with desk.filing:
+        document = await read(desk, data, name)
+        async with desk.turn:
+            desk.step(document, "open")
 
 
 async def read(desk: Desk, data: bytes, name: str) -> Document:
@@ -67,28 +74,31 @@ async def trace(desk: Desk, picture: bytes, name: str) -> None:
 
 
 async def save(desk: Desk, name: str, *, over: bool) -> None:
-    """The project, as a file of the folder; afterwards its journal is empty. `desk.turn` is held. Raises SketchTreeError."""
+    """The project as it is now, as a file of the folder; drawing goes on meanwhile. Afterwards its journal has only what was done since. Raises SketchTreeError."""
     folder = desk.files.folder
     if folder is None:
         raise ExportError("There is no folder to save in.", remedy="Download the project instead.")
     file = project_name(name)
-    found, known = await asyncio.to_thread(folder.signature, file), desk.files.signatures.get(file)
     stem = file[: -len(PROJECT)]
-    if found is not None and not over and (found != known or stem != desk.document.name):
-        what = "has been changed by another program" if stem == desk.document.name and known is not None else "is there already"
-        raise ExportError(f"{file} {what}.", remedy="Choose another name, or save over it.")
-    document = desk.document.replace(name=stem)
-    journal = await _journal_for(desk, folder.path_of(file))
-    try:
-        data = await desk.engine.project(document)
-        desk.files.signatures[file] = await asyncio.to_thread(folder.write, file, data)
-    except BaseException:
-        if journal is not desk.scribe.journal:
-            journal.close()
-        raise
-    desk.is_in_file(stem, file)
-    await _turn_to(desk, journal)
-    desk.tell(messages.Saved(name=stem, files=await asyncio.to_thread(folder.files)))
+    async with desk.filing:
+        async with desk.turn:
+            document, state = desk.document, desk.history.state
+        found, known = await asyncio.to_thread(folder.signature, file), desk.files.signatures.get(file)
+        if found is not None and not over and (found != known or stem != document.name):
+            what = "has been changed by another program" if stem == document.name and known is not None else "is there already"
+            raise ExportError(f"{file} {what}.", remedy="Choose another name, or save over it.")
+        journal = await _journal_for(desk, folder.path_of(file))
+        try:
+            data = await desk.engine.project(document.replace(name=stem))
+            desk.files.signatures[file] = await asyncio.to_thread(folder.write, file, data)
+        except BaseException:
+            if journal is not desk.scribe.journal:
+                journal.close()
+            raise
+        async with desk.turn:
+            await _turn_to(desk, journal, lambda: desk.is_in_file(document, state, stem, file))
+            files = await asyncio.to_thread(folder.files)
+            desk.tell(messages.Saved(name=stem, files=files, drawing=desk.document.name, saved=desk.saved))
 
 
 async def _journal_for(desk: Desk, path: Path):
@@ -102,15 +112,24 @@ async def _journal_for(desk: Desk, path: Path):
         raise StudioError(error.message, remedy="Save under another name.") from error
 
 
-async def _turn_to(desk: Desk, journal) -> None:
-    """All is in the file: the journals begin anew."""
+async def _turn_to(desk: Desk, journal, kept: Callable[[], tuple[Line, ...]]) -> None:
+    """The project is in its file: the journal begins anew with the lines that `kept` gives, which are in it before those of the last one go. `desk.turn` is held."""
     before = desk.scribe.journal
     if journal is None:
+        kept()
         return
-    await desk.scribe.turn_to(journal)
-    await asyncio.to_thread(journal.clear if journal is before else journal.set_aside)
-    if before is not journal:
+    if journal is not before:
+        await asyncio.to_thread(journal.set_aside)
+    await desk.scribe.rest()
+    desk.scribe.turn_to(journal)
+    if lines := kept():
+        desk.scribe.write(lines, lambda: None)
+        await desk.scribe.rest()
+    elif journal is before:
+        await asyncio.to_thread(journal.clear)
+    if journal is not before:
         journal.keep_key(before.key)
         before.keep_key(None)
-        await asyncio.to_thread(before.clear)
+        if not desk.scribe.owes:
+            await asyncio.to_thread(before.clear)
         before.close()

@@ -318,10 +318,12 @@ class Alternatives(_Said):
 
 
 class Saved(_Said):
-    """The project is on disk."""
+    """The project is on disk, as it was when that was asked."""
 
     name: str
     files: list[str]  # what is in the folder now
+    drawing: str  # what the drawing is called now: another, where another was opened meanwhile
+    saved: bool  # is the drawing as in the file? Not if it was drawn on meanwhile
 
 
 class Mark(_Record):

@@ -61,9 +61,13 @@ class Scribe:
         while self._task is not None and not self._task.done():
             await asyncio.shield(self._task)
 
-    async def turn_to(self, journal: Journal | None) -> None:
-        """Write elsewhere from now on."""
-        await self.rest()
+    @property
+    def owes(self) -> bool:
+        """Are there lines that could not be written?"""
+        return bool(self._owed)
+
+    def turn_to(self, journal: Journal | None) -> None:
+        """Write elsewhere from now on, and nothing of what could not be written: it is safe in another way. Called at rest."""
         if self._owed:
             self._owed = []
             self._on_failure(None)

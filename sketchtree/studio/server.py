@@ -140,8 +140,7 @@ class Studio:
         if use == "underlay":
             await filing.trace(desk, data, name if is_name(name) else "This file")
         else:
-            async with desk.turn:
-                await filing.open_bytes(desk, data, name)
+            await filing.open_bytes(desk, data, name)
         return _json({"revision": desk.revision})
 
     async def _export(self, request: Request) -> Response:

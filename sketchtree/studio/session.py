@@ -19,13 +19,12 @@ from sketchtree.editing.document import Document
 from sketchtree.errors import SketchTreeError
 from sketchtree.studio import messages
 from sketchtree.studio.desk import Desk, Page, trouble_of
-from sketchtree.studio.doing import do
+from sketchtree.studio.doing import FAULT, do
 from sketchtree.studio.engine import Engine
 from sketchtree.studio.folder import Folder
 from sketchtree.studio.outbox import Outbox
 from sketchtree.studio.recovery import Journal, Recovered
 
-_FAULT = "Something went wrong in the program; nothing of the drawing is different."
 Send = Callable[[bytes | str], Awaitable[None] | None]
 
 
@@ -65,7 +64,7 @@ class Session:
             page.outbox.put(trouble_of(error))
         except Exception as error:  # noqa: BLE001 - whatever it is, the page must not lose its line, and say the same again when it has another
             traceback.print_exception(error)
-            page.outbox.put(messages.Trouble(message=_FAULT, remedy="The terminal that runs the studio has the details.", about="program"))
+            page.outbox.put(FAULT)
         await self.desk.scribe.room()
         await asyncio.sleep(0)  # what there is to send goes first
 

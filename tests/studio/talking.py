@@ -25,6 +25,7 @@ class Talk:
         await self.hear()
 
     async def hear(self) -> None:
+        await asyncio.gather(*(task for task in self.session.desk.tasks if task.get_name() == "file"), return_exceptions=True)
         await self.session.desk.scribe.rest()
         for _ in range(20):
             await asyncio.sleep(0)

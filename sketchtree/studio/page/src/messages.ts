@@ -142,11 +142,13 @@ export interface Alternatives {
   readings: Reading[];
 }
 
-/** The project is on disk. */
+/** The project is on disk, as it was when that was asked. */
 export interface Saved {
   type: "saved";
   name: string;
   files: string[]; // what is in the folder now
+  drawing: string; // what the drawing is called now: another, where another was opened meanwhile
+  saved: boolean; // is the drawing as in the file? Not if it was drawn on meanwhile
 }
 
 /** Where a stroke was joined, or what it was taken for: for the page to show. */

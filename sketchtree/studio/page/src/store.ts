@@ -26,6 +26,7 @@ export interface Known {
   undo: string | null;
   redo: string | null;
   saved: boolean;
+  file: string | null; // the project that was written last; told whenever one was
   working: Working | null;
   matches: Matches | null;
   alternatives: Alternatives | null;
@@ -57,7 +58,7 @@ type Listener = () => void;
 export class Store {
   readonly known: Known = {
     welcome: null, connected: false, strokes: new Map(), options: null, edits: [], underlay: null, name: null, revision: 0, undo: null, redo: null,
-    saved: true, working: null, matches: null, alternatives: null, read: null, tree: null, limbs: [], trouble: null,
+    saved: true, file: null, working: null, matches: null, alternatives: null, read: null, tree: null, limbs: [], trouble: null,
   };
   readonly ui: Ui = {
     tool: "branch", layout: "beside", turn: 0, selected: null, pointed: null, selectedStrokes: [], uncertainty: false, figure: true, theme: "light", palm: false,
@@ -130,9 +131,10 @@ export class Store {
       case "read": known.read = event; this.tell("read"); break;
       case "saved":
         if (known.welcome) known.welcome = { ...known.welcome, files: event.files };
-        known.name = event.name;
-        known.saved = true;
-        this.tell("saved", "name", "welcome");
+        known.name = event.drawing;
+        known.saved = event.saved;
+        known.file = event.name;
+        this.tell("saved", "name", "welcome", "file");
         break;
       case "tree":
         known.tree = event;

@@ -35,7 +35,7 @@ class Saving {
     this.box.body.append(element("div", { class: "name-row" }, label, element("span", { class: "with-unit" }, this.field, EXTENSION)), this.words);
     this.box.foot.append(button({ label: "Cancel", look: "quiet", onPress: this.box.close }), this.go);
     store.on("trouble", () => this.refused());
-    store.on("saved", () => this.saved());
+    store.on("file", () => this.saved());
   }
 
   open(): void {
@@ -90,9 +90,10 @@ class Saving {
   }
 
   private saved(): void {
-    if (this.sent === "" || this.sent !== `${this.store.known.name ?? ""}${EXTENSION}` || !this.store.known.saved) return;
+    if (this.sent === "" || this.sent !== `${this.store.known.file ?? ""}${EXTENSION}`) return;
+    const { sent } = this;
     this.sent = "";
     this.box.close();
-    toast(`Saved as ${this.store.known.name ?? ""}${EXTENSION}.`, { action: { label: "Save under another name", onPress: () => this.open() } });
+    toast(`Saved as ${sent}.`, { action: { label: "Save under another name", onPress: () => this.open() } });
   }
 }
