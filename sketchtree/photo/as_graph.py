@@ -4,7 +4,6 @@ A limb is a chain of joints: where one forks, the child on the same stroke carri
 the limb it grows from and its number on that. Nodes stand at forks, tips and where it turns by 30° (`simplify`); the joints between are its segments' curves. Pixels, y UP.
 """
 
-import dataclasses
 from collections.abc import Sequence
 from dataclasses import dataclass
 
@@ -135,8 +134,3 @@ def _attachments(traced: Traced, limbs: Sequence[_Limb]) -> list[Attachment]:
         reason = "a stroke" if limb.drawn else "found in the photo by following the wood from a stroke"
         found.append(Attachment(limb.name, owner.get(limb.foot), (x, y), 0.0, 0.0, (), reason))
     return found
-
-
-def with_crowns(graph: SketchGraph, outlines: Sequence[Float[np.ndarray, "point 2"]]) -> SketchGraph:
-    """The same drawing with other outlines of the crown; pixels, y DOWN."""
-    return dataclasses.replace(graph, crown=tuple(turned_over(line) for line in outlines))

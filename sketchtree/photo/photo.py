@@ -1,7 +1,7 @@
 """A photo as every step here takes it: eight bits a channel, upright, sRGB.
 
 Pixels, x right, y DOWN, the origin at the top left corner: the middle of the pixel in row r and column c is (c + ½, r + ½). Only what leaves this room counts y up
-(`Photo.up`)."""
+(`turned_over`)."""
 
 from dataclasses import dataclass
 

@@ -4,7 +4,7 @@ The camera is orthographic and looks along −z (Tan et al. 2008, §3.1): a poin
 
     x = left + c · pixel,   y = top − r · pixel        of the upper left corner of the pixel in row r and column c
 
-Foliage has gaps smaller than a leaf is long, and wood goes through them: `free` is the mask with those closed.
+Foliage has gaps smaller than a leaf is long, and wood goes through them: growth is kept to the mask with those closed (`closed`).
 """
 
 from dataclasses import dataclass
