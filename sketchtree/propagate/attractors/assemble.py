@@ -7,7 +7,6 @@ others grow on it between their ends one row more. Parents precede their childre
 import numpy as np
 from jaxtyping import Float, Int
 
-from sketchtree.axes import NULL
 from sketchtree.propagate.attractors.wood import Limb, Wood
 from sketchtree.propagate.drawn.laterals import Split, split_at
 from sketchtree.skeleton import Kind, TreeSkeleton

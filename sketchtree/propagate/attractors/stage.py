@@ -4,12 +4,11 @@ Each tree of the skeleton grows to a target of its own. What was given stays: it
 with `subtree.RATIO` times the radius of the limb that bears them (`geometry.radii.PipeRadii` may redo them) and ids from that limb's.
 """
 
-import dataclasses
 from collections.abc import Callable, Mapping
 from dataclasses import dataclass, field
 
 import numpy as np
-from jaxtyping import Array, Float, Int, Key
+from jaxtyping import Array, Key
 
 from sketchtree.errors import OptionError
 from sketchtree.propagate.attractors.assemble import assembled
