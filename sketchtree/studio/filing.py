@@ -3,6 +3,7 @@
 import asyncio
 import os
 from collections.abc import Callable
+from dataclasses import replace
 from pathlib import Path
 
 import msgspec
@@ -71,6 +72,14 @@ async def trace(desk: Desk, picture: bytes, name: str) -> None:
     underlay = await asyncio.to_thread(placed, picture, name, desk.document)
     async with desk.turn:
         desk.step(desk.document.replace(underlay=underlay), "picture")
+
+
+async def open_photo(desk: Desk, picture: bytes, name: str) -> None:
+    """A photo in which a tree is to be marked lies under an empty page, as a step. Raises SketchTreeError."""
+    page = Document.blank(name=Path(name).stem or "photo")
+    underlay = await asyncio.to_thread(placed, picture, name, page)
+    async with desk.turn:
+        desk.step(page.replace(underlay=replace(underlay, photo=True, opacity=1.0)), "photo")
 
 
 async def save(desk: Desk, name: str, *, over: bool) -> None:

@@ -5,12 +5,13 @@
     /texture/KEY/MAP.png                  what the tree wears
     /picture/WHAT/NAME.png                thumbnails
     /underlay/DIGEST                      the picture to trace over
-    POST /upload?name=&as=                a drawing or project to open; a picture to trace over, or to read strokes from
+    POST /upload?name=&as=                a drawing or project to open; a picture to trace over, to mark a tree in, or to read strokes from
     POST /export                          the tree, as files
     /download  /command                   the project; the command line that makes the same tree
 """
 
 import asyncio
+import contextlib
 import re
 from pathlib import Path
 
@@ -84,7 +85,8 @@ class Studio:
 
     async def _socket(self, socket: WebSocket) -> None:
         await socket.accept()
-        page = self._session.join(lambda said: socket.send_bytes(said) if isinstance(said, bytes) else socket.send_text(said))
+        page = self._session.join(lambda said: _send(socket, said))
+        page.sender.add_done_callback(lambda sender: sender.cancelled() or _aside(_hang_up(socket)))
         try:
             while True:
                 received = await socket.receive()
@@ -132,13 +134,15 @@ class Studio:
 
     async def _upload(self, request: Request) -> Response:
         name, use = request.query_params.get("name", ""), request.query_params.get("as", "drawing")
-        if use not in ("drawing", "underlay"):
+        if use not in ("drawing", "underlay", "photo"):
             raise HTTPException(400)
         data = await _body(request, messages.MAX_UPLOAD)
         desk = self._session.desk
         await desk.ready.wait()
         if use == "underlay":
             await filing.trace(desk, data, name if is_name(name) else "This file")
+        elif use == "photo":
+            await filing.open_photo(desk, data, name if is_name(name) else "This file")
         else:
             await filing.open_bytes(desk, data, name)
         return _json({"revision": desk.revision})
@@ -170,6 +174,29 @@ class Studio:
         except msgspec.ValidationError as error:
             return _json({"message": f"What to export can't be read: {str(error)[:300]}.", "remedy": "Load the page again."}, 400)
         return PlainTextResponse(exports.command_line(self._session.document, wanted))
+
+
+async def _send(socket: WebSocket, said: str | bytes) -> None:
+    """Raises ConnectionError where the page is gone."""
+    try:
+        await (socket.send_bytes(said) if isinstance(said, bytes) else socket.send_text(said))
+    except (WebSocketDisconnect, RuntimeError) as error:
+        raise ConnectionError from error
+
+
+async def _hang_up(socket: WebSocket) -> None:
+    """A page that can't be told anything must not wait for it: it opens another line, and is told everything there."""
+    with contextlib.suppress(WebSocketDisconnect, RuntimeError):
+        await socket.close(1011)
+
+
+_asides: set[asyncio.Task] = set()
+
+
+def _aside(work) -> None:
+    task = asyncio.get_running_loop().create_task(work)
+    _asides.add(task)
+    task.add_done_callback(_asides.discard)
 
 
 async def _body(request: Request, most: int) -> bytes:

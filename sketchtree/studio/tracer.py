@@ -19,6 +19,7 @@ from sketchtree.studio.ids import fitting
 from sketchtree.studio.making.photo_asked import Asked, is_mark, is_photo
 
 _NOTHING = "No stroke marks a limb in the photo."
+_FAINT = 0.5  # how strong the photo is, at most, below limbs that were taken over
 _KEPT = 8  # crowns whose foliage is kept
 
 
@@ -61,7 +62,8 @@ class Tracer:
         rest = {name: stroke for name, stroke in document.strokes.items() if not (is_mark(stroke) and stroke.kind == StrokeKind.BRANCH)}
         strokes = rest | {stroke.id if stroke.id not in rest else f"{stroke.id}'": stroke for stroke in limbs}
         strokes = {name: stroke if stroke.id == name else replace(stroke, id=name) for name, stroke in strokes.items()}
-        return fitting(document.replace(strokes=strokes, underlay=replace(document.underlay, photo=False)))
+        faint = replace(document.underlay, photo=False, opacity=min(document.underlay.opacity, _FAINT))
+        return fitting(document.replace(strokes=strokes, underlay=faint))
 
     def end(self) -> None:
         """End the process."""

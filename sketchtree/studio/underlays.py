@@ -8,6 +8,7 @@ import numpy as np
 from sketchtree.editing.document import Document, Underlay
 from sketchtree.errors import SketchError
 
+_ORIENTATION, _LYING = 0x0112, (5, 6, 7, 8)  # of EXIF: the page shows the picture turned by a quarter
 _EMPTY = 800.0  # height on an empty page, sketch units
 _KINDS = ((b"\x89PNG\r\n\x1a\n", "image/png"), (b"\xff\xd8\xff", "image/jpeg"))
 
@@ -29,7 +30,8 @@ def placed(picture: bytes, name: str, document: Document) -> Underlay:
         with warnings.catch_warnings():
             warnings.simplefilter("ignore", Image.DecompressionBombWarning)
             with Image.open(io.BytesIO(picture)) as image:
-                width, height = image.size
+                lies = "exif" in image.info and image.getexif().get(_ORIENTATION) in _LYING
+                width, height = image.size[::-1] if lies else image.size
     except (OSError, ValueError, SyntaxError, Image.DecompressionBombError) as error:
         raise SketchError(f"{name} can't be read as a picture.", remedy="Save it again, or choose a smaller one.") from error
     points = [stroke.points for stroke in document.strokes.values()]

@@ -1,12 +1,16 @@
 """A photo under the page, as a session has it: what is asked of the engine, what pages are told, and what can be undone."""
 
 import asyncio
+import io
 
 import painted_photo as painted
+from PIL import Image
 from talking import Talk, drawn, talking
 
-from sketchtree.studio import messages
+from sketchtree.editing.document import Document
+from sketchtree.studio import filing, messages
 from sketchtree.studio.recovery import journal_of
+from sketchtree.studio.underlays import placed
 
 TRUNK = painted.mark("trunk", painted.TRUNK)
 PICTURE = b"\x89PNG" + bytes(100)
@@ -77,6 +81,27 @@ def test_where_nothing_is_marked_nothing_is_taken_over():
             assert talk.last("trouble")["message"] == "No stroke marks a limb in the photo." and talk.desk.history.undo_label is None
 
     asyncio.run(test())
+
+
+def test_a_photo_has_an_empty_page_of_its_own_and_undo_brings_the_drawing_back():
+    async def test():
+        async with talking(page_with(TRUNK, is_photo=False)) as talk:
+            await filing.open_photo(talk.desk, painted.photo(), "elm.png")
+            await talk.hear()
+            under = talk.last("changed")["underlay"]
+            assert talk.strokes() == [] and talk.session.document.name == "elm" and under["photo"] and under["opacity"] == 1.0
+            await talk.say(messages.Undo())
+            assert talk.strokes() == ["trunk"] and not talk.session.document.underlay.photo
+
+    asyncio.run(test())
+
+
+def test_a_photo_that_a_phone_took_upright_lies_as_the_page_shows_it():
+    data, image = io.BytesIO(), Image.new("RGB", (60, 40))
+    image.getexif()[0x0112] = 6
+    image.save(data, "JPEG", exif=image.getexif())
+    under = placed(data.getvalue(), "phone.jpg", Document())
+    assert under.height / under.width == 1.5
 
 
 def test_it_is_found_again_after_a_crash(tmp_path, monkeypatch):

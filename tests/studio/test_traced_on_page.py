@@ -62,7 +62,8 @@ def test_strokes_of_turned_pages_and_obstacles_mark_nothing(picture):
 
 def test_what_is_missing_is_said_and_is_no_trouble(bench, picture):
     told, known, unknown = traced(bench, picture)
-    assert (told.trees, told.remark, known, unknown) == ([], NO_LIMB, (), {})
+    assert (told.trees, told.remark, known, unknown) == ([], "", (), {})
+    assert traced(bench, picture, CROWN)[0].remark == NO_LIMB
     told, known, unknown = traced(bench, picture, TRUNK)
     assert told.remark == NO_CROWN and all(told.trees[0].drawn) and not unknown
     other = painted.mark("second crown", [(560, 30), (590, 30), (590, 60)], crown=True)

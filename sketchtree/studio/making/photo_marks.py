@@ -34,7 +34,7 @@ def marks(strokes: Iterable[Stroke], place: Place, photo: Photo) -> Marks:
     crowns = [stroke for stroke in there if stroke.kind == StrokeKind.CROWN]
     limbs = [stroke for stroke in there if stroke.kind == StrokeKind.BRANCH]
     if not limbs:
-        return Marks(remark=NO_LIMB)
+        return Marks(remark=NO_LIMB if crowns else "")
     if not crowns:
         return Marks(marked_trees(_sketch([*limbs, _whole(photo)], photo), photo), crowned=False, remark=NO_CROWN)
     return _of_crowns(crowns, limbs, photo)

@@ -5,7 +5,7 @@
 // `known` mirrors what the program said last; `ui` is this page's own and is never sent.
 
 import type {
-  Alternatives, Changed, Edit, Event, Ghost, Limb, Matches, Options, Read, Request, Stroke, Strokes, Tree, Trouble, Underlay, Welcome, Working,
+  Alternatives, Changed, Edit, Event, Foliage, Ghost, Limb, Matches, Options, Read, Request, Stroke, Strokes, Traced, Tree, Trouble, Underlay, Welcome, Working,
 } from "./messages";
 import { Echo } from "./link/echo";
 
@@ -31,6 +31,8 @@ export interface Known {
   matches: Matches | null;
   alternatives: Alternatives | null;
   read: Read | null;
+  traced: Traced | null; // in the photo under the page
+  foliage: Foliage | null;
   tree: Tree | null; // head of the last frame; its meshes are tree/'s
   limbs: Limb[]; // of the last frame that had any
   trouble: Trouble | null;
@@ -45,6 +47,7 @@ export interface Ui {
   selectedStrokes: string[]; // ids
   uncertainty: boolean;
   figure: boolean; // the 1.8 m person
+  tint: boolean; // what is foliage in a photo is tinted
   theme: "light" | "dark";
   palm: boolean; // a pen was seen: fingers pan and never draw
   stabiliser: number; // 0-1
@@ -58,10 +61,10 @@ type Listener = () => void;
 export class Store {
   readonly known: Known = {
     welcome: null, connected: false, strokes: new Map(), options: null, edits: [], underlay: null, name: null, revision: 0, undo: null, redo: null,
-    saved: true, file: null, working: null, matches: null, alternatives: null, read: null, tree: null, limbs: [], trouble: null,
+    saved: true, file: null, working: null, matches: null, alternatives: null, read: null, traced: null, foliage: null, tree: null, limbs: [], trouble: null,
   };
   readonly ui: Ui = {
-    tool: "branch", layout: "beside", turn: 0, selected: null, pointed: null, selectedStrokes: [], uncertainty: false, figure: true, theme: "light", palm: false,
+    tool: "branch", layout: "beside", turn: 0, selected: null, pointed: null, selectedStrokes: [], uncertainty: false, figure: true, tint: true, theme: "light", palm: false,
     stabiliser: 0.5, width: 4,
   };
   frame: { head: Tree; arrays: Arrays } | null = null; // the frame just come; listeners of "frame" take it at once
@@ -129,6 +132,8 @@ export class Store {
       case "matches": known.matches = event; this.tell("matches"); break;
       case "alternatives": known.alternatives = event; this.tell("alternatives"); break;
       case "read": known.read = event; this.tell("read"); break;
+      case "traced": known.traced = event; this.tell("traced"); break;
+      case "foliage": known.foliage = event; this.tell("foliage"); break;
       case "saved":
         if (known.welcome) known.welcome = { ...known.welcome, files: event.files };
         known.name = event.drawing;

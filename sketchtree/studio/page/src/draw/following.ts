@@ -2,6 +2,7 @@
 
 import type { PageCamera } from "./camera";
 import { type Desk, isSamePage } from "./desk";
+import { photoHere } from "./photo";
 import type { Stroke } from "../messages";
 import type { Store } from "../store";
 import { around } from "./line/nearness";
@@ -34,6 +35,12 @@ export function followDrawing(desk: Desk): void {
     before = new Set(ids);
     if (!opened || (alone && inSight(camera, store.known.strokes.values())) || !fit()) return;
     store.set("width", Number((PEN / camera.scale).toPrecision(2)));
+  });
+  let photo: string | null = null;
+  store.on("underlay", () => {
+    const here = photoHere(store)?.digest ?? null;
+    if (here !== null && here !== photo && fit()) store.set("width", Number((PEN / camera.scale).toPrecision(2)));
+    photo = here;
   });
   store.on("turn", () => { if (camera.showsAll) fit(); }); // from another side a tree is wider, or narrower
   let wrongAt = -1;
@@ -72,6 +79,8 @@ function everything(store: Store): ReturnType<typeof around> {
   const { tree, limbs, strokes } = store.known;
   const seen = [...strokes.values()].filter((stroke) => isSamePage(stroke.view_deg, store.ui.turn)).map(({ xy }) => ({ xy }));
   if (tree) for (const limb of limbs) if (!isSamePage(limb.view_deg, store.ui.turn)) seen.push({ xy: projected(limb, tree, store.ui.turn) });
+  const photo = photoHere(store);
+  if (photo) seen.push({ xy: [photo.x, photo.y, photo.x + photo.width, photo.y + photo.height] });
   return around(seen.length ? seen : strokes.values());
 }
 

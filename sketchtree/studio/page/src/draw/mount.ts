@@ -14,9 +14,11 @@ import type { Tool } from "./hand/touch";
 import { mountWheel } from "./hand/wheel";
 import { listenKeys } from "./keys";
 import { mountOptions } from "./options";
+import { followPhoto, photoHere } from "./photo";
 import { paintDrawing, paintLive } from "./paint/painter";
 import { readPalette } from "./paint/palette";
 import { makeSurface } from "./paint/surface";
+import { tinted } from "./paint/tint";
 import { pairSelections } from "./selection";
 import { mountTip } from "./tip";
 import { mountViewCorner } from "./view_corner";
@@ -29,12 +31,13 @@ export function mountDraw(root: HTMLElement, store: Store): void {
   const top = element("canvas", { class: "page-layer", testId: "page-canvas", tabindex: 0, role: "application", aria: { label: ABOUT } });
   let palette = readPalette(root);
   const picture = new Image();
+  let tint: OffscreenCanvas | null = null;
   const desk: Desk = {
     store, camera, live: null, instead: new Map(), hovered: null, lasso: [], eraser: null, erases: "whole", underlay: null, movesUnderlay: false, trouble: null,
     repaint: () => surface.repaint(), repaintLive: () => surface.repaintLive(),
   };
   const surface = makeSurface(root, below, top, {
-    onPaint: () => paintDrawing(surface.drawing, surface.ratio(), desk, palette, picture.src ? picture : null),
+    onPaint: () => paintDrawing(surface.drawing, surface.ratio(), desk, palette, picture.src ? picture : null, tint),
     onPaintLive: () => paintLive(surface.live, surface.ratio(), desk, palette),
     onSize: (width, height) => camera.resize(width, height),
   });
@@ -42,11 +45,14 @@ export function mountDraw(root: HTMLElement, store: Store): void {
     branch: drawing(desk, "branch"), crown: drawing(desk, "crown"), obstacle: drawing(desk, "obstacle"),
     erase: erasing(desk), select: selecting(desk), pan: panning(desk),
   } satisfies Record<Store["ui"]["tool"], Tool>;
-  const pen = new Pen(top, desk, { current: () => tools[store.ui.tool], eraser: tools.erase, panning: tools.pan });
+  const pen = new Pen(top, desk, {
+    current: () => tools[store.ui.tool], eraser: tools.erase, panning: tools.pan, second: () => (photoHere(store) ? tools.branch : null),
+  });
 
   camera.on(desk.repaint);
   pairSelections(store);
   followDrawing(desk);
+  followPhoto(store);
   mountWheel(top, camera);
   mountTip(root, top, desk);
   listenKeys(root, desk, pen);
@@ -64,13 +70,23 @@ export function mountDraw(root: HTMLElement, store: Store): void {
   store.on("theme", () => {
     palette = readPalette(root);
     desk.repaint();
+    dye();
   });
+  const dye = (): void => {
+    const { foliage } = store.known;
+    void tinted(foliage?.png ?? "", palette.crown).then((made) => {
+      if (store.known.foliage !== foliage) return; // a newer one is on its way
+      tint = made;
+      desk.repaint();
+    });
+  };
+  store.on("foliage", dye);
   store.on("underlay", () => {
     const digest = store.known.underlay?.digest;
     if (digest) picture.src = store.address(`/underlay/${digest}`);
     else picture.removeAttribute("src");
   });
   picture.addEventListener("load", desk.repaint);
-  store.on(["strokes", "read", "limbs", "tree", "selected", "selectedStrokes", "pointed", "turn", "layout", "underlay", "trouble"], desk.repaint);
+  store.on(["strokes", "read", "limbs", "tree", "selected", "selectedStrokes", "pointed", "turn", "layout", "underlay", "trouble", "traced", "tint"], desk.repaint);
   pen.showCursor();
 }

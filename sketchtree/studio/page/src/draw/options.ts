@@ -5,6 +5,7 @@ import { choice } from "../parts/choice";
 import { element } from "../parts/element";
 import { slider, type Slider } from "../parts/slider";
 import { toggle } from "../parts/toggle";
+import { setPhoto } from "./photo";
 import type { Desk, Eraser } from "./desk";
 
 const THINNEST = 1; // CSS pixels
@@ -77,9 +78,18 @@ function underlayOptions(desk: Desk): HTMLElement {
     if (on) store.set("tool", "select");
     desk.repaint();
   } });
-  store.on("underlay", () => { if (store.known.underlay) opacity.set(store.known.underlay.opacity); });
+  const photo = toggle({
+    label: "From photo", on: store.known.underlay?.photo ?? false, testId: "photo-mode", hint: "It shows the tree: strokes mark its crown and limbs, and the limbs are traced",
+    onSwitch: (on) => setPhoto(store, on),
+  });
+  photo.root.classList.add("photo-switch");
+  store.on("underlay", () => {
+    const { underlay } = store.known;
+    if (underlay) opacity.set(underlay.opacity);
+    photo.set(underlay?.photo ?? false);
+  });
   store.on("tool", () => moves.set(desk.movesUnderlay && store.ui.tool === "select"));
   const clear = (): void => store.send({ type: "setunderlay", underlay: null });
   const away = button({ label: "Take the picture away", icon: "trash", iconOnly: true, look: "quiet", testId: "underlay-away", onPress: clear });
-  return element("div", { class: "page-picture" }, opacity.root, moves.root, away);
+  return element("div", { class: "page-picture" }, opacity.root, photo.root, moves.root, away);
 }

@@ -13,6 +13,7 @@ import { hintCard } from "./first/hint";
 import { hintButton } from "./first/hint_button";
 import { turnedNote } from "./first/turned_note";
 import { welcomeBack } from "./first/welcome_back";
+import { photoCard } from "./photo/card";
 import { mountSide } from "./side/mount";
 import { mountStatus } from "./status/mount";
 import { troubleCard } from "./status/trouble";
@@ -48,7 +49,7 @@ export function mountPanels(roots: PanelRoots, store: Store, views: Views): void
   const hint = hintCard(store, () => newPage(store));
   const words = document.createElement("div");
   words.className = "page-words";
-  words.append(goneBanner(store), troubleCard(store), hint.root, turnedNote(store));
+  words.append(goneBanner(store), troubleCard(store), hint.root, photoCard(store), turnedNote(store));
   const hides = (): boolean => words.offsetHeight > 0 && roots.page.clientHeight > LOW && (store.ui.layout === "beside" || roots.page.clientWidth < WIDE);
   const covered = (): void => camera.cover("head", hides() ? words.offsetTop + words.offsetHeight : 0);
   new ResizeObserver(covered).observe(words);

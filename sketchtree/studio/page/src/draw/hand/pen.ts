@@ -1,7 +1,7 @@
 // Who is touching the page, and what for? Pen, mouse and fingers are told apart here: one of them draws, two fingers move the page, a palm does nothing.
 //
 // Rules    a pen was seen: fingers move the page and never draw      a contact as large as a palm is none      a second finger soon after the first takes back
-//          what the first began      the middle button, or any with the space bar, moves the page; the right one turns it      an event told twice counts once
+//          what the first began      the middle button, or any with the space bar, moves the page; the right one turns it, and on a photo draws a branch      an event told twice counts once
 
 import type { Desk } from "../desk";
 import { Fingers } from "./fingers";
@@ -16,6 +16,7 @@ export interface PenTools {
   current: () => Tool;
   eraser: Tool;
   panning: Tool;
+  second: () => Tool | null; // that the right button is for now; null: it turns the page
 }
 
 export class Pen {
@@ -96,7 +97,7 @@ export class Pen {
 
   private toolFor(event: PointerEvent): Tool {
     if (event.button === 1 || this.space) return this.tools.panning;
-    if (event.button === 2) return event.pointerType === "pen" ? this.tools.panning : this.turning; // a pen's side button
+    if (event.button === 2) return event.pointerType === "pen" ? this.tools.panning : (this.tools.second() ?? this.turning); // a pen's side button
     if (event.buttons & ERASER_BUTTON) return this.tools.eraser;
     return this.tools.current();
   }

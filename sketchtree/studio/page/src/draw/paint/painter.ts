@@ -4,32 +4,40 @@ import type { Stroke } from "../../messages";
 import { type Desk, here, isSamePage } from "../desk";
 import { around } from "../line/nearness";
 import { outline, widths } from "../line/outline";
+import { photoHere } from "../photo";
 import { projected } from "../turned";
 import { paintGuide, paintMarks } from "./marks";
 import { type Palette } from "./palette";
 import { paintGrid, paintGround, paintUnderlay } from "./paper";
 import { type Look, paintStroke, smooth, type State } from "./strokes";
+import { paintTint, paintTraced } from "./traced";
 
 const DEFAULT_WIDTH = 0.006; // of the drawing's height: strokes that have no width of their own
 
 /** Everything that stays when the pen is lifted. */
-export function paintDrawing(on: CanvasRenderingContext2D, ratio: number, desk: Desk, palette: Palette, picture: HTMLImageElement | null): void {
+export function paintDrawing(
+  on: CanvasRenderingContext2D, ratio: number, desk: Desk, palette: Palette, picture: HTMLImageElement | null, tint: CanvasImageSource | null,
+): void {
   const { camera, store } = desk;
   const over = store.ui.layout === "over";
   clear(on, ratio);
   if (!over) paintGrid(on, camera, palette);
   const underlay = desk.underlay ?? store.known.underlay;
-  if (underlay && picture && isSamePage(store.ui.turn, 0)) paintUnderlay(on, camera, palette, underlay, picture, desk.movesUnderlay);
-  paintGround(on, camera, palette, groundLevel(desk));
+  const under = underlay !== null && picture !== null && isSamePage(store.ui.turn, 0);
+  if (under) paintUnderlay(on, camera, palette, underlay, picture, desk.movesUnderlay);
+  const photo = photoHere(store);
+  if (photo && tint && store.ui.tint) paintTint(on, camera, underlay ?? photo, tint);
+  if (!photo) paintGround(on, camera, palette, groundLevel(desk)); // it has ground of its own
   if (!isSamePage(store.ui.turn, 0) || turnedStrokes(desk)) paintGuides(on, desk, palette);
   on.setTransform(ratio * camera.scale, 0, 0, ratio * camera.scale, ratio * camera.x, ratio * camera.y);
-  const look: Look = { palette, scale: camera.scale, width: usualWidth(desk), cased: over };
+  const look: Look = { palette, scale: camera.scale, width: usualWidth(desk), cased: over || under };
   const shownHere = here(store);
   const areasFirst = [...shownHere.filter((one) => one.kind !== "branch"), ...shownHere.filter((one) => one.kind === "branch")];
   const pointed = new Set(store.known.limbs.find((limb) => limb.id === store.ui.pointed)?.strokes);
   for (const stroke of areasFirst) paintOne(on, desk, look, stroke, pointed);
+  if (photo && store.known.traced) paintTraced(on, store.known.traced, palette, camera.scale);
   on.setTransform(ratio, 0, 0, ratio, 0, 0);
-  if (desk.instead.size === 0) paintMarks(on, camera, palette, marksHere(desk));
+  if (desk.instead.size === 0 && !photo) paintMarks(on, camera, palette, marksHere(desk));
 }
 
 function paintOne(on: CanvasRenderingContext2D, desk: Desk, look: Look, stroke: Stroke, pointed: ReadonlySet<string>): void {

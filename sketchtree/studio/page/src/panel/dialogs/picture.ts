@@ -4,9 +4,10 @@ import { button } from "../../parts/button";
 import { dialog } from "../../parts/dialog";
 import { element } from "../../parts/element";
 
-export type PictureUse = "underlay" | "drawing";
+export type PictureUse = "photo" | "underlay" | "drawing";
 
-const TRACE = "It lies faintly under the page, and you draw the branches yourself. For photos and sketches of any kind.";
+const PHOTO = "It shows a tree: you outline the crown and mark a few branches, and the limbs in it are traced.";
+const TRACE = "It lies faintly under the page, and you draw the branches yourself. For sketches and pictures of any kind.";
 const READ = "Dark lines on light paper become strokes. For line drawings, scans and pencil pages.";
 
 /** Ask; `null`: neither. */
@@ -33,6 +34,7 @@ export function pictureDialog(file: File): Promise<PictureUse | null> {
     box.body.append(
       shown,
       element("div", { class: "ways" },
+        way("A tree from a photo", PHOTO, "picture-photo", () => choose("photo")),
         way("Trace over it", TRACE, "picture-underlay", () => choose("underlay")),
         way("Read its lines", READ, "picture-drawing", () => choose("drawing"))),
     );

@@ -15,7 +15,7 @@ export async function take(file: File): Promise<boolean> {
     tell(error, file.name);
     return false;
   }
-  toast(as === "underlay" ? `${file.name} lies under the page: trace over it.` : `${file.name} is open.`, { remedy: "Undo brings back what was there." });
+  if (as !== "photo") toast(as === "underlay" ? `${file.name} lies under the page: trace over it.` : `${file.name} is open.`, { remedy: "Undo brings back what was there." });
   return true;
 }
 

@@ -12,8 +12,8 @@ export function isPicture(name: string): boolean {
   return PICTURES.test(name);
 }
 
-/** `underlay`: to trace over; `drawing`: strokes are read from it. Raises `Refused`. */
-export async function upload(file: File, as: "underlay" | "drawing"): Promise<void> {
+/** `photo`: a tree is marked in it, on a page of its own; `underlay`: to trace over; `drawing`: strokes are read from it. Raises `Refused`. */
+export async function upload(file: File, as: "photo" | "underlay" | "drawing"): Promise<void> {
   const tooLarge = `${file.name} has ${bytes(file.size)}; at most ${bytes(MAX_UPLOAD)} can be read.`;
   if (file.size > MAX_UPLOAD) throw new Refused(tooLarge, "Save it smaller, or with less in it.");
   if (file.size === 0) throw new Refused(`${file.name} is empty.`, "Choose another file.");

@@ -22,7 +22,7 @@ export function emptyPage(store: Store, ways: Ways): HTMLElement {
     ghostDrawing(), element("div", { class: "empty-words" }, element("h2", {}, "Draw a tree"), steps, buttons)));
   const show = (): void => {
     const { welcome, strokes, underlay, connected } = store.known;
-    root.hidden = !welcome || !connected || strokes.size > 0 || store.ui.turn !== 0;
+    root.hidden = !welcome || !connected || strokes.size > 0 || store.ui.turn !== 0 || (underlay?.photo ?? false);
     root.classList.toggle("traced", underlay !== null); // a picture to trace says enough
   };
   store.on(["welcome", "connected", "strokes", "underlay", "turn"], show);
