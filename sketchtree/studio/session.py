@@ -73,8 +73,10 @@ class Session:
         self.desk.leave(page)
 
     def _lost(self, page: Page, task: asyncio.Task) -> None:
-        """Sending failed: its connection is gone, which whoever reads from it will notice too."""
-        task.exception()
+        """Sending failed: its connection is gone, or what was to be sent can't be; whoever reads from it ends it, and the page comes back by another."""
+        error = task.exception()
+        if not isinstance(error, ConnectionError):
+            traceback.print_exception(error)
         self.desk.leave(page)
 
     async def end(self) -> None:

@@ -13,7 +13,7 @@ from talking import drawn, stroke
 from websockets.exceptions import ConnectionClosed, InvalidStatus
 
 from sketchtree.errors import OptionError
-from sketchtree.studio import messages, patience
+from sketchtree.studio import messages, outbox, patience
 from sketchtree.studio.outbox import encode
 from sketchtree.studio.recovery import journal_of
 from sketchtree.studio.server import Studio
@@ -491,3 +491,28 @@ def test_the_routes_are_those_that_are_documented():
 
     for name in ("ws", "texture", "picture", "underlay", "upload", "export", "download", "command"):
         assert f"/{name}" in documented.__doc__ and callable(Studio)
+
+
+def test_a_page_that_can_not_be_told_what_is_new_is_let_go_so_that_it_comes_back_and_the_others_go_on(own, monkeypatch, capsys):
+    with own.page() as one, own.page() as other:
+        for page in (one, other):
+            own.hello(page)
+            told(page, "changed")
+        taken = outbox.Outbox._taken
+
+        def failing(box):
+            monkeypatch.setattr(outbox.Outbox, "_taken", taken)
+            raise ValueError("cannot tell")
+
+        monkeypatch.setattr(outbox.Outbox, "_taken", failing)
+        one.send(encode(drawn("a")))
+        gone = 0
+        for page in (one, other):
+            try:
+                assert [stroke["id"] for stroke in told(page, "changed")["put"]] == ["a"]
+            except ConnectionClosed:
+                gone += 1
+        assert gone == 1 and "cannot tell" in capsys.readouterr().err
+        with own.page() as again:
+            own.hello(again)
+            assert "a" in [stroke["id"] for stroke in told(again, "changed")["put"]]
