@@ -5,7 +5,7 @@
     /texture/KEY/MAP.png                  what the tree wears
     /picture/WHAT/NAME.png                thumbnails
     /underlay/DIGEST                      the picture to trace over
-    POST /upload?name=&as=                a drawing or project to open; a picture to trace over, or to read strokes from
+    POST /upload?name=&as=                a drawing or project to open; a picture to trace over, to mark a tree in, or to read strokes from
     POST /export                          the tree, as files
     /download  /command                   the project; the command line that makes the same tree
 """
@@ -134,13 +134,15 @@ class Studio:
 
     async def _upload(self, request: Request) -> Response:
         name, use = request.query_params.get("name", ""), request.query_params.get("as", "drawing")
-        if use not in ("drawing", "underlay"):
+        if use not in ("drawing", "underlay", "photo"):
             raise HTTPException(400)
         data = await _body(request, messages.MAX_UPLOAD)
         desk = self._session.desk
         await desk.ready.wait()
         if use == "underlay":
             await filing.trace(desk, data, name if is_name(name) else "This file")
+        elif use == "photo":
+            await filing.open_photo(desk, data, name if is_name(name) else "This file")
         else:
             await filing.open_bytes(desk, data, name)
         return _json({"revision": desk.revision})
