@@ -1,7 +1,7 @@
 """How thick is a limb in the photo?"""
 
 import numpy as np
-from jaxtyping import Float
+from jaxtyping import Bool, Float
 from scipy import ndimage
 
 from sketchtree.photo.trace.wood_likeness import WoodLikeness
@@ -13,13 +13,26 @@ _STEPS = 64
 def largest_circle(likeness: WoodLikeness, place: Float[np.ndarray, " 2"], most: float) -> float:
     """Radius of the largest circle of nothing but wood about a place, pixels; its centre may lie a few pixels off the stroke (§2: "at the tree root"). At most `most`,
     at least half a pixel."""
-    reach = int(np.ceil(2 * most))
-    grid = np.arange(-reach, reach + 1)
-    x, y = np.meshgrid(place[0] + grid, place[1] + grid)
-    wood = likeness.is_wood(np.stack([x, y], axis=-1).reshape(-1, 2)).reshape(x.shape)
-    room = ndimage.distance_transform_edt(np.pad(wood, 1))[1:-1, 1:-1]
-    near = np.hypot(x - place[0], y - place[1]) <= most
-    return float(np.clip(room[near].max() - 0.5, 0.5, most))
+    near = int(np.ceil(most))
+    grid = np.arange(-near, near + 1)
+    centres = np.hypot(grid[:, None], grid) <= most
+    for reach in (near // 4, near):  # a circle that is smaller than the first is found without looking farther
+        room = ndimage.distance_transform_edt(_around(likeness.mask, place, near + reach))[1 + reach : -1 - reach, 1 + reach : -1 - reach]
+        largest = float(room[centres].max())
+        if largest < reach:
+            break
+    return float(np.clip(largest - 0.5, 0.5, most))
+
+
+def _around(wood: Bool[np.ndarray, "row column"], place: Float[np.ndarray, " 2"], reach: int) -> Bool[np.ndarray, "side side"]:
+    """The pixels within so many rows and columns of a place, and a rim of none; off the picture there is no wood."""
+    column, row = (int(value) for value in np.floor(place))
+    top, left = max(row - reach, 0), max(column - reach, 0)
+    seen = wood[top : max(row + reach + 1, 0), left : max(column + reach + 1, 0)]
+    found = np.zeros((2 * reach + 3, 2 * reach + 3), bool)
+    first, start = top - row + reach + 1, left - column + reach + 1
+    found[first : first + seen.shape[0], start : start + seen.shape[1]] = seen
+    return found
 
 
 def half_widths(likeness: WoodLikeness, place: Float[np.ndarray, "place 2"], along: Float[np.ndarray, "place 2"], most: float) -> Float[np.ndarray, " place"]:

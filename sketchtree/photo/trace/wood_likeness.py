@@ -86,13 +86,16 @@ def _under(number, stroke, width: float) -> Int[np.ndarray, " pixel"]:
 def _others(number, marked: Marked, width: float, key) -> Int[np.ndarray, " pixel"]:
     """An even sample of the pixels that no stroke along a limb covers."""
     rows, columns = number.shape[:2]
-    free = np.ones((rows, columns), bool)
+    free, reach = np.ones((rows, columns), bool), max(int(width), 1)
+    near = np.stack(np.mgrid[-reach : reach + 1, -reach : reach + 1], axis=-1).reshape(-1, 2)
+    near = near[np.abs(near).sum(axis=1) <= reach]
     for stroke in marked.branches:
         spine, _ = evenly(stroke, 1.0)
         column, row = np.floor(spine).astype(np.int64).T
         inside = (row >= 0) & (row < rows) & (column >= 0) & (column < columns)
+        row, column = (np.unique(np.stack([row, column], axis=1)[inside], axis=0)[:, None] + near).reshape(-1, 2).T
+        inside = (row >= 0) & (row < rows) & (column >= 0) & (column < columns)
         free[row[inside], column[inside]] = False
-    free = ~ndimage.binary_dilation(~free, iterations=max(int(width), 1))
     where = np.flatnonzero(free.reshape(-1))
     draw = numpy_generator(stage_key(key, "others"))
     return number.reshape(-1)[where[draw.integers(len(where), size=_OTHERS)]]
