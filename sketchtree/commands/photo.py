@@ -4,6 +4,7 @@ import time
 from pathlib import Path
 
 import click
+from click.core import ParameterSource
 
 from sketchtree.commands import options
 from sketchtree.commands.progress import Progress
@@ -27,6 +28,9 @@ _PICTURE = click.Path(path_type=Path)
 @click.option("--replacements", type=click.IntRange(0, 10_000), default=100, show_default=True, help="Rounds of growth, at most; in each up to three branches are replaced.")
 @click.option("--alternate/--image-only", default=True, help="Grow round all sides, or (as a comparison) towards the image alone.")
 @click.option("--colours", type=click.Choice(["photo", "season"]), default="photo", show_default=True, help="Leaves as the photo shows them, or in the season's colours.")
+@click.option("--fit-leaves/--no-fit-leaves", default=True, show_default=True, help="As large and dense as it takes to cover the foliage.")
+@click.option("--leaf-size", type=float, default=1.0, show_default=True, metavar="TIMES", help="Larger or smaller leaves than that: 0.1 to 10.")
+@click.option("--leaf-density", type=float, default=1.0, show_default=True, metavar="TIMES", help="More or fewer leaves: 0.1 to 10.")
 @click.option("--depth", "depths", multiple=True, type=float, metavar="METRES", help="How far the second tree of a photo stands in front of the first; again for the third ...")
 @click.option("--template", default="auto", show_default=True, metavar="auto|none|NAME", help="Exemplar that supplies prior, bark and leaves.")
 @click.option("--height", type=float, metavar="METRES", help="Height of the (first) tree (default: the template's).")
@@ -43,7 +47,11 @@ def photo(image: Path, strokes: Path | None, auto: bool, output: Path, seed: int
     from sketchtree.photo.wanted import PhotoOptions
 
     photo_files.check_strokes(strokes, auto)
-    how = PhotoOptions(wanted["foliage"], wanted["trace"], photo_files.libraries(wanted["library"]), wanted["replacements"], wanted["alternate"], wanted["colours"])
+    asked = click.get_current_context().get_parameter_source("season") is not ParameterSource.DEFAULT
+    how = PhotoOptions(
+        wanted["foliage"], wanted["trace"], photo_files.libraries(wanted["library"]), wanted["replacements"], wanted["alternate"], wanted["colours"],
+        wanted["fit_leaves"], wanted["leaf_size"], wanted["leaf_density"], bare_as_seen=not asked,
+    )  # fmt: skip
     (files,) = writing.split_options(wanted, choices.FileOptions)
     check_extension(output, writing.WHOLE)
     writing.check_files(output, files)

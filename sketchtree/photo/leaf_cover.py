@@ -1,13 +1,15 @@
 """How large must leaves be, so that the tree covers what the photo shows as foliage, and no more?
 
 Ours: §4 leaves size and density to the user. A blade is a few points spread evenly over its drawing. A leaf is kept where INSIDE of them are seen in the foliage (the paper asks for its
-middle alone, and leaves blur the outline). Of every size in SIZES, kept leaves' points are put on a grid of cells, c_i whether cell i holds one, m_i ∈ [0, 1] how much of it is
-foliage, and the size with the greatest overlap is taken, or a smaller one that is hardly worse:
+middle alone, and leaves blur the outline), a smaller one of SMALLER its length where that is not so. Of every size in SIZES, kept leaves' points are put on a grid of cells, c_i whether
+cell i holds one, m_i ∈ [0, 1] how much of it is foliage, and the size with the greatest overlap is taken, or a smaller one that is hardly worse:
 
     Σ_i c_i m_i / Σ_i (c_i + m_i − c_i m_i)
+
+No leaf becomes longer than LONGEST of the tree's height, lest it look like a tree of paper: what that leaves open is for more leaves to close.
 """
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from functools import lru_cache
 
 import numpy as np
@@ -20,9 +22,11 @@ from sketchtree.photo.photo import at_pixels
 from sketchtree.photo.photo_leaves import SeenFoliage
 
 SIZES = tuple(float(size) for size in 1.2 ** np.arange(-3, 7))  # times the species', 0.58-2.99
-INSIDE = 0.7  # of a blade
-_CELLS = 6  # a leaf's length
-_POINTS = 32  # a blade
+INSIDE = 0.6  # of a blade
+SMALLER = 0.6
+LONGEST = 0.016
+_CELLS = 5  # a leaf's length
+_POINTS = 24  # a blade
 _HARDLY = 0.004  # of overlap, that a fifth of length must bring
 
 
@@ -48,10 +52,10 @@ class Blades:
         return self.foot[:, None] + size * self.reach
 
 
-def best_size(leaves: Leaves, seen: SeenFoliage) -> tuple[float, float]:
-    """(how many times as large the leaves should be, the overlap with the foliage then)."""
+def best_size(leaves: Leaves, seen: SeenFoliage, height: float = np.inf) -> tuple[float, float, float]:
+    """(how many times as large the leaves should be, the overlap with the foliage then, how many times it would be if they might be as large as they like). `height`: the tree's, metres."""
     if len(leaves) == 0:
-        return 1.0, 0.0
+        return 1.0, 0.0, 1.0
     blades = Blades.of(leaves, seen)
     cell = max(float(np.median(leaves.size)) / seen.similarity.scale / _CELLS, 1.0)
     share, known = _shares(seen.mask, cell), {}
@@ -66,12 +70,18 @@ def best_size(leaves: Leaves, seen: SeenFoliage) -> tuple[float, float]:
     while low < high:
         middle = (low + high) // 2
         low, high = (middle + 1, high) if overlap(middle + 1) > overlap(middle) + _HARDLY else (low, middle)
-    return SIZES[low], overlap(low)
+    longest = LONGEST * height / float(np.median(leaves.size))
+    allowed = max(int(np.searchsorted(SIZES, max(longest, 1.0), side="right")) - 1, 0)
+    return SIZES[min(low, allowed)], overlap(min(low, allowed)), SIZES[low]
 
 
 def mostly_inside(leaves: Leaves, seen: SeenFoliage) -> Leaves:
-    """The leaves that are seen in the foliage for the most part."""
-    return select(leaves, _inside(Blades.of(leaves, seen).at(1.0), seen.mask) >= INSIDE) if len(leaves) else leaves
+    """The leaves that are seen in the foliage for the most part, or are when they are smaller."""
+    if len(leaves) == 0:
+        return leaves
+    blades = Blades.of(leaves, seen)
+    fits, smaller = (_inside(blades.at(size), seen.mask) >= INSIDE for size in (1.0, SMALLER))
+    return select(replace(leaves, size=np.where(fits, 1.0, SMALLER) * leaves.size), fits | smaller)
 
 
 def _inside(point: Float[np.ndarray, "leaf point 2"], mask) -> Float[np.ndarray, " leaf"]:

@@ -1,7 +1,7 @@
 """The leaves of a photo's tree (§4): where its twigs bear them, kept where the photo confirms them, of the size and as many as its foliage asks for, in its colours.
 
 The paper's own, flat rectangles of a tenth of the trunk's radius, are the leaf model `rectangle` (`paper_leaves`). Any other is worn as its species does, larger or smaller (`leaf_cover`),
-and up to DENSEST times as dense where that would have to be more than ENOUGH times.
+and up to DENSEST times as dense where they would have to be larger than they may.
 """
 
 from dataclasses import dataclass, replace
@@ -16,13 +16,12 @@ from sketchtree.foliage.populate import populate
 from sketchtree.keys import stage_key
 from sketchtree.photo.leaf_cover import best_size, mostly_inside
 from sketchtree.photo.paper_leaves import RECTANGLE, paper_leaves
-from sketchtree.photo.photo_leaves import SeenFoliage
+from sketchtree.photo.photo_leaves import SeenFoliage, without_shadows
 from sketchtree.photo.wanted import PhotoOptions
 from sketchtree.skeleton import TreeSkeleton
 
-ENOUGH = 1.2
-DENSEST = 3.0
-MOST = 60_000  # leaves
+DENSEST = 4.0
+MOST = 80_000  # leaves
 
 
 @dataclass(frozen=True)
@@ -49,11 +48,11 @@ class PhotoLeafing:
         leaves = self._worn(tree, dress, key, density)
         if not self.wanted.fit_leaves:
             return replace(leaves, size=self.wanted.leaf_size * leaves.size)
-        size, _ = best_size(leaves, self.seen)
-        more = min((size / ENOUGH) ** 2, DENSEST, MOST / max(len(leaves), 1))
+        size, _, open_size = best_size(leaves, self.seen, tree.height)
+        more = min((open_size / size) ** 2, DENSEST, MOST / max(len(leaves), 1))
         if more > 1.1:
             leaves = self._worn(tree, dress, key, more * density)
-            size, _ = best_size(leaves, self.seen)
+            size, _, _ = best_size(leaves, self.seen, tree.height)
         return mostly_inside(replace(leaves, size=size * self.wanted.leaf_size * leaves.size), self.seen)
 
     def _worn(self, tree: TreeSkeleton, dress: Dress, key, density: float) -> Leaves:
@@ -62,4 +61,7 @@ class PhotoLeafing:
 
     def _coloured(self, leaves: Leaves) -> Leaves:
         """In the colours of the photo, if they are asked for. A grey photo has none to give."""
-        return self.seen.coloured(leaves) if self.wanted.colours == "photo" and not self.seen.photo.is_grey and len(leaves) else leaves
+        if self.wanted.colours != "photo" or self.seen.photo.is_grey or len(leaves) == 0:
+            return leaves
+        coloured = self.seen.coloured(leaves)
+        return replace(coloured, seen=without_shadows(coloured.seen))

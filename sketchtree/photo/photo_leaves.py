@@ -4,6 +4,13 @@
 looks through the page at its middle. Its colour is the mean of the pixels within half a leaf of there that show a leaf, or of the nearest such pixels (ours). A pixel shows a leaf where
 its colour is likelier a leaf's than that of what is between the leaves, is not most of the way to the latter (a blossom no broader than a pixel is half sky), and is not on a limb that
 was traced: so no leaf is as blue as the sky, or as brown as the wood.
+
+A photo's colours have its light and shadows in them, and whoever draws the tree throws others. So half of the shadows are taken out, and leaves are as bright as in light of their own
+(ours; Y the lightness of a leaf, Ȳ that of the brighter ones, c and c̄ the colours at lightness 1, of the leaf and of the brighter ones):
+
+    Y' = BRIGHTER Y^(1 − SHADE) Ȳ^SHADE        c' = c̄ + min(Y / Ȳ, 1)^½ (c − c̄)
+
+What is darkest tells least of its colour. And where blue outweighs red, it does so hardly more than in the brighter ones: that is the sky's light, or the sky.
 """
 
 from dataclasses import dataclass, replace
@@ -21,6 +28,11 @@ from sketchtree.photo.photo import Photo, at_pixels, turned_over
 from sketchtree.photo.trace.traced import Traced
 from sketchtree.similarity import Similarity
 
+SHADE = 0.5  # of the photo's shadows, in powers, is taken out
+BRIGHTER = 1.5  # times the photo's light
+BLUER = 1.1  # times the blue of the brighter ones, where blue outweighs red
+_PERCENT = 75  # percent of the leaves that are darker than the brighter ones
+_LIGHTNESS = np.array([0.2126, 0.7152, 0.0722])  # of linear sRGB
 _PURE = 0.6  # of the way that leaves are from what is between them, for the most part
 
 
@@ -67,6 +79,18 @@ class SeenFoliage:
         total = ndimage.uniform_filter(lit, (side, side, 1), mode="constant")
         known = near > 0.5 / side**2
         return np.where(known[..., None], total / np.maximum(near, 1e-9)[..., None], 0.0), known
+
+
+def without_shadows(colour: Float[np.ndarray, "leaf 3"]) -> Float[np.ndarray, "leaf 3"]:
+    """Linear colours of leaves with half of the photo's shadows taken out."""
+    light = np.maximum(colour @ _LIGHTNESS, 1e-4)
+    bright = float(np.percentile(light, _PERCENT))
+    own = colour / light[:, None]
+    usual = np.median(own[light >= bright], axis=0)
+    cold = (own[:, 2] > own[:, 0]) & (own[:, 2] > BLUER * usual[2])
+    own[cold] = usual + ((BLUER - 1) * usual[2] / (own[cold, 2] - usual[2]))[:, None] * (own[cold] - usual)
+    mixed = usual + np.sqrt(np.minimum(light / bright, 1.0))[:, None] * (own - usual)
+    return np.clip(mixed * (BRIGHTER * light ** (1 - SHADE) * bright**SHADE)[:, None], 0.0, 1.0)
 
 
 def leafy_pixels(photo: Photo, foliage: Foliage, traced: Traced | None = None) -> Bool[np.ndarray, "row column"]:
