@@ -64,12 +64,12 @@ class CpuWatch(Watch):
 
 
 def photos(folder: Path | None, only=None, size: int | None = None):
-    """(name, photo, strokes of each tree): painted ones, and those of the folder that there are strokes for."""
+    """(name, photo, strokes of each tree): painted ones, and those of the folder that there are strokes for, in `data/photo_strokes` or beside them."""
     for name, photo, marked in painted():
         if folder is None or only and name in only:
             yield name, photo, marked
-    for strokes in sorted(STROKES.glob("*.svg")) if folder else []:
-        found = next(iter(sorted(folder.glob(f"{strokes.stem}*"))), None)
+    for strokes in [*sorted(STROKES.glob("*.svg")), *sorted(folder.glob("*.svg"))] if folder else []:
+        found = next((path for path in sorted(folder.glob(f"{strokes.stem}*")) if path.suffix != ".svg"), None)
         if found is None or only and strokes.stem not in only:
             continue
         photo = read_photo(found)

@@ -1,6 +1,6 @@
 """What becomes of photos? One row a photo, as in Tan et al. 2008, Figure 7: photo | mask and trace | wood | the tree at the photo's view | from another side.
 
-    python -m benchmarks.photo_sheet [--photos DIR] [--only NAME]... -o SHEET.png
+    python -m benchmarks.photo_sheet [--photos DIR] [--only NAME]... [--cell PIXELS] -o SHEET.png
 """
 
 import argparse
@@ -66,6 +66,7 @@ def main(argv=None) -> None:
     parser = argparse.ArgumentParser(description=__doc__.splitlines()[0])
     parser.add_argument("--photos", type=Path)
     parser.add_argument("--only", action="append")
+    parser.add_argument("--cell", type=int, default=CELL, help="pixels, of either side of a picture")
     parser.add_argument("-o", "--output", type=Path, required=True)
     asked = parser.parse_args(argv)
     rows = []
@@ -75,7 +76,7 @@ def main(argv=None) -> None:
     sheet = Image.new("RGB", (rows[0].width, CELL * len(rows)), "white")
     for k, row in enumerate(rows):
         sheet.paste(row, (0, k * CELL))
-    sheet.save(asked.output)
+    sheet.resize((round(sheet.width * asked.cell / CELL), round(sheet.height * asked.cell / CELL)), Image.Resampling.LANCZOS).save(asked.output, optimize=True)
 
 
 if __name__ == "__main__":
