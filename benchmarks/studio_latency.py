@@ -58,7 +58,7 @@ class Page:
         """The next message of a kind; of trees of a phase and a revision."""
         async with asyncio.timeout(PATIENCE):
             while True:
-                head = _head(await self.socket.recv())
+                head = head_of(await self.socket.recv())
                 if head["type"] == "changed":
                     self.revision = head["revision"]
                 if head["type"] == kind and head.get("revision", 0) >= revision and phase in ("", head.get("phase")):
@@ -68,7 +68,8 @@ class Page:
         await self.socket.send(json.dumps(request))
 
 
-def _head(said: str | bytes) -> dict:
+def head_of(said: str | bytes) -> dict:
+    """A message, or the head of a frame."""
     if isinstance(said, str):
         return json.loads(said)
     (length,) = struct.unpack_from("<I", said)

@@ -361,6 +361,7 @@ class Traced(_Said):
     revision: int
     trees: list[TracedTree]
     remark: str  # what is missing, or went wrong; empty: nothing
+    waits: bool = False  # the foliage of a crown is being looked for; then limbs are traced once more, apart from it
 
 
 class Foliage(_Said):

@@ -16,11 +16,10 @@ from sketchtree.sketch.strokes import StrokeKind
 from sketchtree.studio import messages, wire
 from sketchtree.studio.hand import Hand
 from sketchtree.studio.ids import fitting
-from sketchtree.studio.making.photo_asked import Asked, is_mark, is_photo
+from sketchtree.studio.making.photo_asked import KEPT, Asked, is_mark, is_photo
 
 _NOTHING = "No stroke marks a limb in the photo."
 _FAINT = 0.5  # how strong the photo is, at most, below limbs that were taken over
-_KEPT = 8  # crowns whose foliage is kept
 
 
 class Tracer:
@@ -33,7 +32,7 @@ class Tracer:
         self._laid: dict[Hand, tuple[int, str]] = {}  # the process of each hand that has the photo, and which
         self._foliage: dict[str, bytes] = {}  # of crowns, by name: for a process that is begun again
         self._reasons: dict[str, str] = {}  # why crowns have none
-        self._finding: set[str] = set()  # crowns whose foliage is looked for
+        self._finds = False  # foliage is being looked for
         self._tinted: tuple[str, ...] = ()  # crowns whose foliage the pages have
         self._is_on = False
 
@@ -100,11 +99,12 @@ class Tracer:
         if answer is None or self._asked is None or self._asked[0] != revision:
             return
         told, known, unknown = answer
-        reasons = [self._reasons[name] for name in unknown if name in self._reasons]
-        self._tell(revision, told if told.remark or not reasons else messages.Traced(revision=revision, trees=told.trees, remark=reasons[0]))
-        wanted = {name: crown for name, crown in unknown.items() if name not in self._reasons and name not in self._finding}
-        if wanted:
-            self._run(self._find(asked, wanted))
+        remark = told.remark or next((self._reasons[name] for name in unknown if name in self._reasons), "")
+        waits = len(known) + len(unknown) <= KEPT and any(name not in self._reasons for name in unknown)
+        self._tell(revision, messages.Traced(revision=revision, trees=told.trees, remark=remark, waits=waits))
+        if waits and not self._finds:  # one after the other: what is wanted when it is found is asked for then
+            self._finds = True
+            self._run(self._find(asked, {name: crown for name, crown in unknown.items() if name not in self._reasons}))
         if known != self._tinted:
             await self._tint(revision, known)
 
@@ -120,23 +120,20 @@ class Tracer:
     async def _find(self, asked: Asked, wanted: dict[str, bytes]) -> None:
         """The foliage of crowns; then the limbs once more."""
         side = self._side()
-        self._finding |= wanted.keys()
         try:
             self._show(side, asked)
-            answer = await side.ask("foliage", wanted, asked.seed)[1]
-        except SketchTreeError:
-            return  # it is asked again with the next stroke
+            found, reasons = await side.ask("foliage", wanted, asked.seed)[1]
+        except SketchTreeError as error:
+            found, reasons = {}, dict.fromkeys(wanted, f"The foliage was not found. {error.message}")
         finally:
-            self._finding -= wanted.keys()
-        if answer is None or asked.picture != self._picture[0]:
-            return
-        found, reasons = answer
-        self._reasons |= reasons
-        self._foliage |= found
-        for name in list(self._foliage)[:-_KEPT]:
-            del self._foliage[name]
-        if found and self._hand.runs:
-            _unheard(self._hand.ask("learn", found)[1])
+            self._finds = False
+        if asked.picture == self._picture[0]:
+            self._reasons |= reasons
+            self._foliage |= found
+            for name in list(self._foliage)[:-KEPT]:
+                del self._foliage[name]
+            if found and self._hand.runs:
+                _unheard(self._hand.ask("learn", found)[1])
         if self._asked is not None:
             await self._trace(self._asked[0])
 

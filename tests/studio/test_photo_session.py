@@ -31,7 +31,7 @@ def test_a_picture_is_a_photo_when_a_page_says_so_and_undo_takes_it_back():
             assert talk.all("traced") == [] and not talk.last("changed")["underlay"]["photo"]
             await switched(talk, True)
             assert talk.session.document.underlay.photo and talk.last("changed")["underlay"]["photo"]
-            assert talk.last("traced") == {"type": "traced", "revision": 2, "trees": [], "remark": "1 strokes"}
+            assert talk.last("traced") == {"type": "traced", "revision": 2, "trees": [], "remark": "1 strokes", "waits": False}
             await talk.say(messages.Undo())
             assert not talk.session.document.underlay.photo and talk.engine.traced[-1][1] is talk.session.document
 

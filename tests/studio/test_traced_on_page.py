@@ -2,13 +2,14 @@
 
 import base64
 import io
+import sys
 
 import numpy as np
 import painted_photo as painted
 import pytest
 from PIL import Image
 
-from sketchtree.errors import SketchError
+from sketchtree.errors import OptionError, SketchError
 from sketchtree.photo.trace.trace import CIRCLE
 from sketchtree.sketch.strokes import Stroke
 from sketchtree.studio import wire
@@ -116,6 +117,13 @@ def test_traced_limbs_become_strokes_by_the_names_of_those_that_mark_them(bench,
     assert np.hypot(*(trunk.points[0] - painted.on_page([painted.TRUNK[0]])[0])) < 10 * UNIT
     again = photo_answers.limbs(bench, asked(picture, CROWN, *made))
     assert len({stroke.id for stroke in again}) == len(again)
+
+
+def test_what_is_not_installed_is_said(bench, picture, monkeypatch):
+    monkeypatch.setitem(sys.modules, "sklearn", None)
+    with pytest.raises(OptionError, match=r"^Tracing limbs in a photo needs the package `scikit-learn`. Install it with pip install 'sketchtree\[photo\]'.$"):
+        photo_answers.limbs(bench, asked(picture, TRUNK))
+    photo_answers.get_ready()
 
 
 def test_what_is_no_photo_is_told_by_who_asks(picture):

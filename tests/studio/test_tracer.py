@@ -57,6 +57,7 @@ def traces():
 def test_limbs_come_first_and_once_more_when_the_foliage_is_known(traces):
     told = traces.trace(CROWN, TRUNK, until=lambda event: isinstance(event, messages.Foliage))
     assert [type(event) for event in told] == [messages.Traced, messages.Traced, messages.Foliage]
+    assert [event.waits for event in told[:2]] == [True, False]
     assert all(event.revision == traces.revision for event in told) and told[-1].png and told[0].trees and told[1].trees
 
 
@@ -89,3 +90,20 @@ def test_traced_limbs_stand_for_the_strokes_that_mark_them(traces):
     assert {"trunk", "left"} < {stroke.id for stroke in limbs} and all(stroke.wood for stroke in limbs)
     with pytest.raises(SketchError, match="^No stroke marks a limb in the photo. Draw along the trunk, from its foot.$"):
         traces.run(traces.crew.with_traced(traces.document(CROWN)))
+
+
+def test_crowns_that_come_while_foliage_is_looked_for_are_looked_at_after_it(traces):
+    outlines = [painted.mark(f"crown {k}", [(x + 7 * k, y) for x, y in painted.CROWN], crown=True) for k in range(1, 5)]
+    begun = len(traces.told)
+
+    async def hurried():
+        for outline in outlines:
+            traces.revision += 1
+            traces.crew.trace(traces.revision, traces.document(outline, TRUNK))
+            await asyncio.sleep(0.2)
+        while not any(isinstance(event, messages.Foliage) and event.png and event.revision == traces.revision for event in traces.told[begun:]):
+            await asyncio.sleep(0.02)
+
+    traces.run(hurried())
+    last = [event for event in traces.told[begun:] if isinstance(event, messages.Traced)][-1]
+    assert last.revision == traces.revision and not last.waits

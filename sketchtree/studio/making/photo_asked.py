@@ -9,6 +9,8 @@ from sketchtree.editing.document import Document, Underlay
 from sketchtree.photo.photo import Photo
 from sketchtree.sketch.strokes import Stroke, StrokeKind
 
+KEPT = 16  # crowns whose foliage is kept, for undo; where a photo has more, limbs are traced without
+
 
 @dataclass(frozen=True)
 class Place:

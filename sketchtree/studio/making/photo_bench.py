@@ -5,6 +5,7 @@ The palette is the photo's; the foliage is a crown's, and is found elsewhere (`f
 
 import base64
 import hashlib
+import importlib.util
 import io
 import tempfile
 from collections.abc import Iterable, Mapping
@@ -30,10 +31,9 @@ from sketchtree.photo.wanted import PhotoOptions
 from sketchtree.planting import tree_key
 from sketchtree.sketch.strokes import Stroke, StrokeKind
 from sketchtree.studio import messages
-from sketchtree.studio.making.photo_asked import Asked, Place
+from sketchtree.studio.making.photo_asked import KEPT, Asked, Place
 from sketchtree.studio.making.photo_marks import Marks, marks
 
-_KEPT = 8  # crowns whose foliage is kept, for undo
 _TINT = 1024  # pixels of the longer side of the mask that pages get
 
 
@@ -81,13 +81,14 @@ class PhotoBench:
     def learn(self, found: Mapping[str, Foliage]) -> None:
         """The foliage of some crowns."""
         self.foliages |= found
-        for name in list(self.foliages)[:-_KEPT]:
+        for name in list(self.foliages)[:-KEPT]:
             del self.foliages[name]
 
     def trace(self, asked: Asked) -> Shown:
         """The limbs of each tree that is marked. Raises SketchTreeError."""
         if self.trouble is not None:
             raise self.trouble
+        check_package()
         if self.photo is None or asked.picture != self.digest:
             raise OptionError("The photo is not here any more.", remedy="Add it again.")
         found = marks(asked.strokes, asked.place, self.photo)
@@ -100,6 +101,12 @@ class PhotoBench:
                 known.append(crown.name) if foliage is not None else unknown.append(crown)
             limbs.append(tracing(self.photo, marked, foliage, key=stage_key(tree_key(key, number), "trace"), palette=self.palette))
         return Shown(found, limbs, tuple(known), tuple(unknown))
+
+
+def check_package() -> None:
+    """Raises OptionError where the package that learns colours is missing."""
+    if importlib.util.find_spec("sklearn") is None:
+        raise OptionError("Tracing limbs in a photo needs the package `scikit-learn`.", remedy="Install it with pip install 'sketchtree[photo]'.")
 
 
 def photo_of(picture: bytes) -> Photo:

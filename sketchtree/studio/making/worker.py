@@ -22,7 +22,7 @@ from pathlib import Path
 
 from sketchtree.errors import SketchTreeError
 
-NEWEST = ("full", "quick", "ghost", "glance", "alternatives", "trace", "tint", "foliage")
+NEWEST = ("full", "quick", "ghost", "glance", "alternatives", "trace", "tint")
 LAST = ("picture",)
 KNOWN = ("find", "frame")
 

@@ -184,6 +184,7 @@ export interface Traced {
   revision: number;
   trees: TracedTree[];
   remark: string; // what is missing, or went wrong; empty: nothing
+  waits: boolean; // the foliage of a crown is being looked for; then limbs are traced once more, apart from it
 }
 
 /** Where foliage shows in the photo, within its crowns. It comes later than the limbs, when a crown is another. */

@@ -8,7 +8,9 @@ import type { Store } from "../../store";
 import { icon } from "../../style/icons";
 
 const HOW = "Left button: the crown. Right button: a branch.";
-const NONE = "Mark the crown and the trunk first";
+const WAITS = "Looking for the foliage …";
+const NONE = "mark the crown and the trunk first";
+const SOON = "limbs are told from leaves once the foliage is known";
 
 export function photoCard(store: Store): HTMLElement {
   const words = element("p", { testId: "photo-words" });
@@ -26,9 +28,9 @@ export function photoCard(store: Store): HTMLElement {
   const show = (): void => {
     const { underlay, traced, foliage } = store.known;
     root.hidden = !underlay?.photo;
-    words.textContent = traced?.remark || HOW;
+    words.textContent = traced?.remark || (traced?.waits ? WAITS : HOW);
     tint.root.hidden = !foliage?.png;
-    block(use, traced?.trees.length ? null : NONE);
+    block(use, !traced?.trees.length ? NONE : traced.waits ? SOON : null);
     root.dataset["limbs"] = String(traced?.trees.reduce((sum, tree) => sum + tree.parent.length, 0) ?? 0);
   };
   store.on(["underlay", "traced", "foliage"], show);
