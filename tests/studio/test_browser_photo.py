@@ -105,6 +105,7 @@ def test_left_is_the_crown_and_right_a_branch_and_limbs_appear(page, ear, photo)
 
 def test_traced_limbs_become_the_drawing_and_the_tree_follows(page, ear):
     _, after = page.change(lambda: page.get("use-traced").click())
+    ear.rest()
     strokes = ear.strokes
     assert sum(stroke["kind"] == "branch" for stroke in strokes) > 1 and sum(stroke["kind"] == "crown" for stroke in strokes) == 1
     assert page.get("photo-card").is_hidden() and after["segments"] > 100 and not ear.state["underlay"]["photo"]
@@ -113,6 +114,7 @@ def test_traced_limbs_become_the_drawing_and_the_tree_follows(page, ear):
 
 def test_undo_brings_the_marks_back(page, ear):
     page.change(lambda: page.get("undo").click())
+    ear.rest()
     assert len(ear.strokes) == 2 and ear.state["underlay"]["photo"]
     page.get("photo-card").wait_for()
     page.get("photo-leave").click()
