@@ -6,7 +6,8 @@ cell i holds one, m_i ∈ [0, 1] how much of it is foliage, and the size with th
 
     Σ_i c_i m_i / Σ_i (c_i + m_i − c_i m_i)
 
-No leaf becomes longer than LONGEST of the tree's height, lest it look like a tree of paper: what that leaves open is for more leaves to close.
+No leaf becomes longer than LONGEST of the tree's height (a narrow one as much longer as gives it the area of a broad one, BROAD of its length squared), lest it look like a tree of
+paper: what that leaves open is for more leaves to close.
 """
 
 from dataclasses import dataclass, replace
@@ -18,6 +19,7 @@ from jaxtyping import Float
 from sketchtree.foliage.card_shape import foot_of
 from sketchtree.foliage.leaves import Leaves, select
 from sketchtree.foliage.models import leaf_model, leaf_painting
+from sketchtree.foliage.triangles import drawn_area
 from sketchtree.photo.photo import at_pixels
 from sketchtree.photo.photo_leaves import SeenFoliage
 
@@ -25,6 +27,7 @@ SIZES = tuple(float(size) for size in 1.2 ** np.arange(-3, 7))  # times the spec
 INSIDE = 0.6  # of a blade
 SMALLER = 0.6
 LONGEST = 0.016
+BROAD = 0.35
 _CELLS = 5  # a leaf's length
 _POINTS = 24  # a blade
 _HARDLY = 0.004  # of overlap, that a fifth of length must bring
@@ -70,7 +73,7 @@ def best_size(leaves: Leaves, seen: SeenFoliage, height: float = np.inf) -> tupl
     while low < high:
         middle = (low + high) // 2
         low, high = (middle + 1, high) if overlap(middle + 1) > overlap(middle) + _HARDLY else (low, middle)
-    longest = LONGEST * height / float(np.median(leaves.size))
+    longest = LONGEST * height / float(np.median(leaves.size)) * max(np.sqrt(BROAD / drawn_area(leaf_painting(leaves.model))), 1.0)
     allowed = max(int(np.searchsorted(SIZES, max(longest, 1.0), side="right")) - 1, 0)
     return SIZES[min(low, allowed)], overlap(min(low, allowed)), SIZES[low]
 
