@@ -1,4 +1,4 @@
-"""What does the studio look like? `python -m benchmarks.studio_capture [--only gif|pictures] [--out docs/pictures]`
+"""What does the studio look like? `python -m benchmarks.studio_capture [--only gif|pictures|photo] [--out docs/pictures]`
 
 Plays a real `sketchtree studio` in a browser without a screen, and writes `studio.gif` and the pictures of `docs/studio.md`. Of each moment of the film a
 picture is taken when the screen has come to rest: it shows every step, but not how long one waits (that is what `studio_latency` measures). Needs the extras
@@ -6,6 +6,7 @@ picture is taken when the screen has come to rest: it shows every step, but not 
 """
 
 import argparse
+import base64
 import contextlib
 import io
 import os
@@ -14,7 +15,7 @@ import subprocess
 import sys
 import tempfile
 import time
-from collections.abc import Iterator
+from collections.abc import Callable, Iterator
 from dataclasses import dataclass, field
 from pathlib import Path
 
@@ -22,8 +23,13 @@ import numpy as np
 from PIL import Image, ImageDraw
 from playwright.sync_api import Browser, Page, sync_playwright
 
+from sketchtree.photo.read_photo import read_photo
+from sketchtree.photo.read_strokes import read_strokes
+
 ARGUMENTS = ["--no-sandbox", "--enable-unsafe-swiftshader", "--use-gl=angle", "--use-angle=swiftshader", "--ignore-gpu-blocklist"]
 PATIENCE = 120.0  # seconds
+PHOTO = Path(__file__).parent.parent / "examples" / "photo" / "autumn_oak"  # a .jpg, and its strokes
+UPLOAD = "async (data) => fetch('upload?name=autumn oak.jpg&as=photo', { method: 'POST', body: Uint8Array.from(atob(data), (c) => c.charCodeAt(0)) })"
 WIDE, FRAME = 800, 110  # of the film: pixels, milliseconds a picture
 COLOURS = 160
 TELLING = ("2f6b4f", "86c6a0", "f59a1b", "b45f00", "ffb347", "e5a11b", "cf7b2e", "f0c4cf", "c98ea0", "9cc069", "4f8a4c", "ffffff")  # of buttons, handles, seasons
@@ -243,16 +249,52 @@ def pictures(out: Path) -> None:
         still(dark, out / "studio_dark.png")
 
 
+def photo(out: Path) -> None:
+    """A photo under the page, with the strokes that mark it, what was traced, and the tree."""
+    picture = PHOTO.with_suffix(".jpg")
+    shown = read_photo(picture)
+    marked = read_strokes(PHOTO.with_suffix(".svg"), shown)[0]
+    with studio("oak.sketchtree") as (browser, address):
+        page = opened(browser, address, 1400, 860)
+        page.evaluate(UPLOAD, base64.b64encode(picture.read_bytes()).decode())
+        page.get_by_test_id("photo-card").wait_for()
+        settle(page)
+        place = _on_screen(page, shown.width, shown.height)
+        for points, button in ((np.r_[marked.crown, marked.crown[:1]], "left"), *((line, "right") for line in marked.branches)):
+            way = place(points)
+            page.mouse.move(*way[0])
+            page.mouse.down(button=button)
+            for x, y in way:
+                page.mouse.move(x, y)
+            page.mouse.up(button=button)
+        page.get_by_test_id("photo-tint").wait_for(timeout=1000 * PATIENCE)
+        page.locator(".template:nth-child(-n + 10) .thumbnail:not([data-picture])").first.wait_for(state="detached", timeout=1000 * PATIENCE)
+        settle(page)
+        still(page, out / "studio_photo.png")
+
+
+def _on_screen(page: Page, width: int, height: int) -> Callable[[np.ndarray], np.ndarray]:
+    """Where pixels of a photo that was just laid under the page are: in the middle of what is free of it, 6 % of which is margin on each side (`PageCamera.fit`)."""
+    box = page.get_by_test_id("page-canvas").bounding_box()
+    head, foot = page.evaluate(
+        "() => { const words = document.querySelector('.page-words'), foot = document.querySelector('.page-foot'); "
+        "return [words.offsetTop + words.offsetHeight, document.getElementById('page').clientHeight - foot.offsetTop + 4] }"
+    )
+    free = box["height"] - head - foot
+    scale = 0.88 * min(box["width"] / width, free / height)
+    middle = np.array([box["x"] + box["width"] / 2, box["y"] + head + free / 2])
+    return lambda pixels: middle + scale * (np.asarray(pixels) - [width / 2, height / 2])
+
+
 def main() -> None:
-    """Both, or one."""
+    """All, or one."""
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
-    parser.add_argument("--only", choices=("gif", "pictures"))
+    parser.add_argument("--only", choices=("gif", "pictures", "photo"))
     parser.add_argument("--out", type=Path, default=Path("docs/pictures"))
     chosen = parser.parse_args()
-    if chosen.only != "gif":
-        pictures(chosen.out)
-    if chosen.only != "pictures":
-        film(chosen.out / "studio.gif")
+    made = {"pictures": lambda: pictures(chosen.out), "photo": lambda: photo(chosen.out), "gif": lambda: film(chosen.out / "studio.gif")}
+    for make in made.values() if chosen.only is None else (made[chosen.only],):
+        make()
 
 
 if __name__ == "__main__":

@@ -11,7 +11,7 @@ const FILE: Pick<Shortcut, "shown" | "does">[] = [
 
 const PEN: Pick<Shortcut, "shown" | "does">[] = [
   { shown: "Wheel", does: "Closer and farther" }, { shown: "Space + drag", does: "Move the page" },
-  { shown: "Right drag", does: "Turn the page about the tree" },
+  { shown: "Right drag", does: "Turn the page about the tree; on a photo, draw a branch" },
   { shown: "Two fingers", does: "Move and zoom the page" }, { shown: "Alt + erase", does: "Cut out a part" },
   { shown: "Shift + click", does: "Select one more" },
 ];
