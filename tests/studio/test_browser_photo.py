@@ -108,7 +108,8 @@ def test_traced_limbs_become_the_drawing_and_the_tree_follows(page, ear):
     ear.rest()
     strokes = ear.strokes
     assert sum(stroke["kind"] == "branch" for stroke in strokes) > 1 and sum(stroke["kind"] == "crown" for stroke in strokes) == 1
-    assert page.get("photo-card").is_hidden() and after["segments"] > 100 and not ear.state["underlay"]["photo"]
+    page.get("photo-card").wait_for(state="hidden")
+    assert after["segments"] > 100 and not ear.state["underlay"]["photo"]
     assert ear.undo == "traced limbs"
 
 
@@ -118,5 +119,5 @@ def test_undo_brings_the_marks_back(page, ear):
     assert len(ear.strokes) == 2 and ear.state["underlay"]["photo"]
     page.get("photo-card").wait_for()
     page.get("photo-leave").click()
+    page.get("photo-card").wait_for(state="hidden")
     ear.wait(lambda: not ear.state["underlay"]["photo"], "a picture to trace over")
-    assert page.get("photo-card").is_hidden()
