@@ -152,7 +152,7 @@ def grow_in_photo(
     drawn = draw_out_graph(sketch, graph, templates, key=key, options=reading, similarity=similarity, watch=watch)
     seen = SeenFoliage(photo, foliage.mask, drawn.similarity, leafy_pixels(photo, foliage, traced))
     with watch("propagate"):
-        stage = Attract(targets=target_of(seen), library=wanted.library, iterations=wanted.replacements, alternate=wanted.alternate)
+        stage = Attract(targets=target_of(seen), library=wanted.library, iterations=wanted.replacements, alternate=wanted.alternate, twigs=wanted.replacements > 0)
         grown = stage.run(drawn.skeleton, key=stage_key(key, "attract"))
     return GrownInPhoto(own, foliage, traced, drawn, grown, seen)
 

@@ -70,6 +70,7 @@ def photo(image: Path, strokes: Path | None, auto: bool, output: Path, seed: int
         templates = None if db is None and reading.template == "none" else Database.open(db)
         with watch("read"):
             seen, marked, mask = photo_files.read(image, strokes, wanted["use_mask"], reading, key=root_key(seed))
+            photo_files.check_trees(output, seen, len(marked))
         made = photo_to_tree(
             seen, marked, templates, key=root_key(seed), wanted=how, reading=reading, tree=tree, mask=mask, depths=wanted["depths"] or None, watch=watch
         )

@@ -56,6 +56,14 @@ def read(image: Path, strokes: Path | None, mask: Path | None, limits, *, key):
     return photo, propose(photo, key=key).trees, known
 
 
+def check_trees(output: Path, photo, trees: int) -> None:
+    """Refuse, before the work, a file that can't hold so many trees. Raises ExportError."""
+    from sketchtree.export.files import PROJECTS
+
+    if trees > 1 and output.suffix.lower() in PROJECTS:
+        raise ExportError(f"A project holds one tree, and {trees} are marked in {photo.name}.", remedy="Write .glb, or give strokes of one tree.")
+
+
 def write(made, output: Path, run, wanted: dict, files, *, kept: tuple[Path, ...]) -> tuple[str, ...]:
     """Everything asked for; returns warnings (a picture that could not be drawn)."""
     from sketchtree.commands import writing
