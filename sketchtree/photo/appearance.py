@@ -4,6 +4,7 @@
 """
 
 from dataclasses import dataclass
+from functools import cache
 
 import numpy as np
 from jaxtyping import Array, Float, Key
@@ -48,14 +49,27 @@ class Mixture:
 def fit_mixture(colour: Float[np.ndarray, "pixel channel"], components: int, *, key: Key[Array, ""]) -> Mixture:
     """The mixture that explains the colours best: expectation maximisation from a k-means start. At most so many components: fewer where there are fewer colours."""
     from sklearn.mixture import GaussianMixture
-    from threadpoolctl import threadpool_limits
 
     draw = numpy_generator(key)
     colour = np.asarray(colour, np.float64)
     if len(colour) > _SAMPLE:
         colour = colour[np.sort(draw.choice(len(colour), _SAMPLE, replace=False))]
-    components = max(1, min(components, len(np.unique(colour, axis=0)) // 2))
+    components = max(1, min(components, _colours(colour, 2 * components) // 2))
     start = int(draw.integers(2**31 - 1))
-    with threadpool_limits(1):  # its matrices are 3 × 3: threads would only wait for each other
+    with _threads().limit(limits=1):  # its matrices are 3 × 3: threads would only wait for each other
         fitted = GaussianMixture(components, reg_covar=_LEAST, max_iter=60, tol=1e-2, random_state=start).fit(colour)
     return Mixture(fitted.weights_, fitted.means_, fitted.covariances_)
+
+
+def _colours(colour: Float[np.ndarray, "pixel channel"], enough: int) -> int:
+    """How many different colours there are; where there are enough among the first, only of those."""
+    first = len(np.unique(colour[: 64 * enough], axis=0))
+    return first if first >= enough else len(np.unique(colour, axis=0))
+
+
+@cache
+def _threads():
+    """The pools of threads of the libraries that are loaded. To ask for them takes as long as to fit a mixture."""
+    from threadpoolctl import ThreadpoolController
+
+    return ThreadpoolController()

@@ -10,16 +10,16 @@ TAPER = 0.75  # radius of a branch / radius of its parent (§2)
 _STEPS = 64
 
 
-def largest_circle(likeness: WoodLikeness, place: Float[np.ndarray, " 2"], most: float) -> float:
+def largest_circle(likeness: WoodLikeness, place: Float[np.ndarray, " 2"], most: float, enough: float = np.inf) -> float:
     """Radius of the largest circle of nothing but wood about a place, pixels; its centre may lie a few pixels off the stroke (§2: "at the tree root"). At most `most`,
-    at least half a pixel."""
+    at least half a pixel. One of `enough` is told without looking for a larger one."""
     near = int(np.ceil(most))
     grid = np.arange(-near, near + 1)
     centres = np.hypot(grid[:, None], grid) <= most
     for reach in (near // 4, near):  # a circle that is smaller than the first is found without looking farther
         room = ndimage.distance_transform_edt(_around(likeness.mask, place, near + reach))[1 + reach : -1 - reach, 1 + reach : -1 - reach]
         largest = float(room[centres].max())
-        if largest < reach:
+        if largest < reach or largest - 0.5 >= enough:
             break
     return float(np.clip(largest - 0.5, 0.5, most))
 

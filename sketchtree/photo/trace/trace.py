@@ -90,8 +90,8 @@ def root_radius(likeness: WoodLikeness, stroke: Float[np.ndarray, "point 2"], ra
     shadow at the root may look like wood)."""
     place, along = evenly(stroke, 0.5 * radius)
     seen = half_widths(likeness, place, along, most)[: max(len(place) // 2, 2)]
-    circle = largest_circle(likeness, place[0], most)
-    return min(circle, _FLARE * float(np.nanpercentile(seen, 25))) if np.isfinite(seen).any() else circle
+    flare = _FLARE * float(np.nanpercentile(seen, 25)) if np.isfinite(seen).any() else np.inf
+    return min(largest_circle(likeness, place[0], most, enough=flare), flare)
 
 
 def _falling(half: Float[np.ndarray, " place"], first: float) -> Float[np.ndarray, " place"]:
