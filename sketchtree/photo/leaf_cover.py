@@ -14,13 +14,12 @@ from dataclasses import dataclass, replace
 from functools import lru_cache
 
 import numpy as np
-from jaxtyping import Float
+from jaxtyping import Bool, Float, Int
 
 from sketchtree.foliage.card_shape import foot_of
 from sketchtree.foliage.leaves import Leaves, select
 from sketchtree.foliage.models import leaf_model, leaf_painting
 from sketchtree.foliage.triangles import drawn_area
-from sketchtree.photo.photo import at_pixels
 from sketchtree.photo.photo_leaves import SeenFoliage
 
 SIZES = tuple(float(size) for size in 1.2 ** np.arange(-3, 7))  # times the species', 0.58-2.99
@@ -29,8 +28,8 @@ SMALLER = 0.6
 LONGEST = 0.016
 BROAD = 0.35
 _CELLS = 5  # a leaf's length
-_POINTS = 24  # a blade
-_HARDLY = 0.004  # of overlap, that a fifth of length must bring
+_POINTS = 18  # a blade
+_HARDLY = 0.003  # of overlap, that a fifth of length must bring
 
 
 @dataclass(frozen=True, eq=False)
@@ -43,16 +42,49 @@ class Blades:
     @classmethod
     def of(cls, leaves: Leaves, seen: SeenFoliage) -> "Blades":
         """Of all leaves."""
+        direction, normal = leaves.direction.astype(np.float32), leaves.normal.astype(np.float32)
         flat, model = points_of(leaves.model), leaf_model(leaves.model)
-        across = np.cross(leaves.direction, leaves.normal)
-        turn = np.pi * (np.arange(len(flat)) % max(model.planes, 1)) / max(model.planes, 1)  # the planes of a tuft share its points
-        side = np.cos(turn)[None, :, None] * across[:, None, :2] + np.sin(turn)[None, :, None] * leaves.normal[:, None, :2]
-        reach = (flat[None, :, :1] * side + flat[None, :, 1:] * leaves.direction[:, None, :2]) * leaves.size[:, None, None]
-        return cls(seen.pixels(leaves.position), (reach * [1.0, -1.0] / seen.similarity.scale).astype(np.float32))
+        across = np.cross(direction, normal)
+        turn = (np.pi * (np.arange(len(flat)) % max(model.planes, 1)) / max(model.planes, 1)).astype(np.float32)  # the planes of a tuft share its points
+        side = np.cos(turn)[None, :, None] * across[:, None, :2] + np.sin(turn)[None, :, None] * normal[:, None, :2]
+        reach = (flat[None, :, :1] * side + flat[None, :, 1:] * direction[:, None, :2]) * leaves.size[:, None, None].astype(np.float32)
+        return cls(seen.pixels(leaves.position).astype(np.float32), reach * np.array([1.0, -1.0], np.float32) / np.float32(seen.similarity.scale))
 
     def at(self, size: float) -> Float[np.ndarray, "leaf point 2"]:
         """Where the points are when leaves are so many times as large."""
-        return self.foot[:, None] + size * self.reach
+        return self.foot[:, None] + np.float32(size) * self.reach
+
+
+@dataclass(frozen=True, eq=False)
+class _Page:
+    """The foliage, and the cells that its pixels belong to; a rim of one pixel stands for all that is off the picture."""
+
+    mask: Bool[np.ndarray, "pixel"]
+    cell: Int[np.ndarray, "pixel"]  # 0 off the picture
+    share: Float[np.ndarray, "cell"]  # how much of each is foliage
+    shape: tuple[int, int]
+
+    @classmethod
+    def of(cls, mask: Bool[np.ndarray, "row column"], side: float) -> "_Page":
+        """Cells `side` pixels wide."""
+        row, column = (((np.arange(count) + 0.5) / side).astype(np.int32) for count in mask.shape)
+        cell = np.pad(1 + row[:, None] * (column[-1] + 1) + column[None, :], 1)
+        mask = np.pad(mask, 1)
+        count = np.bincount(cell[mask], minlength=int(cell.max()) + 1)
+        return cls(mask.reshape(-1), cell.reshape(-1), np.minimum(count / side**2, 1.0), mask.shape)
+
+    def pixels(self, point: Float[np.ndarray, "leaf point 2"]) -> Int[np.ndarray, "leaf point"]:
+        """The pixel that each point lies in."""
+        column = np.clip(point[..., 0] + 1, 0, self.shape[1] - 1).astype(np.int32)
+        row = np.clip(point[..., 1] + 1, 0, self.shape[0] - 1).astype(np.int32)
+        return row * self.shape[1] + column
+
+    def overlap(self, pixel: Int[np.ndarray, "leaf point"]) -> float:
+        """Intersection over union of the cells that hold a point of a leaf kept, and the foliage."""
+        held = np.zeros(len(self.share), bool)
+        held[self.cell[pixel[self.mask[pixel].mean(axis=1) >= INSIDE]]] = True
+        both = float(self.share[held].sum())
+        return both / (float(held.sum() + self.share.sum()) - both)
 
 
 def best_size(leaves: Leaves, seen: SeenFoliage, height: float = np.inf) -> tuple[float, float, float]:
@@ -60,13 +92,11 @@ def best_size(leaves: Leaves, seen: SeenFoliage, height: float = np.inf) -> tupl
     if len(leaves) == 0:
         return 1.0, 0.0, 1.0
     blades = Blades.of(leaves, seen)
-    cell = max(float(np.median(leaves.size)) / seen.similarity.scale / _CELLS, 1.0)
-    share, known = _shares(seen.mask, cell), {}
+    page, known = _Page.of(seen.mask, max(float(np.median(leaves.size)) / seen.similarity.scale / _CELLS, 1.0)), {}
 
     def overlap(k: int) -> float:
         if k not in known:
-            point = blades.at(SIZES[k])
-            known[k] = _overlap(point[_inside(point, seen.mask) >= INSIDE], share, cell)
+            known[k] = page.overlap(page.pixels(blades.at(SIZES[k])))
         return known[k]
 
     low, high = 0, len(SIZES) - 1  # the overlap rises to its best size, and falls from there
@@ -82,14 +112,9 @@ def mostly_inside(leaves: Leaves, seen: SeenFoliage) -> Leaves:
     """The leaves that are seen in the foliage for the most part, or are when they are smaller."""
     if len(leaves) == 0:
         return leaves
-    blades = Blades.of(leaves, seen)
-    fits, smaller = (_inside(blades.at(size), seen.mask) >= INSIDE for size in (1.0, SMALLER))
+    blades, page = Blades.of(leaves, seen), _Page.of(seen.mask, 1.0)
+    fits, smaller = (page.mask[page.pixels(blades.at(size))].mean(axis=1) >= INSIDE for size in (1.0, SMALLER))
     return select(replace(leaves, size=np.where(fits, 1.0, SMALLER) * leaves.size), fits | smaller)
-
-
-def _inside(point: Float[np.ndarray, "leaf point 2"], mask) -> Float[np.ndarray, " leaf"]:
-    """How much of every blade is seen in the foliage, 0-1."""
-    return at_pixels(mask, point.reshape(-1, 2)).reshape(point.shape[:2]).mean(axis=1)
 
 
 @lru_cache(maxsize=None)
@@ -101,21 +126,4 @@ def points_of(name: str) -> Float[np.ndarray, "point 2"]:
     rows, columns = painting.coverage.shape
     x = painting.left + (column[some] + 0.5) / columns * (painting.right - painting.left)
     y = painting.top + (row[some] + 0.5) / rows * (painting.bottom - painting.top)
-    return np.column_stack([x, y - foot_of(painting)])
-
-
-def _shares(mask, cell: float) -> Float[np.ndarray, "row column"]:
-    """How much of each cell is foliage."""
-    rows, columns = (int(np.ceil(side / cell)) for side in mask.shape)
-    row, column = np.nonzero(mask)
-    count = np.bincount(((row + 0.5) / cell).astype(np.int64) * columns + ((column + 0.5) / cell).astype(np.int64), minlength=rows * columns)
-    return np.minimum(count / cell**2, 1.0).reshape(rows, columns)
-
-
-def _overlap(point, share, cell: float) -> float:
-    """Intersection over union of the cells with a point, and the foliage. Cells off the picture are not foliage."""
-    place = np.floor(point.reshape(-1, 2) / cell).astype(np.int64)
-    held = np.zeros((share.shape[0] + 2, share.shape[1] + 2), bool)
-    held[np.clip(place[:, 1] + 1, 0, share.shape[0] + 1), np.clip(place[:, 0] + 1, 0, share.shape[1] + 1)] = True
-    both = float(share[held[1:-1, 1:-1]].sum())
-    return both / (float(held.sum() + share.sum()) - both)
+    return np.column_stack([x, y - foot_of(painting)]).astype(np.float32)
