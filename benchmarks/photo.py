@@ -138,7 +138,7 @@ def on_twigs(tree: PhotoTree) -> float:
         run = np.r_[0.0, np.cumsum(np.linalg.norm(np.diff(line, axis=0), axis=1))]
         at = np.linspace(0.0, run[-1], max(int(run[-1] / step), 1) + 1)
         points.append(np.column_stack([np.interp(at, run, line[:, axis]) for axis in range(3)]))
-        radius.append(np.full(len(at), skeleton.radius[row]))
+        radius.append(np.full(len(at), max(skeleton.radius[row], skeleton.radius[skeleton.parent[row]])))
     share = np.linspace(0.0, 1.0, 9)[:, None, None]
     shoots = (leaves.shoot[None, :, 0] * (1 - share) + leaves.shoot[None, :, 1] * share).reshape(-1, 3)
     points.append(shoots), radius.append(np.zeros(len(shoots)))
