@@ -70,8 +70,8 @@ class Crew:
         self._loop = asyncio.get_running_loop()
         for role in _ROLES:
             self._hands[role] = Hand(role, self._database, self._event if role == "full" else lambda number, value: None, partial(self._ended, role))
-        photo = Hand("photo", self._database, lambda number, value: None, partial(self._ended, "photo"))
-        self._tracer = Tracer(photo, lambda: self._hands["side"], lambda revision, event: self.on_outcome(Outcome(revision, event)), self._run)
+        photo = [Hand(role, self._database, lambda number, value: None, partial(self._ended, role)) for role in ("photo", "foliage")]
+        self._tracer = Tracer(*photo, lambda revision, event: self.on_outcome(Outcome(revision, event)), self._run)
         self._begun = 1
         self._empty: bytes | None = None  # the tree of a page without a stroke, if that was told last
         self._hands["full"].begin()  # the others once there is a tree, or when they are asked

@@ -1,9 +1,9 @@
-"""Which limbs show in the photo under the page? Asked at each stroke, of a process of its own, so that they are there before the tree is.
+"""Which limbs show in the photo under the page? Asked at each stroke, of processes of its own, so that they are there before the tree is.
 
     stroke → limbs traced → pages                 ≤ 100 ms; the newest wins
-           → a crown that is new → its foliage, found aside → limbs traced again, now apart from leaves → pages, and its tint
+           → a crown that is new → its foliage, found by a second process → limbs traced again, now apart from leaves → pages, and its tint
 
-The process begins when a photo is first marked. It keeps the photo; should it end, it is begun again and told what it knew.
+The processes begin when a photo is first there. They keep it; should the first end, it is begun again and told what it knew.
 """
 
 import asyncio
@@ -23,10 +23,10 @@ _FAINT = 0.5  # how strong the photo is, at most, below limbs that were taken ov
 
 
 class Tracer:
-    """`tell` is given what pages are to know; `run` does work aside; `side` is the process that finds foliage."""
+    """`hand` traces, `other` finds foliage; `tell` is given what pages are to know; `run` does work aside."""
 
-    def __init__(self, hand: Hand, side: Callable[[], Hand], tell: Callable[[int, messages.Event], None], run: Callable[[Coroutine], None]):
-        self._hand, self._side, self._tell, self._run = hand, side, tell, run
+    def __init__(self, hand: Hand, other: Hand, tell: Callable[[int, messages.Event], None], run: Callable[[Coroutine], None]):
+        self._hand, self._other, self._tell, self._run = hand, other, tell, run
         self._asked: tuple[int, Asked] | None = None  # what the page shows now: revision, and what is to be traced; None: nothing
         self._picture: tuple[str, bytes] = ("", b"")
         self._laid: dict[Hand, tuple[int, str]] = {}  # the process of each hand that has the photo, and which
@@ -65,8 +65,9 @@ class Tracer:
         return fitting(document.replace(strokes=strokes, underlay=faint))
 
     def end(self) -> None:
-        """End the process."""
+        """End the processes."""
         self._hand.end()
+        self._other.end()
 
     def _lay(self, document: Document) -> Asked:
         """What is asked; the picture is at hand."""
@@ -96,6 +97,7 @@ class Tracer:
             answer = await self._hand.ask("trace", revision, asked)[1]
         except SketchTreeError as error:
             answer = messages.Traced(revision=revision, trees=[], remark=f"{error.message} {error.remedy}"), (), {}
+        self._show(self._other, asked)  # a crown is soon to come
         if answer is None or self._asked is None or self._asked[0] != revision:
             return
         told, known, unknown = answer
@@ -119,10 +121,9 @@ class Tracer:
 
     async def _find(self, asked: Asked, wanted: dict[str, bytes]) -> None:
         """The foliage of crowns; then the limbs once more."""
-        side = self._side()
         try:
-            self._show(side, asked)
-            found, reasons = await side.ask("foliage", wanted, asked.seed)[1]
+            self._show(self._other, asked)
+            found, reasons = await self._other.ask("foliage", wanted, asked.seed)[1]
         except SketchTreeError as error:
             found, reasons = {}, dict.fromkeys(wanted, f"The foliage was not found. {error.message}")
         finally:

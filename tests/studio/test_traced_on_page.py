@@ -123,7 +123,7 @@ def test_what_is_not_installed_is_said(bench, picture, monkeypatch):
     monkeypatch.setitem(sys.modules, "sklearn", None)
     with pytest.raises(OptionError, match=r"^Tracing limbs in a photo needs the package `scikit-learn`. Install it with pip install 'sketchtree\[photo\]'.$"):
         photo_answers.limbs(bench, asked(picture, TRUNK))
-    photo_answers.get_ready()
+    photo_answers.get_ready(leaves=True)
 
 
 def test_what_is_no_photo_is_told_by_who_asks(picture):

@@ -51,14 +51,17 @@ def tinted(bench: PhotoBench, revision: int, names: Iterable[str]) -> messages.F
     return messages.Foliage(revision=revision, png=tint(bench.foliages[name].mask for name in names if name in bench.foliages))
 
 
-def get_ready() -> None:
-    """What is slow only the first time: a little painted photo is traced."""
+def get_ready(*, leaves: bool) -> None:
+    """What is slow only the first time: a little painted photo is traced, and its leaves looked for."""
     y, x = np.mgrid[0:96, 0:96]
     grain = ((7 * x + 13 * y) % 11)[..., None]
     rgb = np.where((np.abs(x - 48) < 5)[..., None], (90, 60, 40), (150, 170, 220)) + grain
+    rgb[10:50:3, 30:66:2] = (60, 120, 40)
     bench = PhotoBench()
     bench.lay("a little photo", Photo(rgb.astype(np.uint8)))
     trunk = Stroke("trunk", np.array([(48.0, -95.0), (48.0, -4.0)]))
     crown = Stroke("crown", np.array([(20.0, -60.0), (76.0, -60.0), (76.0, -2.0), (20.0, -2.0)]), StrokeKind.CROWN, labelled=True, closed=True)
     with contextlib.suppress(SketchTreeError):  # who asks is told
-        bench.trace(Asked(bench.digest, Place(0.0, 0.0, 96.0, 96.0), (trunk, crown)))
+        shown = bench.trace(Asked(bench.digest, Place(0.0, 0.0, 96.0, 96.0), (trunk, crown)))
+        for one in shown.unknown if leaves else ():
+            foliage_of(bench.photo, one, 0)

@@ -27,7 +27,7 @@ LAST = ("picture",)
 KNOWN = ("find", "frame")
 
 _REST = 0.4  # seconds without a job, after which what nobody waits for goes on
-_NICE = {"quick": 0, "photo": 0, "full": 4, "side": 8}  # what a pen waits for goes before what a tree waits for, and that before pictures
+_NICE = {"quick": 0, "photo": 0, "foliage": 2, "full": 4, "side": 8}  # what a pen waits for goes before what a tree waits for, and that before pictures
 
 
 class Desk:
@@ -82,7 +82,7 @@ class Desk:
 
 
 def main(pipe: Connection, database: str | None, role: str) -> None:
-    """Work until the pipe closes, as one of the crew: quick, full, side, or photo."""
+    """Work until the pipe closes, as one of the crew: quick, full, side, photo or foliage."""
     signal.signal(signal.SIGINT, signal.SIG_IGN)
     if hasattr(os, "nice"):
         os.nice(_NICE[role])
@@ -90,8 +90,8 @@ def main(pipe: Connection, database: str | None, role: str) -> None:
     from sketchtree.studio.making.jobs import Jobs
 
     jobs = Jobs(None if database is None else Path(database), desk)
-    if role == "photo":
-        jobs.photo_answers.get_ready()
+    if role in ("photo", "foliage"):
+        jobs.photo_answers.get_ready(leaves=role == "foliage")
     elif role != "side":
         jobs.import_all()  # before there is another thread
     threading.Thread(target=_answer, args=(jobs, desk), daemon=True).start()
