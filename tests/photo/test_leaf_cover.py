@@ -4,11 +4,14 @@ import numpy as np
 import pytest
 
 from sketchtree.axes import NULL
+from sketchtree.errors import OptionError
 from sketchtree.foliage.cards import leaf_mesh
 from sketchtree.foliage.leaf_materials import leaf_material
 from sketchtree.foliage.leaves import Leaves
 from sketchtree.foliage.models import leaf_model, leaf_names, plain_names
+from sketchtree.foliage.populate import populate
 from sketchtree.keys import root_key
+from sketchtree.parameters import Habit
 from sketchtree.photo.leaf_cover import INSIDE, SIZES, SMALLER, best_size, mostly_inside, points_of
 from sketchtree.photo.paper_leaves import paper_leaves
 from sketchtree.photo.photo import Photo
@@ -124,3 +127,12 @@ def test_a_rectangle_is_drawn_as_a_flat_square(tree):
     corner = mesh.position.reshape(len(leaves), -1, 3)[0]
     flat = (corner - corner.mean(axis=0)) @ leaves.normal[0]
     assert np.abs(flat).max() < 1e-9 and np.ptp(corner @ leaves.direction[0]) == pytest.approx(0.02, rel=0.1)
+
+
+def test_leaves_are_as_many_times_as_large_as_asked(tree):
+    plain, large = (populate(tree, Habit(twig_radius=0.02), key=root_key(0), scale=scale) for scale in (1.0, 1.7))
+    assert len(plain) > 0
+    np.testing.assert_allclose(large.size, 1.7 * plain.size)
+    with pytest.raises(OptionError) as caught:
+        populate(tree, Habit(), key=root_key(0), scale=0.0)
+    assert str(caught.value) == "The leaves' scale is 0.0, but it must be above 0. Use 1 for the species' own."
