@@ -92,11 +92,11 @@ class Crew:
         self._hands["full"].stop()
         self._say(messages.Working(state="working", revision=revision, stage="read"))
         if not self._hurrying:
+            self._hurrying = True  # before the task begins: drawings that come at once have one
             self._run(self._make(), makes=True)
 
     async def _make(self) -> None:
         """Hurried answers until one is of the newest drawing, then its whole tree. However many drawings come meanwhile, one at a time is made."""
-        self._hurrying = True
         try:
             while True:
                 revision, document = self._revision, self._document

@@ -66,6 +66,22 @@ def test_work_that_is_stopped_at_any_time_ends_and_its_last_word_is_that_it_rest
     asyncio.run(test())
 
 
+def test_drawings_that_come_at_once_are_one_job_of_the_last(monkeypatch):
+    async def test():
+        watched = Watched(monkeypatch)
+        await watched.crew.start()
+        await watched.made(1)
+        asked, ask = [], watched.crew._hands["full"].ask
+        watched.crew._hands["full"].ask = lambda kind, *arguments: (asked.append((kind, arguments[0])), ask(kind, *arguments))[1]
+        for revision in (2, 3, 4):
+            watched.crew.make(revision, DOCUMENT.replace(seed=revision))
+        await watched.rest()
+        assert asked == [("full", 4)] and watched.states[-1] == "idle" and watched.trees[-1] == ("full", 4)
+        await watched.crew.stop()
+
+    asyncio.run(test())
+
+
 def test_a_fault_where_the_tree_is_told_is_said_and_nobody_waits_for_ever(monkeypatch, capsys):
     async def test():
         watched = Watched(monkeypatch)
