@@ -1,10 +1,11 @@
 """How large must leaves be, so that the tree covers what the photo shows as foliage, and no more?
 
 Ours: §4 leaves size and density to the user. A blade is a few points spread evenly over its drawing. A leaf is kept where INSIDE of them are seen in the foliage (the paper asks for its
-middle alone, and leaves blur the outline), a smaller one of SMALLER its length where that is not so. Of every size in SIZES, kept leaves' points are put on a grid of cells, c_i whether
-cell i holds one, m_i ∈ [0, 1] how much of it is foliage, and the size with the greatest overlap is taken, or a smaller one that is hardly worse:
+middle alone, and leaves blur the outline), a smaller one of SMALLER its length where that is not so. Of every size in SIZES, kept leaves' points are put on a grid of cells, each point for
+its part of the leaf's area as it is seen. Leaves that lie at random cover the part c_i of a cell (a_i the area of those in it, over the cell's), m_i ∈ [0, 1] of it is foliage, and the
+size with the greatest overlap is taken, or a smaller one that is hardly worse:
 
-    Σ_i c_i m_i / Σ_i (c_i + m_i − c_i m_i)
+    c_i = 1 − exp(−a_i)        Σ_i c_i m_i / Σ_i (c_i + m_i − c_i m_i)
 
 No leaf becomes longer than LONGEST of the tree's height (a narrow one as much longer as gives it the area of a broad one, BROAD of its length squared), lest it look like a tree of
 paper: what that leaves open is for more leaves to close.
@@ -63,6 +64,7 @@ class _Page:
     cell: Int[np.ndarray, "pixel"]  # 0 off the picture
     share: Float[np.ndarray, "cell"]  # how much of each is foliage
     shape: tuple[int, int]
+    room: float  # of a cell, pixels²
 
     @classmethod
     def of(cls, mask: Bool[np.ndarray, "row column"], side: float) -> "_Page":
@@ -71,7 +73,7 @@ class _Page:
         cell = np.pad(1 + row[:, None] * (column[-1] + 1) + column[None, :], 1)
         mask = np.pad(mask, 1)
         count = np.bincount(cell[mask], minlength=int(cell.max()) + 1)
-        return cls(mask.reshape(-1), cell.reshape(-1), np.minimum(count / side**2, 1.0), mask.shape)
+        return cls(mask.reshape(-1), cell.reshape(-1), np.minimum(count / side**2, 1.0), mask.shape, side**2)
 
     def pixels(self, point: Float[np.ndarray, "leaf point 2"]) -> Int[np.ndarray, "leaf point"]:
         """The pixel that each point lies in."""
@@ -79,11 +81,12 @@ class _Page:
         row = np.clip(point[..., 1] + 1, 0, self.shape[0] - 1).astype(np.int32)
         return row * self.shape[1] + column
 
-    def overlap(self, pixel: Int[np.ndarray, "leaf point"]) -> float:
-        """Intersection over union of the cells that hold a point of a leaf kept, and the foliage."""
-        held = np.zeros(len(self.share), bool)
-        held[self.cell[pixel[self.mask[pixel].mean(axis=1) >= INSIDE]]] = True
-        both = float(self.share[held].sum())
+    def overlap(self, pixel: Int[np.ndarray, "leaf point"], area: Float[np.ndarray, " leaf"]) -> float:
+        """Intersection over union of the leaves kept and the foliage. `area` of each leaf as it is seen, pixels²."""
+        kept = self.mask[pixel].mean(axis=1) >= INSIDE
+        weight = np.repeat(area[kept] / pixel.shape[1], pixel.shape[1])
+        held = -np.expm1(-np.bincount(self.cell[pixel[kept]].reshape(-1), weight, minlength=len(self.share)) / self.room)
+        both = float((self.share * held).sum())
         return both / (float(held.sum() + self.share.sum()) - both)
 
 
@@ -94,16 +97,19 @@ def best_size(leaves: Leaves, seen: SeenFoliage, height: float = np.inf) -> tupl
     blades = Blades.of(leaves, seen)
     page, known = _Page.of(seen.mask, max(float(np.median(leaves.size)) / seen.similarity.scale / _CELLS, 1.0)), {}
 
+    drawn = drawn_area(leaf_painting(leaves.model))
+    area = drawn * (leaves.size / seen.similarity.scale) ** 2 * (np.abs(leaves.normal[:, 2]) if leaf_model(leaves.model).is_blade else 1.0)
+
     def overlap(k: int) -> float:
         if k not in known:
-            known[k] = page.overlap(page.pixels(blades.at(SIZES[k])))
+            known[k] = page.overlap(page.pixels(blades.at(SIZES[k])), SIZES[k] ** 2 * area)
         return known[k]
 
     low, high = 0, len(SIZES) - 1  # the overlap rises to its best size, and falls from there
     while low < high:
         middle = (low + high) // 2
         low, high = (middle + 1, high) if overlap(middle + 1) > overlap(middle) + _HARDLY else (low, middle)
-    longest = LONGEST * height / float(np.median(leaves.size)) * max(np.sqrt(BROAD / drawn_area(leaf_painting(leaves.model))), 1.0)
+    longest = LONGEST * height / float(np.median(leaves.size)) * max(np.sqrt(BROAD / drawn), 1.0)
     allowed = max(int(np.searchsorted(SIZES, max(longest, 1.0), side="right")) - 1, 0)
     return SIZES[min(low, allowed)], overlap(min(low, allowed)), SIZES[low]
 
