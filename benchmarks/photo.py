@@ -66,7 +66,7 @@ class CpuWatch(Watch):
 def photos(folder: Path | None, only=None, size: int | None = None):
     """(name, photo, strokes of each tree): painted ones, and those of the folder that there are strokes for, in `data/photo_strokes` or beside them."""
     for name, photo, marked in painted():
-        if folder is None or only and name in only:
+        if name in only if only else folder is None:
             yield name, photo, marked
     for strokes in [*sorted(STROKES.glob("*.svg")), *sorted(folder.glob("*.svg"))] if folder else []:
         found = next((path for path in sorted(folder.glob(f"{strokes.stem}*")) if path.suffix != ".svg"), None)
