@@ -54,7 +54,13 @@ class LateEngine:
         await self.engine.start()
         self._awake = True
         if self._newest is not None:
+            self.engine.trace(*self._newest)
             self.engine.make(*self._newest)
+
+    def trace(self, revision: int, document: Document) -> None:
+        """As `Engine.trace`; `make`, which comes after it, keeps the drawing until there is a page."""
+        if self._awake:
+            self.engine.trace(revision, document)
 
     def make(self, revision: int, document: Document) -> None:
         """As `Engine.make`."""

@@ -5,6 +5,7 @@ import signal
 import subprocess
 import sys
 import threading
+import time
 from contextlib import contextmanager
 from pathlib import Path
 from urllib.parse import urlsplit
@@ -46,7 +47,14 @@ def end(process: subprocess.Popen, how: str) -> tuple[int, str]:
 
 
 def stay(session: int) -> list[str]:
-    """Processes of a session that are there, zombies that nobody has buried aside."""
+    """Processes of a session that are there for good, zombies that nobody has buried aside: one that has ended may still be listed for a moment."""
+    until = time.monotonic() + PATIENCE
+    while (found := _listed(session)) and time.monotonic() < until:
+        time.sleep(0.05)
+    return found
+
+
+def _listed(session: int) -> list[str]:
     found = subprocess.run(["ps", "-eo", "sid=,stat=,args="], capture_output=True, text=True, check=True).stdout.splitlines()
     return [one for one in found if one.split()[0] == str(session) and not one.split()[1].startswith("Z")]
 
