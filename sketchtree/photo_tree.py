@@ -6,7 +6,7 @@ Several trees in one photo are each made of their own strokes, in one scale: tha
 """
 
 import dataclasses
-from collections.abc import Sequence
+from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
 from pathlib import Path
 
@@ -89,11 +89,11 @@ class PhotoModel:
 
     def in_pixels(self) -> TreeSkeleton:
         """The grown trees in the photo's pixels, y up; depths and radii in pixels too."""
-        return joined([_in_pixels(tree.model.skeleton.replace(tree=np.full(len(tree.model.skeleton), k)), tree.seen.moved(at)) for k, (tree, at) in enumerate(zip(self.trees, self.place, strict=True))])
+        return joined(_numbered([_in_pixels(tree.model.skeleton, tree.seen.moved(at)) for tree, at in zip(self.trees, self.place, strict=True)]))
 
     def visible_in_pixels(self) -> TreeSkeleton:
         """The same of the limbs that show in the photo."""
-        return joined([_in_pixels(tree.drawn.skeleton.replace(tree=np.full(len(tree.drawn.skeleton), k)), tree.seen) for k, tree in enumerate(self.trees)])
+        return joined(_numbered([_in_pixels(tree.drawn.skeleton, tree.seen) for tree in self.trees]))
 
 
 def photo_to_tree(
@@ -115,17 +115,23 @@ def photo_to_tree(
     leaf_model(tree.leaf, Habit(), templates), bark_model(tree.bark, Habit())  # refuse a wrong name before the work
     Prune(tree.prune), check_wood(tree.wood, tree.solid)
     templates = templates if templates is not None or reading.template == "none" else Database.open()
+    trees, places = [], []
+    for number, (found, at) in enumerate(_each_grown(photo, marked, templates, key, wanted, reading, mask, depths, watch)):
+        trees.append(_dressed(found, tree_key(key, number), tree, templates, at, wanted, watch))
+        places.append(at)
+    return PhotoModel(photo, tuple(trees), np.array(places))
+
+
+def _each_grown(photo, marked: Sequence[Marked], templates, key, wanted, reading, mask, depths, watch: Watch) -> Iterator[tuple[GrownInPhoto, Float[np.ndarray, " 3"]]]:
+    """Every tree of the photo, grown in the scale of the first, and where its foot stands."""
     with watch("read"):
         palette = Palette.of(photo)
-    trees, places, scale = [], [], None
+    scale = None
     for number, own in enumerate(marked):
         at = place_of(own, marked[0], scale, 0.0 if depths is None or number == 0 else depths[number - 1])
-        its = tree_key(key, number)
-        found = grow_in_photo(photo, own, templates, key=its, wanted=wanted, reading=reading, palette=palette, mask=mask, scale=scale, watch=watch)
-        trees.append(_dressed(found, its, tree, templates, at, wanted, watch))
-        places.append(at)
-        scale = trees[0].drawn.similarity.scale
-    return PhotoModel(photo, tuple(trees), np.array(places))
+        found = grow_in_photo(photo, own, templates, key=tree_key(key, number), wanted=wanted, reading=reading, palette=palette, mask=mask, scale=scale, watch=watch)
+        scale = found.drawn.similarity.scale if scale is None else scale
+        yield found, at
 
 
 def grow_in_photo(
@@ -170,13 +176,9 @@ class PhotoSource:
         photo, marked = input if isinstance(input, tuple) else (input, None)
         photo = photo if isinstance(photo, Photo) else read_photo(photo, max_mb=self.reading.max_mb, max_megapixels=self.reading.max_megapixels)
         marked = propose(photo, key=key).trees if marked is None else marked
-        trees, scale = [], None
-        for number, own in enumerate(marked):
-            found = grow_in_photo(photo, own, key=tree_key(key, number), wanted=self.wanted, reading=self.reading, scale=scale)
-            wood = found.grown.skeleton.replace(tree=np.full(len(found.grown.skeleton), number))
-            trees.append(moved(wood, place_of(own, marked[0], scale, 0.0)))
-            scale = found.drawn.similarity.scale if scale is None else scale
-        return joined(trees)
+        templates = None if self.reading.template == "none" else Database.open()
+        grown = _each_grown(photo, marked, templates, key, self.wanted, self.reading, None, None, Watch())
+        return joined(_numbered([moved(found.grown.skeleton, at) for found, at in grown]))
 
 
 def place_of(own: Marked, first: Marked, scale: float | None, depth: float) -> Float[np.ndarray, " 3"]:
@@ -198,6 +200,11 @@ def target_of(seen: SeenFoliage) -> Target:
     """The foliage as what the tree grows to: its pixels in the world."""
     left, top = seen.similarity.to_world(np.zeros((1, 2)))[0]
     return Target(seen.mask, float(left), float(top), seen.similarity.scale)
+
+
+def _numbered(trees: Sequence[TreeSkeleton]) -> list[TreeSkeleton]:
+    """The same, their column `tree` counting from 0."""
+    return [tree.replace(tree=np.full(len(tree), number)) for number, tree in enumerate(trees)]
 
 
 def _in_pixels(tree: TreeSkeleton, seen: SeenFoliage) -> TreeSkeleton:

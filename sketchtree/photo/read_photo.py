@@ -6,7 +6,6 @@ scaled: strokes, masks and traces keep the file's pixels.
 """
 
 import os
-import warnings
 from pathlib import Path
 
 import numpy as np
@@ -17,7 +16,7 @@ from sketchtree.photo.photo import Photo
 from sketchtree.photo.srgb import in_srgb
 from sketchtree.sketch.files.limits import MAX_MB, read_bytes
 from sketchtree.sketch.files.recognise import Unreadable, recognise
-from sketchtree.sketch.raster.opening import DAMAGED, EXPORT, check_size, opened
+from sketchtree.sketch.raster.opening import EXPORT, check_size, decoding, opened
 
 MAX_MEGAPIXELS = 64.0  # 10⁶ pixels: a photo is worked on as a whole, some thirty bytes a pixel
 NARROWEST = 16  # pixels: the shorter side of a photo
@@ -29,16 +28,8 @@ def read_photo(path: str | os.PathLike, *, max_mb: float = MAX_MB, max_megapixel
     data = read_bytes(path, max_mb=max_mb)
     if not data:
         raise SketchError(f"{path.name} is empty.", remedy="Save the photo again.")
-    with warnings.catch_warnings():
-        warnings.simplefilter("ignore")  # Pillow remarks on odd metadata; damage to the picture itself is an error
-        try:
-            return _decoded(data, path.name, max_megapixels)
-        except SketchError:
-            raise
-        except MemoryError:
-            raise SketchError(f"{path.name} needs more memory than there is.", remedy="Scale the picture down and try again.") from None
-        except DAMAGED:
-            raise SketchError(f"{path.name} is damaged: its picture can't be decoded.", remedy=EXPORT) from None
+    with decoding(path.name):
+        return _decoded(data, path.name, max_megapixels)
 
 
 def _decoded(data: bytes, name: str, max_megapixels: float) -> Photo:

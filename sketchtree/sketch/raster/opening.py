@@ -2,6 +2,9 @@
 
 import io
 import struct
+import warnings
+from collections.abc import Iterator
+from contextlib import contextmanager
 
 import numpy as np
 from PIL import Image
@@ -29,6 +32,21 @@ def opened(data: bytes) -> Image.Image | None:
     if failure is not None:
         raise failure
     return None
+
+
+@contextmanager
+def decoding(name: str) -> Iterator[None]:
+    """What Pillow raises while the file called `name` is opened and decoded becomes a SketchError that says what to do."""
+    with warnings.catch_warnings():
+        warnings.simplefilter("ignore")  # Pillow remarks on odd metadata; damage to the picture itself is an error
+        try:
+            yield
+        except SketchError:
+            raise
+        except MemoryError:
+            raise SketchError(f"{name} needs more memory than there is.", remedy="Scale the picture down and try again.") from None
+        except DAMAGED:
+            raise SketchError(f"{name} is damaged: its picture can't be decoded.", remedy=EXPORT) from None
 
 
 def check_size(size: tuple[int, int], name: str, limit: float, *, narrowest: int, shows: str = "a drawing") -> None:

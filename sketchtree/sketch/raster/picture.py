@@ -6,7 +6,6 @@ Of several pages or frames the first is read, and a warning says so. The size is
 pictures over ROOM megapixels are decoded whole but brought down by a whole factor before they are worked on.
 """
 
-import warnings
 from dataclasses import dataclass
 
 import numpy as np
@@ -14,7 +13,7 @@ from jaxtyping import Float, UInt8
 from PIL import Image, ImageOps
 
 from sketchtree.errors import SketchError
-from sketchtree.sketch.raster.opening import DAMAGED, EXPORT, check_size, opened, plain
+from sketchtree.sketch.raster.opening import EXPORT, check_size, decoding, opened, plain
 
 ROOM = 16.0  # megapixels that are worked on at most
 NARROWEST = 4  # pixels: the shorter side of a picture
@@ -36,24 +35,16 @@ class Picture:
 
 def read_picture(data: bytes, name: str, *, max_megapixels: float) -> Picture:
     """Decode a picture file. Raises SketchError for what is no picture, is damaged, or is larger than `max_megapixels`."""
-    with warnings.catch_warnings():
-        warnings.simplefilter("ignore")  # Pillow remarks on odd metadata; damage to the picture itself is an error
-        try:
-            image = opened(data)
-            if image is None:
-                raise SketchError(f"{name} is no picture that can be read.", remedy=EXPORT)
-            check_size(image.size, name, max_megapixels, narrowest=NARROWEST)
-            frames = getattr(image, "n_frames", 1)
-            factor = max(1, int(np.ceil(np.sqrt(image.size[0] * image.size[1] / (ROOM * 1e6)))))
-            upright = ImageOps.exif_transpose(image)
-            size = upright.size
-            small = _smaller(plain(upright), factor)
-        except SketchError:
-            raise
-        except MemoryError:
-            raise SketchError(f"{name} needs more memory than there is.", remedy="Scale the picture down and try again.") from None
-        except DAMAGED:
-            raise SketchError(f"{name} is damaged: its picture can't be decoded.", remedy=EXPORT) from None
+    with decoding(name):
+        image = opened(data)
+        if image is None:
+            raise SketchError(f"{name} is no picture that can be read.", remedy=EXPORT)
+        check_size(image.size, name, max_megapixels, narrowest=NARROWEST)
+        frames = getattr(image, "n_frames", 1)
+        factor = max(1, int(np.ceil(np.sqrt(image.size[0] * image.size[1] / (ROOM * 1e6)))))
+        upright = ImageOps.exif_transpose(image)
+        size = upright.size
+        small = _smaller(plain(upright), factor)
     grey, rgb = _tones(small)
     notes = (f"{name} has {frames} pages or frames; only the first was read.",) if frames > 1 else ()
     return Picture(grey, rgb, size, factor, notes)
