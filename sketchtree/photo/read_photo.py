@@ -25,11 +25,15 @@ NARROWEST = 16  # pixels: the shorter side of a photo
 def read_photo(path: str | os.PathLike, *, max_mb: float = MAX_MB, max_megapixels: float = MAX_MEGAPIXELS) -> Photo:
     """The photo in a file. Raises SketchError, naming the file, for what is no picture, is damaged, or is larger than `max_mb` (10⁶ bytes) or `max_megapixels`."""
     path = Path(path)
-    data = read_bytes(path, max_mb=max_mb)
+    return photo_in(read_bytes(path, max_mb=max_mb), path.name, max_megapixels=max_megapixels)
+
+
+def photo_in(data: bytes, name: str, *, max_megapixels: float = MAX_MEGAPIXELS) -> Photo:
+    """The photo in the bytes of a file called `name`. Raises SketchError as `read_photo`."""
     if not data:
-        raise SketchError(f"{path.name} is empty.", remedy="Save the photo again.")
-    with decoding(path.name):
-        return _decoded(data, path.name, max_megapixels)
+        raise SketchError(f"{name} is empty.", remedy="Save the photo again.")
+    with decoding(name):
+        return _decoded(data, name, max_megapixels)
 
 
 def _decoded(data: bytes, name: str, max_megapixels: float) -> Photo:

@@ -7,10 +7,8 @@ import base64
 import hashlib
 import importlib.util
 import io
-import tempfile
 from collections.abc import Iterable, Mapping
 from dataclasses import dataclass, field, replace
-from pathlib import Path
 
 import numpy as np
 from jaxtyping import Array, Bool, Float, Key
@@ -23,7 +21,7 @@ from sketchtree.photo.foliage import Foliage
 from sketchtree.photo.foliage_mask import foliage_mask
 from sketchtree.photo.marked import Marked
 from sketchtree.photo.photo import Photo, turned_over
-from sketchtree.photo.read_photo import read_photo
+from sketchtree.photo.read_photo import photo_in
 from sketchtree.photo.trace.palette import Palette
 from sketchtree.photo.trace.trace import Tracing
 from sketchtree.photo.trace.traced import Traced
@@ -111,10 +109,7 @@ def check_package() -> None:
 
 def photo_of(picture: bytes) -> Photo:
     """The photo in a file's bytes. Raises SketchError."""
-    with tempfile.TemporaryDirectory() as folder:
-        path = Path(folder) / "The picture"
-        path.write_bytes(picture)
-        return read_photo(path)
+    return photo_in(picture, "The picture")
 
 
 def crown_name(digest: str, marked: Marked, number: int, seed: int) -> str:
