@@ -131,25 +131,24 @@ def reseated(walk: Walk, likeness: WoodLikeness, radius: float) -> Walk:
     for row in np.flatnonzero(~drawn):
         if not drawn[parent[row]]:
             continue
-        onward = xy[first_child[row]] - xy[row] if row in first_child else None
-        best, least = parent[row], np.inf
-        spot, gone = parent[row], 0.0
-        while spot != NULL and gone <= _DOWN * radius and drawn[spot]:
-            turn = _turns(xy, parent, spot, row, onward) + _FARTHER * gone / radius
-            if turn < least and (spot == parent[row] or _in_sight(likeness, xy[spot], xy[row])):
-                best, least = spot, turn
-            up = parent[spot]
-            gone += np.hypot(*(xy[spot] - xy[up])) if up != NULL else 0.0
-            spot = up
-        parent[row] = int(best)
+        onward, above = xy[first_child[row]] - xy[row] if row in first_child else None, parent[row]
+        parent[row] = smoothest_foot(xy, parent, drawn, above, xy[row], onward, radius, _DOWN * radius, lambda spot: _in_sight(likeness, xy[spot], xy[row]))
     return Walk(parent, walk.xy, walk.half, walk.stroke, walk.drawn, walk.depth)
 
 
-def _turns(xy, parent, spot: int, row: int, onward) -> float:
-    """How much a branch that leaves a place towards another turns: from its parent's direction where it leaves, and where it goes on; radians."""
-    step = xy[row] - xy[spot]
-    before = xy[spot] - xy[parent[spot]] if parent[spot] != NULL else None
-    return sum(angle(a, b) for a, b in ((before, step), (step, onward)) if a is not None and b is not None)
+def smoothest_foot(xy, parent, drawn, above: int, place, onward, radius: float, reach: float, allowed=lambda spot: True) -> int:
+    """The place on a stroke, `above` or one down to `reach` pixels below it, from which a branch to `place` that goes on as `onward` (None: ends) turns least."""
+    best, least = above, np.inf
+    spot, gone = above, 0.0
+    while spot != NULL and gone <= reach and drawn[spot]:
+        up = parent[spot]
+        before = xy[spot] - xy[up] if up != NULL else None
+        turn = sum(angle(a, b) for a, b in ((before, place - xy[spot]), (place - xy[spot], onward)) if a is not None and b is not None) + _FARTHER * gone / radius
+        if turn < least and (spot == above or allowed(spot)):
+            best, least = spot, turn
+        gone += np.hypot(*(xy[spot] - xy[up])) if up != NULL else 0.0
+        spot = up
+    return int(best)
 
 
 def _in_sight(likeness: WoodLikeness, a, b) -> bool:

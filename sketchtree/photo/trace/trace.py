@@ -14,7 +14,7 @@ from sketchtree.errors import OptionError, SketchError
 from sketchtree.photo.foliage import Foliage
 from sketchtree.photo.marked import Marked
 from sketchtree.photo.photo import Photo
-from sketchtree.photo.trace.follow import Walk, angle, follow, reseated, without_bumps
+from sketchtree.photo.trace.follow import Walk, angle, follow, reseated, smoothest_foot, without_bumps
 from sketchtree.photo.trace.lines import evenly
 from sketchtree.photo.trace.palette import Palette
 from sketchtree.photo.trace.thickness import TAPER, half_widths, largest_circle
@@ -26,6 +26,7 @@ CIRCLE = 50.0 / 1500.0  # radius of the circle / longer side of the photo (§2)
 _UNDER = 3.0 / 1500.0  # width of a stroke
 _THICKEST = 0.12  # half a trunk / longer side of the photo
 _FLARE = 1.6  # a root's thickness / that of the thinner parts of the trunk above it, at most
+_STEEPEST = 4.0  # of a stroke's distance from the limb it hangs on: so far below its nearest place its foot may lie, where a pen began beside the limb
 _ONE_PLACE = 0.25  # of the circle's radius: a stroke that starts so near to another starts on it
 
 
@@ -65,7 +66,8 @@ def room_for(marked: Marked, radius: float) -> shapely.Geometry:
 
 
 def places_on(likeness: WoodLikeness, marked: Marked, radius: float, most: float) -> tuple[Walk, Float[np.ndarray, "point 2"]]:
-    """(places half a circle apart on every stroke, points along all strokes a pixel or so apart). Each stroke but the first hangs on the nearest place of those before it."""
+    """(places half a circle apart on every stroke, points along all strokes a pixel or so apart). Each stroke but the first hangs on those before it, at the nearest
+    place, or below it where it leaves more smoothly."""
     walk, points = Walk(), []
     trunk = root_radius(likeness, marked.branches[0], radius, most)
     for k, stroke in enumerate(marked.branches):
@@ -76,8 +78,11 @@ def places_on(likeness: WoodLikeness, marked: Marked, radius: float, most: float
         if k:
             known = np.array(walk.xy)
             above = int(np.argmin(np.hypot(*(known - place[0]).T)))
-            if np.hypot(*(known[above] - place[0])) < _ONE_PLACE * radius:
+            gap = float(np.hypot(*(known[above] - place[0])))
+            if gap < _ONE_PLACE * radius:
                 place, half = place[1:], half[1:]
+            else:
+                above = smoothest_foot(known, walk.parent, walk.drawn, above, place[0], along[0], radius, _STEEPEST * gap)
         limit = trunk if above == NULL else walk.half[above]
         for spot, width in zip(place, _falling(half, limit), strict=True):
             above = walk.add(above, spot, float(width), k, True, 0)

@@ -62,6 +62,17 @@ def test_a_stroke_over_nothing_still_makes_a_limb(photo):
     assert np.max(distance(walked(sky), all_along(traced))) < 8
 
 
+@pytest.mark.parametrize("gap", [20.0, 35.0])
+def test_a_stroke_begun_beside_the_trunk_leaves_it_at_an_angle_that_a_limb_has(photo, gap):
+    """Straight across from the nearest place it would leave level, and go far towards the viewer before it rises."""
+    start = np.array([TRUNK[-1][0] + gap, 330.0])
+    steep = start + np.array([[0.0, 0.0], [20.0, -60.0], [50.0, -150.0]])
+    traced = Tracing(most=0)(photo, dataclasses.replace(marked(), branches=(*marked().branches, steep), names=("trunk", "steep")), key=KEY)
+    first = np.flatnonzero((traced.stroke == 1) & (traced.stroke[np.maximum(traced.parent, 0)] == 0))[0]
+    step = traced.xy[first] - traced.xy[traced.parent[first]]
+    assert step[1] < -abs(step[0])
+
+
 def test_taking_a_stroke_away_takes_its_limb_away(photo):
     sky = np.array([(306.0, 200.0), (360.0, 150.0), (430.0, 120.0)])
     both = dataclasses.replace(marked(), branches=(*marked().branches, sky), names=("trunk", "sky"))
