@@ -8,7 +8,7 @@ and, for comparison, by replication blocks in the same crown. With -o: E2D and E
     near      share of image attractors within a leaf length of the tree as seen            ≥ 0.95
     IoU       of the wood, dilated by a leaf length, and the mask                           ≥ 0.75
     deep      depth of what grew / its width, 2nd to 98th percentiles of its length         0.75-1.33
-    gap       largest empty azimuth about the middle of the crown, degrees                  ≤ 120
+    gap       largest empty azimuth of the outer crown, degrees, in any third of its height     ≤ 120
     side      area of the dilated wood from the side / from the front
     CPU       seconds of one processor                                                      ≤ 5
 """
@@ -22,11 +22,15 @@ from PIL import Image, ImageDraw
 from scipy import ndimage
 
 from benchmarks.attractor_cases import Case, photographed, made_up, sketched
+from benchmarks.azimuth import empty_azimuth
 from sketchtree import keys
 from sketchtree.parameters import GENERIC
+from sketchtree.propagate.attractors.revolved import Axes
 from sketchtree.propagate.attractors.stage import LEAF, attract
 from sketchtree.propagate.attractors.wanted import PAPER
+from sketchtree.propagate.attractors.wood import Wood
 from sketchtree.propagate.generations import Propagation, propagate
+from sketchtree.roots import without_roots
 from sketchtree.skeleton import TreeSkeleton
 
 ROOT = Path(__file__).resolve().parents[1]
@@ -58,11 +62,14 @@ def measured(case: Case, found: Propagation) -> dict[str, float]:
     trunk = case.tree.tip[case.tree.order == 0][:, 2].mean()
     side = _dilated(np.column_stack([wood[:, 2] - trunk + corner[0] + 0.5 * mask.shape[1] * target.pixel, wood[:, 1]]), corner, mask.shape, target.pixel, leaf)
     low, high = np.percentile(new[:, [0, 2]], [2, 98], axis=0)
-    turn = np.sort(np.arctan2(new[:, 2] - np.median(new[:, 2]), new[:, 0] - np.median(new[:, 0])))
-    gap = np.degrees(np.diff(np.r_[turn, turn[0] + 2 * np.pi]).max()) if len(turn) > 1 else 360.0
+    axes = Axes.about_crown(target, Wood.of(without_roots(case.tree)[0]).trunk())
+    outward = axes.outward(new)[:, [0, 2]]
+    out = axes.out(new)
+    kept = np.isfinite(out) & (out > 0)
+    gap = empty_azimuth(new[kept, 1], outward[kept], np.hypot(*outward[kept].T) / out[kept])
     region = ndimage.binary_dilation(mask.any(axis=1))[:, None]
     return {
-        "near": float(cover[mask].mean()), "IoU": float((cover & mask).sum() / (cover & region | mask).sum()), "deep": float((high - low)[1] / max((high - low)[0], 1e-9)), "gap": float(gap),
+        "near": float(cover[mask].mean()), "IoU": float((cover & mask).sum() / (cover & region | mask).sum()), "deep": float((high - low)[1] / max((high - low)[0], 1e-9)), "gap": gap,
         "side": float((side & region).sum() / max((cover & region).sum(), 1)), "segments": tree.segment_count,
     }  # fmt: skip
 

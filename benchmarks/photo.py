@@ -11,7 +11,7 @@ Without options: trees painted here. `--photos` holds the photos that `data/phot
     near      share of attractors on the page within a leaf length of the tree                                       ≥ 0.95
     twig      share of leaves whose foot is within a petiole (a third of a leaf) of the wood or its short shoot       ≥ 0.95
     deep      depth / width of what grew                                                                             0.75-1.33
-    gap       largest empty azimuth about the crown's middle, degrees                                                ≤ 120
+    gap       largest empty azimuth of the outer crown, in any third of its height, degrees                          ≤ 120
     E2D, E3D  energy at the end / at the first iteration: both fall                                                  < 1
 """
 
