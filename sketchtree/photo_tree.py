@@ -6,7 +6,8 @@ Several trees in one photo are each made of their own strokes, in one scale: tha
 """
 
 import dataclasses
-from collections.abc import Iterator, Sequence
+import itertools
+from collections.abc import Callable, Iterable, Iterator, Sequence
 from dataclasses import dataclass
 from pathlib import Path
 
@@ -42,6 +43,8 @@ from sketchtree.skeleton import TreeSkeleton
 from sketchtree.skeleton_joined import joined, moved
 from sketchtree.templates.store.database import Database
 from sketchtree.watch import Watch
+
+_ROUND = 0.96  # of what is left of the growth, for all that its pulse knows, is left after one round
 
 
 @dataclass(frozen=True, eq=False)
@@ -115,21 +118,52 @@ def photo_to_tree(
     leaf_model(tree.leaf, Habit(), templates), bark_model(tree.bark, Habit())  # refuse a wrong name before the work
     Prune(tree.prune), check_wood(tree.wood, tree.solid)
     templates = templates if templates is not None or reading.template == "none" else Database.open()
+    grown = each_grown(photo, marked, templates, key=key, wanted=wanted, reading=reading, mask=mask, depths=depths, watch=watch)
+    return complete_photo(photo, grown, templates, key=key, wanted=wanted, tree=tree, watch=watch)
+
+
+def complete_photo(
+    photo: Photo,
+    grown: Iterable[tuple[GrownInPhoto, Float[np.ndarray, " 3"]]],
+    templates: Database | None,
+    *,
+    key: Key[Array, ""],
+    wanted: PhotoOptions = PhotoOptions(),
+    tree: TreeOptions = TreeOptions(),
+    watch: Watch | None = None,
+) -> PhotoModel:
+    """Trees that `each_grown` grew, with radii, leaves and meshes."""
     trees, places = [], []
-    for number, (found, at) in enumerate(_each_grown(photo, marked, templates, key, wanted, reading, mask, depths, watch)):
-        trees.append(_dressed(found, tree_key(key, number), tree, templates, at, wanted, watch))
+    for number, (found, at) in enumerate(grown):
+        trees.append(_dressed(found, tree_key(key, number), tree, templates, at, wanted, watch or Watch()))
         places.append(at)
     return PhotoModel(photo, tuple(trees), np.array(places))
 
 
-def _each_grown(photo, marked: Sequence[Marked], templates, key, wanted, reading, mask, depths, watch: Watch) -> Iterator[tuple[GrownInPhoto, Float[np.ndarray, " 3"]]]:
-    """Every tree of the photo, grown in the scale of the first, and where its foot stands."""
+def each_grown(
+    photo: Photo,
+    marked: Sequence[Marked],
+    templates: Database | None,
+    *,
+    key: Key[Array, ""],
+    wanted: PhotoOptions = PhotoOptions(),
+    reading: ReadingOptions = ReadingOptions(),
+    mask: Bool[np.ndarray, "row column"] | None = None,
+    depths: Sequence[float] | None = None,
+    foliages: Sequence[Foliage | None] | None = None,
+    watch: Watch | None = None,
+) -> Iterator[tuple[GrownInPhoto, Float[np.ndarray, " 3"]]]:
+    """Every tree of the photo, grown in the scale of the first, and where its foot stands, metres. `foliages`: of each, if it was found before."""
+    watch = watch or Watch()
     with watch("read"):
         palette = Palette.of(photo)
     scale = None
     for number, own in enumerate(marked):
         at = place_of(own, marked[0], scale, 0.0 if depths is None or number == 0 else depths[number - 1])
-        found = grow_in_photo(photo, own, templates, key=tree_key(key, number), wanted=wanted, reading=reading, palette=palette, mask=mask, scale=scale, watch=watch)
+        found = grow_in_photo(
+            photo, own, templates, key=tree_key(key, number), wanted=wanted, reading=reading, palette=palette, mask=mask, scale=scale,
+            foliage=None if foliages is None else foliages[number], watch=watch,
+        )  # fmt: skip
         scale = found.drawn.similarity.scale if scale is None else scale
         yield found, at
 
@@ -145,13 +179,13 @@ def grow_in_photo(
     palette: Palette | None = None,
     mask: Bool[np.ndarray, "row column"] | None = None,
     scale: float | None = None,
+    foliage: Foliage | None = None,
     watch: Watch | None = None,
 ) -> GrownInPhoto:
-    """One tree of the photo, up to its last twig. `scale`: metres a pixel; None: as the template's height, or the one asked for, has it."""
+    """One tree of the photo, up to its last twig. `scale`: metres a pixel; None: as the template's height, or the one asked for, has it. `foliage`: if it was found before."""
     watch = watch or Watch()
     with watch("read"):
-        finding = stage_key(key, "foliage mask")
-        foliage = foliage_mask(photo, own, key=finding, rule=wanted.foliage) if mask is None else known_foliage(photo, own, mask, key=finding)
+        foliage = foliage or _foliage(photo, own, stage_key(key, "foliage mask"), wanted, mask)
         traced = wanted.tracing(photo, own, foliage, key=stage_key(key, "trace"), palette=palette)
         sketch, graph = as_drawing([(traced, own)], photo.name)
     similarity = None if scale is None else Similarity(scale, tuple((-scale * np.array([*graph.xy[0], 0.0])).tolist()))
@@ -159,8 +193,19 @@ def grow_in_photo(
     seen = SeenFoliage(photo, foliage.mask, drawn.similarity, leafy_pixels(photo, foliage, traced))
     with watch("propagate"):
         stage = Attract(targets=target_of(seen), library=wanted.library, iterations=wanted.replacements, alternate=wanted.alternate, twigs=wanted.replacements > 0)
-        grown = stage.run(drawn.skeleton, key=stage_key(key, "attract"))
+        grown = stage.run(drawn.skeleton, key=stage_key(key, "attract"), pulse=_pulse(watch))
     return GrownInPhoto(own, foliage, traced, drawn, grown, seen)
+
+
+def _foliage(photo: Photo, own: Marked, key: Key[Array, ""], wanted: PhotoOptions, mask: Bool[np.ndarray, "row column"] | None) -> Foliage:
+    """The foliage of one tree: found, or known by its mask."""
+    return foliage_mask(photo, own, key=key, rule=wanted.foliage) if mask is None else known_foliage(photo, own, mask, key=key)
+
+
+def _pulse(watch: Watch) -> Callable[[], None]:
+    """Tells how far the growth is, of which nobody knows how long it goes on: each round a little of the way that is left."""
+    rounds = itertools.count()
+    return lambda: watch.on_part(1.0 - _ROUND ** next(rounds))
 
 
 @dataclass(frozen=True)
@@ -177,7 +222,7 @@ class PhotoSource:
         photo = photo if isinstance(photo, Photo) else read_photo(photo, max_mb=self.reading.max_mb, max_megapixels=self.reading.max_megapixels)
         marked = propose(photo, key=key).trees if marked is None else marked
         templates = None if self.reading.template == "none" else Database.open()
-        grown = _each_grown(photo, marked, templates, key, self.wanted, self.reading, None, None, Watch())
+        grown = each_grown(photo, marked, templates, key=key, wanted=self.wanted, reading=self.reading)
         return joined(_numbered([moved(found.grown.skeleton, at) for found, at in grown]))
 
 
@@ -187,11 +232,16 @@ def place_of(own: Marked, first: Marked, scale: float | None, depth: float) -> F
     return np.array([aside, 0.0, float(depth)])
 
 
-def _dressed(found: GrownInPhoto, key: Key[Array, ""], options: TreeOptions, templates: Database | None, place, wanted: PhotoOptions, watch: Watch) -> PhotoTree:
-    """A grown tree with radii, leaves and meshes, at its place."""
+def to_finish(found: GrownInPhoto, key: Key[Array, ""], options: TreeOptions, templates: Database | None, place: Float[np.ndarray, " 3"], wanted: PhotoOptions) -> Grown:
+    """A grown tree, and what it is to wear, at its place: for `pipeline.leafy` and `pipeline.finish`."""
     if wanted.bare_as_seen and found.foliage.bare and options.leaf is None:
         options = dataclasses.replace(options, leaf="none", season="bare")
-    model = finish(Grown(found.drawn, found.grown, key, options, templates, place, PhotoLeafing(found.seen.moved(place), wanted)), watch)
+    return Grown(found.drawn, found.grown, key, options, templates, place, PhotoLeafing(found.seen.moved(place), wanted))
+
+
+def _dressed(found: GrownInPhoto, key: Key[Array, ""], options: TreeOptions, templates: Database | None, place, wanted: PhotoOptions, watch: Watch) -> PhotoTree:
+    """A grown tree with radii, leaves and meshes, at its place."""
+    model = finish(to_finish(found, key, options, templates, place, wanted), watch)
     told = (*found.seen.photo.warnings, *found.marked.warnings, *found.foliage.warnings, *model.warnings)
     return PhotoTree(**vars(found), model=dataclasses.replace(model, warnings=tuple(dict.fromkeys(told))))
 
