@@ -30,7 +30,7 @@ def leaf_mesh(leaves: Leaves, *, season: str = "summer") -> Mesh:
     factor = leaf_factor(leaves, season, crown_light(leaves))
     vertices = len(corners)
     stem = stems(leaves, vertices * len(leaves))
-    return Mesh(
+    mesh = Mesh(
         name=mesh_name(leaves.model),
         position=np.vstack([position.reshape(-1, 3), stem.position]),
         normal=np.vstack([normal.reshape(-1, 3), stem.normal]),
@@ -39,6 +39,7 @@ def leaf_mesh(leaves: Leaves, *, season: str = "summer") -> Mesh:
         material=leaf_material(leaves.model, colours_of(leaves, season)),
         color=np.vstack([np.repeat(factor, vertices, axis=0), np.ones((len(stem.position), 4))]),
     )
+    return mesh if leaves.printed is None else leaves.printed.on(mesh, model)
 
 
 def mesh_name(model: str) -> str:

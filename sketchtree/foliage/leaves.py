@@ -5,6 +5,8 @@ from dataclasses import dataclass, field, replace
 import numpy as np
 from jaxtyping import Float, Int
 
+from sketchtree.foliage.printed import Print
+
 
 @dataclass(frozen=True, eq=False)
 class Leaves:
@@ -21,6 +23,7 @@ class Leaves:
     # start (on the wood's surface) and end of the short shoots that some leaves stand on
     kept: float = 1.0  # share of the leaves that the cap left; the sizes of these make up for the rest
     seen: Float[np.ndarray, "leaf 3"] | None = None  # colour that each was seen in, in a photo; linear, 0-1; None: the model's
+    printed: Print | None = None  # a picture that the finest mesh of them bears
 
     def __len__(self) -> int:
         return len(self.position)

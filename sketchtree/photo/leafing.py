@@ -15,6 +15,7 @@ from sketchtree.foliage.leaves import Leaves
 from sketchtree.foliage.populate import populate
 from sketchtree.keys import stage_key
 from sketchtree.photo.leaf_cover import best_size, mostly_inside
+from sketchtree.photo.leaf_print import leaf_print
 from sketchtree.photo.paper_leaves import RECTANGLE, paper_leaves
 from sketchtree.photo.photo_leaves import SeenFoliage, without_shadows
 from sketchtree.photo.wanted import PhotoOptions
@@ -38,7 +39,7 @@ class PhotoLeafing:
             return Leaves.none(dress.habit.leaf), None
         if dress.leaf == RECTANGLE:
             found = paper_leaves(tree, key=key, scale=self.wanted.leaf_size, density=self.wanted.leaf_density, most=MOST)
-            return self._coloured(self.seen.confirmed(found)), None
+            return self._printed(self._coloured(self.seen.confirmed(found))), None
         flowers = blossom(tree, dress.habit, key=key, model=dress.leaf, season=dress.season)
         return self._coloured(self._fitted(tree, dress, key)), None if flowers is None else self._coloured(self.seen.confirmed(flowers))
 
@@ -58,6 +59,10 @@ class PhotoLeafing:
     def _worn(self, tree: TreeSkeleton, dress: Dress, key, density: float) -> Leaves:
         """The leaves that the twigs bear, where their middles are seen in the foliage."""
         return self.seen.confirmed(populate(tree, dress.habit, key=key, model=dress.leaf, season=dress.season, density=density, max_leaves=2 * MOST))
+
+    def _printed(self, leaves: Leaves) -> Leaves:
+        """With the photo on them, where they are in its colours."""
+        return leaves if leaves.seen is None else replace(leaves, printed=leaf_print(self.seen))
 
     def _coloured(self, leaves: Leaves) -> Leaves:
         """In the colours of the photo, if they are asked for. A grey photo has none to give."""
