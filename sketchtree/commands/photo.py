@@ -31,6 +31,7 @@ _PICTURE = click.Path(path_type=Path)
 @click.option("--fit-leaves/--no-fit-leaves", default=True, show_default=True, help="As large and dense as it takes to cover the foliage.")
 @click.option("--leaf-size", type=float, default=1.0, show_default=True, metavar="TIMES", help="Larger or smaller leaves than that: 0.1 to 10.")
 @click.option("--leaf-density", type=float, default=1.0, show_default=True, metavar="TIMES", help="More or fewer leaves: 0.1 to 10.")
+@click.option("--leaf-arrangement", type=click.Choice(["alternate", "opposite", "decussate", "whorled", "spiral"]), help="How leaves stand about their twig (default: the species').")
 @click.option("--depth", "depths", multiple=True, type=float, metavar="METRES", help="How far the second tree of a photo stands in front of the first; again for the third ...")
 @click.option("--template", default="auto", show_default=True, metavar="auto|none|NAME", help="Exemplar that supplies prior, bark and leaves.")
 @click.option("--height", type=float, metavar="METRES", help="Height of the (first) tree (default: the template's).")
@@ -50,7 +51,7 @@ def photo(image: Path, strokes: Path | None, auto: bool, output: Path, seed: int
     asked = click.get_current_context().get_parameter_source("season") is not ParameterSource.DEFAULT
     how = PhotoOptions(
         wanted["foliage"], wanted["trace"], photo_files.libraries(wanted["library"]), wanted["replacements"], wanted["alternate"], wanted["colours"],
-        wanted["fit_leaves"], wanted["leaf_size"], wanted["leaf_density"], bare_as_seen=not asked,
+        wanted["fit_leaves"], wanted["leaf_size"], wanted["leaf_density"], wanted["leaf_arrangement"], bare_as_seen=not asked,
     )  # fmt: skip
     (files,) = writing.split_options(wanted, choices.FileOptions)
     check_extension(output, writing.WHOLE)

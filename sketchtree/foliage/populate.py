@@ -48,11 +48,12 @@ def populate(
     season: str = "summer",
     density: float = 1.0,
     scale: float = 1.0,
+    arrangement: str | None = None,
     max_leaves: int = 60_000,
     pulse: Pulse = no_pulse,
 ) -> Leaves:
     """The leaves of a tree (Chen §6). `model` overrides the habit's leaf, and then brings its own size,
-    spacing and arrangement; `density` (> 0) scales the nodes a metre, `scale` (> 0) the leaves. In the season `bare` evergreens keep theirs. Raises OptionError."""
+    spacing and arrangement; `density` (> 0) scales the nodes a metre, `scale` (> 0) the leaves; `arrangement` (`wear.FREE`) overrides the leaf's. In the season `bare` evergreens keep theirs. Raises OptionError."""
     check_season(season)
     if not density > 0:
         raise OptionError(f"The leaf density is {density}, but it must be above 0.", remedy="Use 1 for the species' own.")
@@ -60,7 +61,7 @@ def populate(
         raise OptionError(f"The leaves' scale is {scale}, but it must be above 0.", remedy="Use 1 for the species' own.")
     if max_leaves < 1:
         raise OptionError(f"At most {max_leaves} leaves were allowed.", remedy="Allow at least 1, or use season 'bare'.")
-    wear = wear_of(habit, model, density, scale)
+    wear = wear_of(habit, model, density, scale, arrangement)
     tree, _ = without_roots(tree)
     if (season == "bare" and not wear.model.evergreen) or tree.segment_count == 0:
         return Leaves.none(wear.model.name)

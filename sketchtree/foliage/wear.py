@@ -10,9 +10,12 @@ from dataclasses import dataclass
 
 import numpy as np
 
+from sketchtree.errors import OptionError
 from sketchtree.foliage.arrangement import GOLDEN_ANGLE, leaves_per_node
 from sketchtree.foliage.models import LeafModel, leaf_model
 from sketchtree.parameters import Habit
+
+FREE = ("alternate", "opposite", "decussate", "whorled", "spiral")  # arrangements that may be asked for
 
 
 @dataclass(frozen=True)
@@ -27,19 +30,29 @@ class Wear:
     whorl: int
 
 
-def wear_of(habit: Habit, model: str | None = None, density: float = 1.0, scale: float = 1.0) -> Wear:
-    """The habit's own leaf, or another `model` in its own size, spacing and arrangement; `scale` times as large. Raises OptionError
-    for an unknown leaf or arrangement."""
+def wear_of(habit: Habit, model: str | None = None, density: float = 1.0, scale: float = 1.0, arrangement: str | None = None) -> Wear:
+    """The habit's own leaf, or another `model` in its own size, spacing and arrangement; `scale` times as large. `arrangement`: another one (`FREE`).
+    Raises OptionError for an unknown leaf or arrangement."""
     worn = leaf_model(model or habit.leaf)
     if worn.name == habit.leaf:
-        arrangement, size, spacing = habit.leaf_arrangement, habit.leaf_size, habit.leaf_spacing
+        own, size, spacing = habit.leaf_arrangement, habit.leaf_size, habit.leaf_spacing
     else:
-        arrangement, size, spacing = worn.arrangement, worn.size, worn.spacing
-    leaves_per_node(arrangement)
+        own, size, spacing = worn.arrangement, worn.size, worn.spacing
+    leaves_per_node(own)
+    arrangement = own if arrangement is None else _free(arrangement, own, worn.name)
     turn = habit.phyllotaxis if arrangement == "spiral" == habit.leaf_arrangement else GOLDEN_ANGLE
     single = worn.is_blade and worn.needle == 1.0 and not worn.flower
     size *= enlargement(habit) if single and arrangement != "frond" else 1.0
     return Wear(worn, arrangement, scale * size / worn.needle, spacing * worn.bundle / density, turn, habit.whorl)
+
+
+def _free(wanted: str, own: str, leaf: str) -> str:
+    """An arrangement that is asked for, if these leaves may have another than their own."""
+    if wanted not in FREE:
+        raise OptionError(f"The leaf arrangement {wanted!r} can't be asked for.", remedy=f"Choose one of: {', '.join(FREE)}.")
+    if own not in FREE:
+        raise OptionError(f"Leaves of {leaf} are {own}: no other arrangement suits them.", remedy="Leave the arrangement out, or choose another leaf.")
+    return wanted
 
 
 def enlargement(habit: Habit) -> float:

@@ -58,7 +58,8 @@ class PhotoLeafing:
 
     def _worn(self, tree: TreeSkeleton, dress: Dress, key, density: float) -> Leaves:
         """The leaves that the twigs bear, where their middles are seen in the foliage."""
-        return self.seen.confirmed(populate(tree, dress.habit, key=key, model=dress.leaf, season=dress.season, density=density, max_leaves=2 * MOST))
+        how = {"model": dress.leaf, "season": dress.season, "arrangement": self.wanted.leaf_arrangement}
+        return self.seen.confirmed(populate(tree, dress.habit, key=key, density=density, max_leaves=2 * MOST, **how))
 
     def _printed(self, leaves: Leaves) -> Leaves:
         """With the photo on them, where they are in its colours."""

@@ -1,14 +1,17 @@
-"""How is a tree to be made of a photo? Every choice, with its range."""
+"""How is a tree to be made of a photo? Every choice, with its range. A document keeps them, so nothing here imports what finds or grows anything."""
 
 from dataclasses import dataclass
+from typing import TYPE_CHECKING
 
 from sketchtree.errors import OptionError
-from sketchtree.photo.trace.trace import Tracing
-from sketchtree.propagate.attractors.library import NAMES
+from sketchtree.foliage.wear import FREE
+
+if TYPE_CHECKING:
+    from sketchtree.photo.trace.trace import Tracing
 
 RULES = ("contrast", "paper")
 COLOURS = ("photo", "season")
-LIBRARIES = NAMES
+LIBRARIES = ("visible", "I", "II")  # as `propagate.attractors.library`
 
 
 @dataclass(frozen=True)
@@ -24,12 +27,15 @@ class PhotoOptions:
     fit_leaves: bool = True  # as large and dense as it takes to cover the foliage; False: as the species has them
     leaf_size: float = 1.0  # times that, 0.1-10
     leaf_density: float = 1.0  # times the leaves, 0.1-10
+    leaf_arrangement: str | None = None  # of the leaves about their twig (`foliage.wear.FREE`); None: the species'
     bare_as_seen: bool = True  # a tree that stands bare in the photo has no leaves, unless a leaf model is asked for
 
     def __post_init__(self):
         for name, known in (("foliage", RULES), ("colours", COLOURS)):
             if getattr(self, name) not in known:
                 raise OptionError(f"`{name}` is {getattr(self, name)!r}.", remedy=f"Choose one of: {', '.join(known)}.")
+        if self.leaf_arrangement not in (None, *FREE):
+            raise OptionError(f"`--leaf-arrangement {self.leaf_arrangement}` is none.", remedy=f"Choose one of: {', '.join(FREE)}; or leave it out.")
         if not self.library or any(name not in LIBRARIES for name in self.library):
             raise OptionError(f"`--library {','.join(self.library)}` names no library of subtrees.", remedy=f"Choose all, or some of: {', '.join(LIBRARIES)}.")
         if not 0 <= self.replacements <= 10_000:
@@ -39,6 +45,8 @@ class PhotoOptions:
                 raise OptionError(f"`--{name.replace('_', '-')} {getattr(self, name):g}` is out of range.", remedy="Give 0.1 to 10; 1 is as the photo's foliage asks for.")
 
     @property
-    def tracing(self) -> Tracing:
+    def tracing(self) -> "Tracing":
         """How limbs are traced."""
+        from sketchtree.photo.trace.trace import Tracing
+
         return Tracing(most=2_000 if self.trace else 0)

@@ -39,3 +39,18 @@ def test_density_divides_the_spacing():
 def test_an_unknown_arrangement_of_a_habit_is_refused():
     with pytest.raises(OptionError, match="There is no leaf arrangement called 'heap'"):
         wear_of(Habit(leaf_arrangement="heap"))
+
+
+def test_an_arrangement_that_is_asked_for_counts_more_than_the_leafs():
+    habit = Habit(leaf="oak", leaf_arrangement="spiral")
+    assert wear_of(habit, arrangement="decussate").arrangement == wear_of(habit, "maple", arrangement="decussate").arrangement == "decussate"
+    assert wear_of(habit, arrangement="whorled").whorl == habit.whorl
+
+
+@pytest.mark.parametrize(
+    ("leaf", "own", "asked", "said"),
+    [("oak", "spiral", "frond", "'frond' can't be asked for"), ("oak", "spiral", "random", "Choose one of: alternate"), ("palm", "frond", "spiral", "Leaves of palm are frond")],
+)
+def test_an_arrangement_that_no_leaf_or_this_leaf_cannot_have_is_refused(leaf, own, asked, said):
+    with pytest.raises(OptionError, match=said):
+        wear_of(Habit(leaf=leaf, leaf_arrangement=own), arrangement=asked)
