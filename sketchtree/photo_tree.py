@@ -33,6 +33,7 @@ from sketchtree.photo.read_photo import read_photo
 from sketchtree.photo.trace.palette import Palette
 from sketchtree.photo.trace.traced import Traced
 from sketchtree.photo.wanted import PhotoOptions
+from sketchtree.photo_choice import Choice, choose_for_photo
 from sketchtree.pipeline import Grown, TreeModel, finish
 from sketchtree.planting import tree_key
 from sketchtree.propagate.after.prune import Prune
@@ -57,6 +58,7 @@ class GrownInPhoto:
     drawn: DrawnTree  # its visible limbs, in space
     grown: Attraction
     seen: SeenFoliage
+    choice: Choice  # of its template, height and leaf, where nobody named them
 
 
 @dataclass(frozen=True, eq=False)
@@ -189,12 +191,15 @@ def grow_in_photo(
         traced = wanted.tracing(photo, own, foliage, key=stage_key(key, "trace"), palette=palette)
         sketch, graph = as_drawing([(traced, own)], photo.name)
     similarity = None if scale is None else Similarity(scale, tuple((-scale * np.array([*graph.xy[0], 0.0])).tolist()))
-    drawn = draw_out_graph(sketch, graph, templates, key=key, options=reading, similarity=similarity, watch=watch)
+    with watch("match"):
+        templates = templates if templates is not None or reading.template == "none" else Database.open()
+        choice = choose_for_photo(photo, own, foliage, traced, graph, templates, reading, scaled=similarity is not None)
+    drawn = draw_out_graph(sketch, graph, templates, key=key, options=choice.reading, similarity=similarity, watch=watch)
     seen = SeenFoliage(photo, foliage.mask, drawn.similarity, leafy_pixels(photo, foliage, traced))
     with watch("propagate"):
         stage = Attract(targets=target_of(seen), library=wanted.library, iterations=wanted.replacements, alternate=wanted.alternate, twigs=wanted.replacements > 0)
         grown = stage.run(drawn.skeleton, key=stage_key(key, "attract"), pulse=_pulse(watch))
-    return GrownInPhoto(own, foliage, traced, drawn, grown, seen)
+    return GrownInPhoto(own, foliage, traced, drawn, grown, seen, choice)
 
 
 def _foliage(photo: Photo, own: Marked, key: Key[Array, ""], wanted: PhotoOptions, mask: Bool[np.ndarray, "row column"] | None) -> Foliage:
@@ -236,13 +241,14 @@ def to_finish(found: GrownInPhoto, key: Key[Array, ""], options: TreeOptions, te
     """A grown tree, and what it is to wear, at its place: for `pipeline.leafy` and `pipeline.finish`."""
     if wanted.bare_as_seen and found.foliage.bare and options.leaf is None:
         options = dataclasses.replace(options, leaf="none", season="bare")
+    options = dataclasses.replace(options, leaf=options.leaf or found.choice.leaf)
     return Grown(found.drawn, found.grown, key, options, templates, place, PhotoLeafing(found.seen.moved(place), wanted))
 
 
 def _dressed(found: GrownInPhoto, key: Key[Array, ""], options: TreeOptions, templates: Database | None, place, wanted: PhotoOptions, watch: Watch) -> PhotoTree:
     """A grown tree with radii, leaves and meshes, at its place."""
     model = finish(to_finish(found, key, options, templates, place, wanted), watch)
-    told = (*found.seen.photo.warnings, *found.marked.warnings, *found.foliage.warnings, *model.warnings)
+    told = (*found.seen.photo.warnings, *found.marked.warnings, *found.foliage.warnings, *found.choice.told, *model.warnings)
     return PhotoTree(**vars(found), model=dataclasses.replace(model, warnings=tuple(dict.fromkeys(told))))
 
 
