@@ -13,6 +13,7 @@ from sketchtree.errors import SkeletonError
 from sketchtree.foliage.blossom import blossom
 from sketchtree.foliage.cards import leaf_mesh
 from sketchtree.foliage.populate import populate
+from sketchtree.geometry.bark import Colour
 from sketchtree.geometry.mesh import Mesh
 from sketchtree.geometry.wood import Wood, wood_of
 from sketchtree.keys import stage_key
@@ -30,6 +31,7 @@ class Dress:
     habit: Habit = Habit()
     wood: str | None = None  # one-piece | tubes; None: as `wood_of` chooses
     solid: bool = False  # the tubes united
+    bark_colour: Colour | None = None  # the bark's mean colour, linear; None: its own
 
 
 LARGEST = 1e5
@@ -47,7 +49,7 @@ def wood_worn(tree: TreeSkeleton, dress: Dress, *, key: Key[Array, ""]) -> Wood:
     if extent > LARGEST:
         far = int(np.abs(tree.tip).max(axis=1).argmax())
         raise SkeletonError(f"it lies {extent:.3g} m away from the origin, farther than any tree.", remedy="Scale the skeleton to metres, or take the stray point out.", row=far)
-    return wood_of(tree, bark=dress.bark, habit=dress.habit, key=stage_key(key, "mesh"), wood=dress.wood, solid=dress.solid)
+    return wood_of(tree, bark=dress.bark, habit=dress.habit, key=stage_key(key, "mesh"), wood=dress.wood, solid=dress.solid, bark_colour=dress.bark_colour)
 
 
 def leaves_worn(tree: TreeSkeleton, dress: Dress, *, key: Key[Array, ""]) -> tuple[Mesh, ...]:

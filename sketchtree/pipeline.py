@@ -19,6 +19,7 @@ from sketchtree.foliage.blossom import blossom
 from sketchtree.foliage.cards import leaf_mesh
 from sketchtree.foliage.leaves import Leaves
 from sketchtree.foliage.populate import populate
+from sketchtree.geometry.bark import Colour
 from sketchtree.geometry.mesh import Mesh
 from sketchtree.geometry.radii import PipeRadii
 from sketchtree.geometry.wood import check_wood, wood_of
@@ -134,13 +135,16 @@ class Grown:
     templates: Database | None = None  # for their leaves
     place: Float[np.ndarray, " 3"] | None = None  # where it stands, metres; None: where it was drawn
     leafing: Leafing | None = None  # what makes its leaves and blossoms, where that is not `foliage`
+    bark_colour: Callable[[str], Colour | None] | None = None  # the mean colour of its bark, by the bark's name, where that is not the bark's own
 
 
 def leafy(tree: Grown, watch: Watch | None = None) -> LeafyTree:
     """Radii, sag, shedding, pruning and leaves."""
     watch = watch or Watch()
     habit, options = tree.drawn.habit, tree.options
-    dress = Dress(bark_model(options.bark, habit), leaf_model(options.leaf, habit, tree.templates), options.season, habit)
+    bark = bark_model(options.bark, habit)
+    colour = None if tree.bark_colour is None else tree.bark_colour(bark)
+    dress = Dress(bark, leaf_model(options.leaf, habit, tree.templates), options.season, habit, bark_colour=colour)
     with watch("propagate"):
         skeleton, warnings = weathered(tree.drawn, tree.grown, options, tree.place)
     with watch("foliage"):
@@ -156,7 +160,7 @@ def finish(grown: Grown, watch: Watch | None = None) -> TreeModel:
     tree, options = leafy(grown, watch), grown.options
     dress = tree.dress
     with watch("mesh"):
-        wood = wood_of(tree.skeleton, bark=dress.bark, habit=dress.habit, key=stage_key(grown.key, "mesh"), wood=options.wood, solid=options.solid)
+        wood = wood_of(tree.skeleton, bark=dress.bark, habit=dress.habit, key=stage_key(grown.key, "mesh"), wood=options.wood, solid=options.solid, bark_colour=dress.bark_colour)
         meshes = [*wood.meshes]
         meshes += [leaf_mesh(worn, season=options.season) for worn in (tree.leaves, tree.blossom) if worn is not None and len(worn)]
     warnings = grown.drawn.warnings + tree.warnings + wood.warnings

@@ -8,7 +8,7 @@ from jaxtyping import Array, Bool, Float, Int, Key
 from sketchtree import keys
 from sketchtree.axes import NULL
 from sketchtree.errors import OptionError
-from sketchtree.geometry.bark import bark_material, rachis_material, twig_material
+from sketchtree.geometry.bark import Colour, bark_material, rachis_material, twig_material
 from sketchtree.geometry.collars import collar_tops
 from sketchtree.geometry.detail import Detail
 from sketchtree.geometry.limbs import CentreLines, centre_lines
@@ -73,13 +73,14 @@ def wood_of(
     detail: Detail = Detail(),  # noqa: B008 (frozen)
     wood: str | None = None,
     solid: bool = False,
+    bark_colour: Colour | None = None,
 ) -> Wood:
     """The same limbs as `wood_mesh`, in up to three meshes: `wood`, which has bark; `wood_twigs`, limbs too young for it;
     and `wood_rachis`, the midribs of a palm's fronds. `wood` comes first and is always there; the others where there are any.
 
     `wood` is "one-piece" (all meshes together, welded, are one closed surface a base), "tubes" (each limb a closed tube that
     dips into its parent) or None: one piece up to `MOST_JOINED` limbs, else tubes, with a warning. `detail.most_triangles` holds for
-    all together. `solid` unites the tubes, whatever `wood` says: the surface then meets itself nowhere. Raises `OptionError` for an
+    all together. `bark_colour` is the bark's mean colour, linear, where that is not its own. `solid` unites the tubes, whatever `wood` says: the surface then meets itself nowhere. Raises `OptionError` for an
     unknown bark or way, and where a solid is wanted without manifold3d.
     """
     check_wood(wood, solid)
@@ -88,7 +89,7 @@ def wood_of(
     lines = centre_lines(tree, apart=frond)
     made = WAYS[1] if solid else made_as(wood, len(lines))
     skin, lines, sunk = _skin(tree, lines, frond, made, key, detail)
-    meshes = [skin(among, name, surface) for name, surface, among in limb_skins(lines, frond, bark) if name == "wood" or among.any()]
+    meshes = [skin(among, name, surface) for name, surface, among in limb_skins(lines, frond, bark, bark_colour) if name == "wood" or among.any()]
     if solid:
         whole, crumbs = united(meshes)
         return Wood(whole, "solid", (f"{crumbs} small pieces of wood touch no other and are not in the solid.",) if crumbs else ())
@@ -101,12 +102,12 @@ def frond_rows(tree: TreeSkeleton, habit: Habit) -> Bool[np.ndarray, " segment"]
 
 
 def limb_skins(
-    lines: CentreLines, frond: Bool[np.ndarray, " segment"], bark: str
+    lines: CentreLines, frond: Bool[np.ndarray, " segment"], bark: str, colour: Colour | None = None
 ) -> tuple[tuple[str, Material, Bool[np.ndarray, " limb"]], ...]:
     """Name and material of each mesh of wood, and the limbs it holds: `wood` first. Raises `OptionError` for an unknown bark."""
     midrib = frond[lines.first_row]
     twig = (lines.radius[lines.start[:-1]] < _YOUNG) & (lines.parent != NULL) & ~midrib
-    return ("wood", bark_material(bark), ~(midrib | twig)), ("wood_twigs", twig_material(bark), twig), ("wood_rachis", rachis_material(), midrib)
+    return ("wood", bark_material(bark, colour=colour), ~(midrib | twig)), ("wood_twigs", twig_material(bark, colour=colour), twig), ("wood_rachis", rachis_material(), midrib)
 
 
 def check_wood(wood: str | None, solid: bool) -> None:

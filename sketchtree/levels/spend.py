@@ -51,7 +51,7 @@ class Budget:
         leafy = np.zeros(len(skeleton), bool)
         for leaves in worn:
             leafy[leaves.segment] = True
-        self._wood = LevelWood.of(skeleton, bark=dress.bark, habit=dress.habit, leafy=leafy)
+        self._wood = LevelWood.of(skeleton, bark=dress.bark, bark_colour=dress.bark_colour, habit=dress.habit, leafy=leafy)
         views = views_round(full, _SIDES, _PIXELS)
         self._view = views[_SIDE] if views else None  # None: there is nothing to see
         self._all = None if self._view is None else silhouette(full, self._view)

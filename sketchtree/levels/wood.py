@@ -9,6 +9,7 @@ from dataclasses import dataclass, replace
 import numpy as np
 from jaxtyping import Bool, Float, Int
 
+from sketchtree.geometry.bark import Colour
 from sketchtree.geometry.detail import Detail
 from sketchtree.geometry.limbs import centre_lines
 from sketchtree.geometry.mesh import Material, Mesh
@@ -35,6 +36,7 @@ class LevelWood:
     @classmethod
     def of(
         cls, tree: TreeSkeleton, *, bark: str, habit: Habit, leafy: Bool[np.ndarray, " segment"] | None = None, hidden: float = 0.5, detail: Detail = Detail(),  # noqa: B008 (frozen)
+        bark_colour: Colour | None = None,
     ) -> "LevelWood":
         """Of a tree. Limbs of rows that are `leafy` are hidden by their leaves, and weigh only 1 − `hidden`; `detail` is that of the full
         tree. Raises `OptionError` for an unknown bark."""
@@ -43,7 +45,7 @@ class LevelWood:
         lines, ring = plan.lines, _flared(plan, detail.flare)
         full = (plan.side[ring.limb] >> plan.level)[(ring.start[:-1] + ring.start[1:]) // 2] if len(lines) else plan.side
         weight = np.ones(len(lines)) if leafy is None else 1.0 - hidden * leafy[lines.first_row]
-        kind = limb_skins(lines, frond, bark)
+        kind = limb_skins(lines, frond, bark, bark_colour)
         return cls(plan, ring, choices_of(ring, full) if len(lines) else None, full, weight, kind)
 
     def meshes(self, triangles: int) -> tuple[Mesh, ...]:

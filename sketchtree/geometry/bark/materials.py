@@ -1,10 +1,14 @@
 """Which bark does the wood wear?
 
 Barks are drawn by code: a relief (`furrowed`, `ribbed`, `scaly`, `peeling`, `smooth`, `palms`) gives colour, normals and roughness of one
-tile that repeats without a seam and stands for half a metre of stem.
+tile that repeats without a seam and stands for half a metre of stem. A tree that was seen, in a photo for one, may ask for a bark of another colour: the same relief, its colours
+shifted in linear light until their mean is that one.
 """
 
+from dataclasses import replace
 from functools import lru_cache
+
+import numpy as np
 
 from sketchtree.errors import OptionError
 from sketchtree.geometry.bark import furrowed, palms, peeling, ribbed, scaly, smooth
@@ -38,6 +42,11 @@ _BARKS = {
     "dead": ribbed.dead,
 }
 
+Colour = tuple[float, float, float]
+"""Linear red, green and blue, 0-1."""
+
+_TWIGS = 0.5  # of the bark's shift, in powers, that young twigs share
+
 
 def bark_names() -> tuple[str, ...]:
     """Names of all barks."""
@@ -45,8 +54,8 @@ def bark_names() -> tuple[str, ...]:
 
 
 @lru_cache(maxsize=32)
-def bark_material(name: str, pixels: int = 512) -> Material:
-    """The bark called `name`, as a material called `wood_<name>`; kept, so that it is drawn once.
+def bark_material(name: str, pixels: int = 512, colour: Colour | None = None) -> Material:
+    """The bark called `name`, as a material called `wood_<name>`; kept, so that it is drawn once. `colour`: its mean, if that is not its own; the material's name then ends in it.
 
     `pixels` is the side of its textures (64-4096). Raises `OptionError` for an unknown name.
     """
@@ -54,15 +63,23 @@ def bark_material(name: str, pixels: int = 512) -> Material:
         raise OptionError(f"There is no bark called `{name}`.", remedy=f"Choose one of: {', '.join(_BARKS)}.")
     if not 64 <= pixels <= 4096:
         raise OptionError(f"`pixels` is {pixels}, outside 64 to 4096.", remedy="Choose a size in that range, such as 512.")
-    return _material(f"wood_{name}", _BARKS[name](pixels))
+    own = _material(f"wood_{name}", _BARKS[name](pixels)) if colour is None else bark_material(name, pixels)
+    return own if colour is None else _shifted(own, np.array(colour) / bark_colour(name), colour)
 
 
 @lru_cache(maxsize=32)
-def twig_material(name: str, pixels: int = 256) -> Material:
-    """The smooth skin of young twigs under the bark called `name`, as a material called `wood_<name>_young`."""
+def twig_material(name: str, pixels: int = 256, colour: Colour | None = None) -> Material:
+    """The smooth skin of young twigs under the bark called `name`, as a material called `wood_<name>_young`; `colour` is that of the bark, if that is not its own."""
     if name not in YOUNG:
         raise OptionError(f"There is no bark called `{name}`.", remedy=f"Choose one of: {', '.join(_BARKS)}.")
-    return _material(f"wood_{name}_young", young(pixels, YOUNG[name]))
+    own = _material(f"wood_{name}_young", young(pixels, YOUNG[name])) if colour is None else twig_material(name, pixels)
+    return own if colour is None else _shifted(own, (np.array(colour) / bark_colour(name)) ** _TWIGS, colour)
+
+
+@lru_cache(maxsize=32)
+def bark_colour(name: str) -> Colour:
+    """The mean colour of a bark, linear. Raises `OptionError` for an unknown name."""
+    return tuple(_linear(bark_material(name).base_color_texture).mean(axis=(0, 1)).tolist())
 
 
 @lru_cache(maxsize=4)
@@ -80,3 +97,22 @@ def _material(name: str, relief: Relief) -> Material:
     for texture in textures.values():
         texture.flags.writeable = False
     return Material(name, roughness=1.0, **textures)
+
+
+def _shifted(own: Material, by: np.ndarray, colour: Colour) -> Material:
+    """The same in other colours; its name tells which, so that files with two such trees keep both."""
+    texture = _encoded(np.clip(_linear(own.base_color_texture) * by, 0.0, 1.0))
+    texture.flags.writeable = False
+    told = "".join(f"{byte:02x}" for byte in _encoded(np.clip(np.array(colour), 0.0, 1.0)))
+    return replace(own, name=f"{own.name}_{told}", base_color_texture=texture)
+
+
+def _linear(byte) -> np.ndarray:
+    """sRGB, 0-255 → linear, 0-1."""
+    value = np.arange(256) / 255.0
+    return np.where(value <= 0.04045, value / 12.92, ((value + 0.055) / 1.055) ** 2.4)[byte]
+
+
+def _encoded(value) -> np.ndarray:
+    """Linear, 0-1 → sRGB, 0-255."""
+    return np.rint(255.0 * np.where(value <= 0.0031308, 12.92 * value, 1.055 * value ** (1 / 2.4) - 0.055)).astype(np.uint8)
