@@ -20,7 +20,10 @@ from sketchtree.propagate.attractors.revolved import Axes
 from sketchtree.propagate.attractors.target import Target
 
 _BLOCK = 200_000  # pairs at a time
+_PIECES = 400  # of wood, that attractors are held against at once
+_FIRST = 16  # every such piece of the tree given is looked at before the others
 _POINT = 1e-300  # m²: a shorter piece is a point
+_SLACK = 1e-5  # of the farthest coordinate: what single precision may be off by
 
 
 @dataclass(eq=False)
@@ -52,9 +55,28 @@ class Attractors:
     def approach(self, start: Float[np.ndarray, "piece 3"], end: Float[np.ndarray, "piece 3"], limb: Int[np.ndarray, " piece"]) -> None:
         """The tree has these pieces more, of these limbs."""
         if len(start) and len(self):
-            new, piece = distances(self.place, start[:, : self.axes], end[:, : self.axes])
-            nearer = new < self.distance
-            self.distance, self.nearest = np.where(nearer, new, self.distance), np.where(nearer, limb[piece], self.nearest)
+            start, end = start[:, : self.axes], end[:, : self.axes]
+            if not np.isfinite(self.distance).all():  # a few first, so that most pairs needn't be looked at
+                self._approach(start[::_FIRST], end[::_FIRST], limb[::_FIRST])
+            for first in range(0, len(start), _PIECES):
+                self._approach(start[first : first + _PIECES], end[first : first + _PIECES], limb[first : first + _PIECES])
+
+    def _approach(self, start, end, limb) -> None:
+        """The same for as many pieces as fit in memory: only attractors are measured that the ball about all of them, and the one about a piece, come near."""
+        middle, half = 0.5 * (start + end), 0.5 * np.linalg.norm(end - start, axis=1)
+        whole = middle.mean(axis=0)
+        near = np.flatnonzero(np.linalg.norm(self.place - whole, axis=1) - (np.linalg.norm(middle - whole, axis=1) + half).max() < self.distance)
+        if len(near) == 0:
+            return
+        attractor, piece = _within(self.place[near], middle, self.distance[near], half)
+        attractor = near[attractor]
+        new = np.sqrt(_squared_each(self.place[attractor], start[piece], end[piece]))
+        order = np.lexsort((piece, new, attractor))
+        attractor, new, piece = attractor[order], new[order], piece[order]
+        first = np.flatnonzero(np.diff(attractor, prepend=NULL) != 0)
+        first = first[new[first] < self.distance[attractor[first]]]
+        self.distance, self.nearest = self.distance.copy(), self.nearest.copy()
+        self.distance[attractor[first]], self.nearest[attractor[first]] = new[first], limb[piece[first]]
 
     def add(self, more: "Attractors") -> None:
         """These too."""
@@ -100,18 +122,28 @@ def distances(
     found, which = np.full(len(place), np.inf), np.full(len(place), NULL)
     step = max(_BLOCK // max(len(place), 1), 1)
     for k in range(0, len(start), step):
-        square = _squared(place, start[k : k + step], end[k : k + step])
+        square = _squared_each(place[:, None], start[k : k + step], end[k : k + step])
         piece = square.argmin(axis=1)
         new = np.sqrt(square[np.arange(len(place)), piece])
         found, which = np.where(new < found, new, found), np.where(new < found, piece + k, which)
     return found, which
 
 
-def _squared(place, start, end):
-    """Squares of the distances from every place to every straight piece (place, piece)."""
+def _within(place, middle, distance, half):
+    """(attractor, piece) of all pairs of which the ball about the piece comes nearer than the attractor is from the tree."""
+    away = np.zeros((len(middle), len(place)), np.float32)
+    for axis in range(place.shape[1]):  # not a matrix product: those take threads that wait for each other
+        step = place[:, axis].astype(np.float32) - middle[:, axis, None].astype(np.float32)
+        away += np.square(step, out=step)
+    most = ((distance + _SLACK * np.abs(place).max()).astype(np.float32) + half[:, None].astype(np.float32)) ** 2
+    piece, attractor = np.nonzero(away < most)
+    return attractor, piece
+
+
+def _squared_each(place, start, end):
+    """Squares of the distances from places to straight pieces, each to its own."""
     vector = end - start
-    long = np.maximum((vector * vector).sum(axis=1), _POINT)
-    along = place @ vector.T - (start * vector).sum(axis=1)
-    share = np.clip(along / long, 0.0, 1.0)
-    square = (place * place).sum(axis=1)[:, None] - 2.0 * (place @ start.T) + (start * start).sum(axis=1)
-    return np.maximum(square + share * (share * long - 2.0 * along), 0.0)
+    from_start = place - start
+    along = (from_start * vector).sum(axis=-1) / np.maximum((vector * vector).sum(axis=-1), _POINT)
+    rest = from_start - np.clip(along, 0.0, 1.0)[..., None] * vector
+    return (rest * rest).sum(axis=-1)

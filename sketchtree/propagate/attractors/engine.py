@@ -12,7 +12,6 @@ from dataclasses import dataclass, field, replace
 
 import numpy as np
 from jaxtyping import Array, Float, Key
-from scipy.spatial import cKDTree
 
 from sketchtree import keys
 from sketchtree.axes import NULL
@@ -23,6 +22,7 @@ from sketchtree.propagate.attractors.candidates import candidates
 from sketchtree.propagate.attractors.gain import gains
 from sketchtree.propagate.attractors.library import Library
 from sketchtree.propagate.attractors.placement import Placed, placed
+from sketchtree.propagate.attractors.places import Places
 from sketchtree.propagate.attractors.pruning import DEEP, whole_branches, within_foliage
 from sketchtree.propagate.attractors.revolved import Axes
 from sketchtree.propagate.attractors.subtree import RATIO
@@ -54,6 +54,16 @@ class Course:
     segments: list[int] = field(default_factory=list)  # straight pieces grown so far
 
 
+@dataclass(eq=False)
+class Choice:
+    """One subtree in one turn on one branch."""
+
+    most: float  # metres, that it can gain
+    number: int  # of the stretch
+    flat: int  # subtree and turn in one number
+    at: Placed
+
+
 class Engine:
     """One tree while it grows."""
 
@@ -69,7 +79,7 @@ class Engine:
         self.space = Attractors.at(self._in_space())
         self.stretches: list[Stretch] = []
         self.parts: list[np.ndarray] = []  # places along each limb
-        self.samples, self.course, self.grown, self.iteration = np.zeros((0, 3)), Course(), 0, 0
+        self.places, self.course, self.grown, self.iteration = Places(), Course(), 0, 0
         self.forked: set[tuple[int, float]] = set()  # (limb, metres along it): where a subtree of type I stands already; a shoot forks at its end once
         self._taken = 0
         self._take_up()
@@ -111,12 +121,12 @@ class Engine:
         """One round of twigs; whether any grew."""
         far = ends.farthest(attractors.place, attractors.distance, floor, ends.CELL * max(floor, self.leaf))
         far = far[: (self.wanted.max_segments - self.grown) // ends.PIECES + 1]
-        if len(far) == 0 or len(self.samples) == 0:
+        if len(far) == 0 or len(self.parts) == 0:
             return False
         wood, samples = self.wood, self.parts
         number = np.repeat(np.arange(len(wood)), [len(one) for one in samples])
         arc = np.concatenate([np.arange(1, len(one) + 1) / len(one) * limb.length for one, limb in zip(samples, wood.limbs, strict=True)])
-        parent, at, point = ends.ways(attractors.place[far], self.samples, number, arc, wood, self.leaf, self.key, round_)
+        parent, at, point = ends.ways(attractors.place[far], np.concatenate(samples), number, arc, wood, self.leaf, self.key, round_)
         free = self.target.inside(point[:, 1:]).all(axis=1) & (self.axes.out(point[:, -1]) <= np.maximum(DEEP, self.axes.out(point[:, 0])))
         for bearer, place, line in zip(parent[free].tolist(), at[free].tolist(), point[free], strict=True):
             self._bear(bearer, place, line)
@@ -141,17 +151,25 @@ class Engine:
             gain = gains(attractors, at, self.library.reach * at.stretch.length)
             at.stretch.replaced += gain.max() <= _LEAST * self.leaf
             best = np.argsort(-gain, axis=None, kind="stable")[:_BEST]
-            open_ += [(float(gain.flat[flat]), number, int(flat), at) for flat in best if gain.flat[flat] > _LEAST * self.leaf]
+            open_ += [Choice(float(gain.flat[flat]), number, int(flat), at) for flat in best if gain.flat[flat] > _LEAST * self.leaf]
         done = 0
-        while open_ and done < self.wanted.replacements:
-            looked = sorted(open_, key=lambda one: (-one[0], one[1], one[2]))[:_BEST]
-            best = max((self._close(attractors, flat, at) for _, _, flat, at in looked), key=lambda one: one[0])
-            if best[0] <= _LEAST * self.leaf:
-                break
-            self._grow(*best[1:])
+        while done < self.wanted.replacements and (best := self._best(attractors, open_)) is not None:
+            self._grow(*best)
             self._take_up()
-            open_, done = [one for one in open_ if one[3].stretch is not best[2].stretch], done + 1
+            open_, done = [one for one in open_ if one.at.stretch is not best[1].stretch], done + 1
         return done > 0
+
+    def _best(self, attractors: Attractors, open_: list["Choice"]):
+        """Of the choices left, (subtree, placement) of that with the highest gain once it is pruned by what stands already; None where none is worth it. What has once been found is the most
+        that will be found later, since the tree only comes nearer: so a choice is looked at anew only while it may still be the best."""
+        best, gain = None, _LEAST * self.leaf
+        for choice in sorted(open_, key=lambda one: (-one.most, one.number, one.flat)):
+            if choice.most <= gain:
+                break
+            choice.most, *found = self._close(attractors, choice.flat, choice.at)
+            if choice.most > gain:
+                best, gain = found, choice.most
+        return best
 
     def _placed(self, stretch: Stretch) -> Placed:
         """The library on a stretch, pruned by the foliage."""
@@ -180,7 +198,7 @@ class Engine:
         outer = np.zeros(one.there.shape[-1], bool)
         outer[: len(beyond)] = np.r_[False, beyond.branch[1:] == beyond.branch[:-1]]
         room = np.maximum(_CLOSE * self.leaf, self.wanted.apart * np.r_[_lengths(beyond), np.zeros(len(outer) - len(beyond))] * stretch_length)
-        away, _ = self.tree.query(np.stack([middle, one.end]).reshape(-1, 3), distance_upper_bound=float(room.max()))
+        away = self.places.distance(np.stack([middle, one.end]).reshape(-1, 3), float(room.max()))
         clear = (away.reshape(2, -1) > room).all(axis=0) | ~outer
         part = Library((beyond,), library.vector[[subtree]], library.share[[subtree]], library.along[[subtree]], library.there[[subtree]],
                        library.below[[subtree]], library.with_next[[subtree]])  # fmt: skip
@@ -214,10 +232,8 @@ class Engine:
             attractors.approach(*wood.pieces(first))
         new = [limb.samples(_SAMPLE * self.leaf) for limb in wood.limbs[first:]]
         self.parts += new
-        self.samples = np.concatenate([self.samples, *new])
-        self.tree = cKDTree(self.samples)
-        for number in range(first, len(wood)):
-            self.stretches += wood.stretches(number, self.target.inside, _SHORTEST * self.leaf)
+        self.places.add(np.concatenate([np.zeros((0, 3)), *new]))
+        self.stretches += wood.stretches(first, self.target.inside, _SHORTEST * self.leaf)
         if self.wanted.depth == "joints":
             more = turned_joints(wood.joints(first), self.target, self.axes)
             if len(more):

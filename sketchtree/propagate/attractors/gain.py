@@ -13,7 +13,7 @@ from sketchtree.propagate.attractors.attractors import Attractors
 from sketchtree.propagate.attractors.placement import Placed
 
 MOST = 112  # attractors looked at for one branch
-_BLOCK = 150_000  # pairs at a time: they stay in a processor's cache
+_BLOCK = 60_000  # pairs at a time: they stay in a processor's cache, and BLAS takes no threads, which cost more than they bring here
 
 
 def gains(attractors: Attractors, at: Placed, reach: float, floor: float = 0.0) -> Float[np.ndarray, "subtree turn"]:

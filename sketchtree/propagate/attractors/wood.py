@@ -18,6 +18,7 @@ from sketchtree.traverse import limb_chains
 
 _TANGENT = 0.08  # of a stretch: half of what its direction at a place is taken over
 _FOOT = 1e-9  # metres: a shorter limb is a point
+_LOOKS = 65  # places along a limb, of which the first in the foliage is where it enters that
 _OUTSIDE = 0.2  # of a limb, before it enters the foliage: the part within counts as a branch too
 _BETWEEN = 0.3  # of its limb, a piece between two joints is at least, to count as a branch
 
@@ -121,16 +122,19 @@ class Wood:
         number = np.repeat(np.arange(first, len(self)), [len(limb.point) - 1 for limb in limbs])
         return np.concatenate([np.zeros((0, 3)), *start]), np.concatenate([np.zeros((0, 3)), *end]), number
 
-    def stretches(self, number: int, inside, shortest: float) -> list[Stretch]:
-        """What of a limb may be replaced, `inside` saying which points are in the foliage."""
+    def stretches(self, first: int, inside, shortest: float) -> list[Stretch]:
+        """What of the limbs from number `first` on may be replaced, `inside` saying which points are in the foliage."""
+        numbers = [k for k in range(first, len(self)) if self.limbs[k].length > max(_FOOT, shortest)]
+        if not numbers:
+            return []
+        share = np.linspace(0.0, 1.0, _LOOKS)
+        within = inside(np.stack([self.limbs[k].place(share * self.limbs[k].length) for k in numbers]))
+        enters = np.where(within.any(axis=1), share[np.argmax(within, axis=1)], np.nan)
+        return [one for k, at in zip(numbers, enters.tolist(), strict=True) if at == at for one in self._stretches(k, at * self.limbs[k].length) if one.length > shortest]
+
+    def _stretches(self, number: int, low: float) -> list[Stretch]:
+        """What of a limb that enters the foliage `low` metres along may be replaced."""
         limb = self.limbs[number]
-        if limb.length <= max(_FOOT, shortest):
-            return []
-        arc = np.linspace(0.0, limb.length, 65)
-        within = inside(limb.place(arc))
-        if not within.any():
-            return []
-        low = float(arc[np.argmax(within)])
         found = [Stretch(number, 0.0, limb.length, limb.identity)]
         found += [Stretch(number, low, limb.length, limb.identity ^ (1 << 40))] if low > _OUTSIDE * limb.length else []
         if limb.is_given:
@@ -138,7 +142,7 @@ class Wood:
             cuts = [low, *joints, limb.length]
             between = [(a, b) for a, b in zip(cuts[:-1], cuts[1:], strict=True) if _BETWEEN * (limb.length - low) <= b - a < limb.length - low]
             found += [Stretch(number, a, b, limb.identity ^ (k + 1)) for k, (a, b) in enumerate(between)]
-        return [one for one in found if one.length > shortest]
+        return found
 
     def line(self, stretch: Stretch, share) -> tuple[Float[np.ndarray, "*place 3"], Float[np.ndarray, "*place 3 3"]]:
         """(places, frames) at shares of a stretch. Columns of a frame: x level where it can be, y along the limb, z."""
