@@ -7,6 +7,7 @@ from dataclasses import dataclass, field
 from sketchtree.editing.edits import Edits
 from sketchtree.editing.settled import Settled
 from sketchtree.options import ReadingOptions, TreeOptions
+from sketchtree.photo.wanted import PhotoOptions
 from sketchtree.sketch.strokes import Sketch, Stroke
 
 
@@ -35,6 +36,7 @@ class Document:
     settled: Settled = Settled()  # what the depths have come to; not of the user's making, but the next answer starts here
     reading: ReadingOptions = ReadingOptions()
     tree: TreeOptions = TreeOptions()
+    photo: PhotoOptions = PhotoOptions()  # of the tree in a photo under the page
     seed: int = 0
     underlay: Underlay | None = None
     name: str = "untitled"

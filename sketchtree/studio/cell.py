@@ -55,12 +55,18 @@ class LateEngine:
         self._awake = True
         if self._newest is not None:
             self.engine.trace(*self._newest)
+            self.engine.grow(*self._newest)
             self.engine.make(*self._newest)
 
     def trace(self, revision: int, document: Document) -> None:
         """As `Engine.trace`; `make`, which comes after it, keeps the drawing until there is a page."""
         if self._awake:
             self.engine.trace(revision, document)
+
+    def grow(self, revision: int, document: Document, *, at_once: bool = False) -> None:
+        """As `Engine.grow`."""
+        if self._awake:
+            self.engine.grow(revision, document, at_once=at_once)
 
     def make(self, revision: int, document: Document) -> None:
         """As `Engine.make`."""

@@ -4,6 +4,8 @@
     full     the whole tree; meanwhile, of the last one, what pages that join need and the undrawn limb that is picked
     side     everything else: pictures, other readings, glances, files in and out
 
+and, once a photo lies under the page, three more (`tracer`, `grower`).
+
 Each begins when it is first needed, and is begun again should it end. The newest request wins; a hurried answer goes before the full tree of the same revision.
 """
 
@@ -20,7 +22,9 @@ from sketchtree.editing.settled import Settled
 from sketchtree.errors import SketchTreeError
 from sketchtree.studio import messages
 from sketchtree.studio.engine import Fault, Outcome
+from sketchtree.studio.grower import Grower
 from sketchtree.studio.hand import Ended, Hand
+from sketchtree.studio.laid_photo import LaidPhoto
 from sketchtree.studio.making.basis import Basis
 from sketchtree.studio.tracer import Tracer
 
@@ -71,7 +75,10 @@ class Crew:
         for role in _ROLES:
             self._hands[role] = Hand(role, self._database, self._event if role == "full" else lambda number, value: None, partial(self._ended, role))
         photo = [Hand(role, self._database, lambda number, value: None, partial(self._ended, role)) for role in ("photo", "foliage")]
-        self._tracer = Tracer(*photo, lambda revision, event: self.on_outcome(Outcome(revision, event)), self._run)
+        grow = Hand("grow", self._database, lambda number, value: self._grower.heard(number, value), partial(self._ended, "grow"))
+        laid = LaidPhoto()
+        self._grower = Grower(grow, laid, lambda outcome: self.on_outcome(outcome), self._run)
+        self._tracer = Tracer(*photo, laid, lambda revision, event: self.on_outcome(Outcome(revision, event)), self._grower.seen, self._run)
         self._begun = 1
         self._empty: bytes | None = None  # the tree of a page without a stroke, if that was told last
         self._hands["full"].begin()  # the others once there is a tree, or when they are asked
@@ -85,6 +92,7 @@ class Crew:
         for hand in self._hands.values():
             hand.end()
         self._tracer.end()
+        self._grower.end()
 
     def make(self, revision: int, document: Document) -> None:
         """As `Engine.make`."""
@@ -191,6 +199,25 @@ class Crew:
         """As `Engine.with_traced`."""
         return await self._tracer.taken_over(document)
 
+    def grow(self, revision: int, document: Document, *, at_once: bool = False) -> None:
+        """As `Engine.grow`."""
+        if at_once:
+            self._tracer.make(revision, document)  # what was stopped looking for foliage looks again
+        self._grower.make(revision, document, at_once=at_once)
+
+    def stop_growing(self) -> None:
+        """As `Engine.stop_growing`."""
+        self._tracer.cancel()
+        self._grower.stop()
+
+    async def grown(self, document: Document, name: str, options: dict) -> dict[str, bytes]:
+        """As `Engine.grown`."""
+        return await self._grower.files(document, name, options)
+
+    async def marks(self, document: Document) -> bytes:
+        """As `Engine.marks`."""
+        return await self._tracer.as_svg(document)
+
     def ghost(self, revision: int, document: Document, stroke: messages.Stroke | None, hold: messages.Hold | None) -> None:
         """As `Engine.ghost`."""
         self._run(self._shown(revision, self._hands["quick"].ask("ghost", revision, document.replace(underlay=None), stroke, hold, self._basis)[1]))
@@ -237,6 +264,8 @@ class Crew:
         self._cancelled = True
         for hand in self._hands.values():
             hand.stop()
+        self._tracer.cancel()
+        self._grower.stop()
         self._say(messages.Working(state="idle", revision=self._revision))
 
     async def find(self, document: Document, limb: int):

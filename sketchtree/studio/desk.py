@@ -26,8 +26,8 @@ from sketchtree.studio.recovery import Journal, Recovered
 from sketchtree.studio.scribe import Scribe
 from sketchtree.studio.settling import known_at_once, sharing
 
-_KEPT = (messages.Working, messages.Matches, messages.Read, messages.Alternatives, messages.Traced, messages.Foliage)  # the newest of each is told to pages that join later
-_NO_TREE = frozenset({"underlay", "name", "units", "page"})  # fields of a document that its tree does not hang on
+_KEPT = (messages.Working, messages.Matches, messages.Read, messages.Alternatives, messages.Traced, messages.Foliage, messages.Growing)  # the newest of each is told to pages that join later
+_NO_TREE = frozenset({"underlay", "name", "units", "page", "photo"})  # fields of a document that its tree does not hang on
 
 
 @dataclass(eq=False)
@@ -70,6 +70,7 @@ class Desk:
         self._clock = clock
         self._pages: set[Page] = set()
         self._kept: dict[type, messages.Event] = {}
+        self._of_photo: bytes | None = None  # the frame of the photo's tree
         self._rough: Settled | None = None  # where the depths are for now, as pages show them
         self._settled_since = 1  # revision at which the settled depths were last set by a step
         self._came = asyncio.Event()  # an outcome, since `settles` looked last
@@ -99,6 +100,7 @@ class Desk:
         self._remember_picture()
         self.ready.set()
         self.engine.trace(self.revision, self.document)
+        self.engine.grow(self.revision, self.document)
         self.engine.make(self.revision, self.document)
 
     async def end(self) -> None:
@@ -154,6 +156,8 @@ class Desk:
         page.outbox.everything()
         for event in (*self._kept.values(), *self.notes, *filter(None, (self._wrong, self._unkept))):
             page.outbox.put(event)
+        if self._of_photo is not None:
+            page.outbox.put(self._of_photo)
         self.engine.refresh()
 
     def tell(self, event: messages.Event | bytes) -> None:
@@ -230,6 +234,7 @@ class Desk:
         redrawn = bool(what.put or what.gone or what.order is not None)
         if redrawn or what.others.keys() & {"underlay", "seed"}:
             self.engine.trace(self.revision, document)
+        self.engine.grow(self.revision, document)
         if redrawn or what.others.keys() - _NO_TREE:
             self.engine.make(self.revision, document)
 
@@ -238,6 +243,10 @@ class Desk:
     def on_outcome(self, outcome: Outcome) -> None:
         """The engine has something to tell. Where the depths have come to is in the journal before a page shows it."""
         lines = ()
+        if outcome.of_photo:
+            self._of_photo = outcome.event
+        elif isinstance(outcome.event, messages.Growing) and outcome.event.state == "none":
+            self._of_photo = None
         if outcome.settled is not None and self._settled_since <= outcome.revision <= self.revision:
             lines = self._settle(outcome.settled)
         if outcome.rough is not None and outcome.revision == self.revision:

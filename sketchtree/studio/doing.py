@@ -16,6 +16,7 @@ from sketchtree.studio.desk import Desk, Page, trouble_of
 
 _SETTLES = 5.0  # seconds that an edit waits, aside, for a limb that is not there yet
 _PENDING = 32  # edits that may wait so, and files
+_AGAIN = 4  # times that limbs are traced for a drawing that is drawn on
 _FILE = "file"  # tasks that read or write one
 Edit = Callable[[Document, int], Document]
 FAULT = messages.Trouble(
@@ -191,7 +192,7 @@ async def _redo(desk: Desk, page: Page, request: messages.Redo) -> None:
 async def _cancel(desk: Desk, page: Page, request: messages.Cancel) -> None:
     desk.engine.cancel()
     for task in desk.tasks:
-        if task.get_name() == "readings":
+        if task.get_name() in ("readings", "traced"):
             task.cancel()
 
 
@@ -230,8 +231,28 @@ async def _set_underlay(desk: Desk, page: Page, request: messages.SetUnderlay) -
 
 
 async def _use_traced(desk: Desk, page: Page, request: messages.UseTraced) -> None:
-    async with desk.turn:
-        desk.step(await desk.engine.with_traced(desk.document), "traced limbs")
+    task = _aside(desk, page, lambda: _take_over(desk), only="traced")
+    desk.pending[task] = desk.revision  # undo takes it back before it is done
+    task.add_done_callback(desk.pending.pop)
+
+
+async def _take_over(desk: Desk) -> None:
+    """The traced limbs of the drawing as it is when they are there: one that was drawn on meanwhile is traced again."""
+    for _ in range(_AGAIN):
+        document = desk.document
+        made = await desk.engine.with_traced(document)
+        async with desk.turn:
+            if desk.document.strokes is document.strokes and desk.document.underlay is document.underlay:
+                desk.step(desk.document.replace(strokes=made.strokes, underlay=made.underlay), "traced limbs")
+                return
+    raise OptionError("The drawing was another each time its limbs were traced.", remedy="Lift the pen for a moment, then use them.")
+
+
+async def _grow(desk: Desk, page: Page, request: messages.Grow) -> None:
+    if request.on:
+        desk.engine.grow(desk.revision, desk.document, at_once=True)
+    else:
+        desk.engine.stop_growing()
 
 
 def _aside(
@@ -262,5 +283,5 @@ _DOING: dict[type, Callable[[Desk, Page, Any], Awaitable[None]]] = {
     messages.Hold: _hold, messages.Flip: _flip, messages.Mirror: _mirror, messages.Lock: _lock, messages.Delete: _delete, messages.Settle: _settle,
     messages.Readings: _readings, messages.Pick: _pick, messages.Undo: _undo, messages.Redo: _redo, messages.Cancel: _cancel, messages.New: _new,
     messages.Open: _open, messages.Save: _save, messages.SetUnderlay: _set_underlay,
-    messages.UseTraced: _use_traced,
+    messages.UseTraced: _use_traced, messages.Grow: _grow,
 }  # fmt: skip

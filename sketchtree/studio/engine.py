@@ -29,6 +29,7 @@ class Outcome:
 
     revision: int
     event: bytes | messages.Event  # bytes: a binary frame, ready to be sent
+    of_photo: bool = False  # a frame of the photo's tree
     settled: Settled | None = None  # where the depths came to, with a full `Tree`
     rough: Settled | None = None  # where they are for now, with a quick one
 
@@ -58,6 +59,19 @@ class Engine(Protocol):
 
     async def with_traced(self, document: Document) -> Document:
         """The drawing in which those limbs stand for the strokes that mark them. Raises SketchTreeError where there are none."""
+
+    def grow(self, revision: int, document: Document, *, at_once: bool = False) -> None:
+        """`Growing`, and a `Tree` of phase "photo": the tree that the strokes mark in the photo under the page, once it is known what shows of it and nothing was changed for a
+        moment; `at_once`: without that pause, and though it was stopped."""
+
+    def stop_growing(self) -> None:
+        """That tree is not wanted as it is now."""
+
+    async def grown(self, document: Document, name: str, options: dict) -> dict[str, bytes]:
+        """The files that the photo's tree becomes, by name. Raises SketchTreeError."""
+
+    async def marks(self, document: Document) -> bytes:
+        """The strokes that mark the photo, in its pixels, as SVG. Raises SketchTreeError where there is no photo."""
 
     def ghost(self, revision: int, document: Document, stroke: messages.Stroke | None, hold: messages.Hold | None) -> None:
         """A `Ghost` of the stroke in hand, or of a limb that is being dragged."""

@@ -13,7 +13,10 @@ from msgspec import Meta
 
 from sketchtree.editing.document import Document
 from sketchtree.options import ReadingOptions, TreeOptions
+from sketchtree.photo.wanted import PhotoOptions
 from sketchtree.studio.folder import PROJECT
+from sketchtree.studio.making.photo_asked import Wish
+from sketchtree.studio.underlays import suffix_of
 
 Format = Annotated[str, Meta(pattern=r"^\.[a-z0-9]{1,12}$")]
 _LATER = {"reading": ("samples", "alternatives"), "tree": ()}  # options that the tree does not hang on
@@ -24,6 +27,7 @@ class Export(msgspec.Struct, forbid_unknown_fields=True, frozen=True, kw_only=Tr
     """What to export, as `sketchtree build` has it."""
 
     format: Format
+    tree: Literal["drawn", "photo"] = "drawn"  # photo: the one that grows in the photo under the page, as `sketchtree photo` makes it
     lod: Annotated[int, Meta(ge=0, le=3)] = 0
     levels: Literal["one", "together", "apart"] = "one"
     leaves: Literal["merged", "instanced"] = "merged"
@@ -34,17 +38,23 @@ class Export(msgspec.Struct, forbid_unknown_fields=True, frozen=True, kw_only=Tr
 
     @property
     def options(self) -> dict:
-        """All but the format and the revision."""
-        return {name: getattr(self, name) for name in self.__struct_fields__ if name not in ("format", "revision")}
+        """All but the format, the tree and the revision."""
+        return {name: getattr(self, name) for name in self.__struct_fields__ if name not in ("format", "tree", "revision")}
 
 
 def command_line(document: Document, export: Export) -> str:
-    """What makes the same tree of the saved project; every option that is not as by default is spelled out."""
+    """What makes the same tree of the saved project, or of the photo and the strokes that mark it; every option that is not as by default is spelled out."""
     name = document.name if not document.name.startswith("-") else f"./{document.name}"
-    words = ["sketchtree", "build", name + PROJECT, "-o", name + export.format]
-    tree = document.tree if export.wood is None else dataclasses.replace(document.tree, wood=export.wood)
+    wish = Wish.of(document, "") if export.tree == "photo" else None
+    tree = document.tree if wish is None else wish.tree
+    tree = tree if export.wood is None else dataclasses.replace(tree, wood=export.wood)
     tree = dataclasses.replace(tree, solid=True) if export.solid else tree
-    words += _spelled(document.reading, ReadingOptions(), _LATER["reading"]) + _spelled(tree, TreeOptions(), _LATER["tree"])
+    if wish is None:
+        words = ["sketchtree", "build", name + PROJECT, "-o", name + export.format] + _spelled(document.reading, ReadingOptions(), _LATER["reading"])
+    else:
+        words = ["sketchtree", "photo", name + suffix_of(document.underlay.picture), "--strokes", name + ".svg", "-o", name + export.format]
+        words += _spelled(wish.reading, ReadingOptions(), _LATER["reading"]) + _of_photo(wish.wanted)
+    words += _spelled(tree, TreeOptions(), _LATER["tree"])
     plain = Export(format=export.format)
     for one, value in export.options.items():
         if one not in ("wood", "solid") and value != getattr(plain, one):
@@ -73,6 +83,13 @@ def disposition(name: str) -> str:
     """`Content-Disposition` of a file to keep, whatever its name is."""
     plain = "".join(letter if letter.isascii() and (letter.isalnum() or letter in "._- ") else "_" for letter in name)
     return f"attachment; filename=\"{plain}\"; filename*=UTF-8''{quote(name, safe='')}"
+
+
+def _of_photo(wanted: PhotoOptions) -> list[str]:
+    """The options of a photo's tree, in the words of `sketchtree photo`."""
+    words = _spelled(wanted, PhotoOptions(), ("library", "alternate", "bare_as_seen"))
+    words += [] if wanted.library == PhotoOptions().library else ["--library", ",".join(wanted.library)]
+    return words + ([] if wanted.alternate else ["--image-only"])
 
 
 def _spelled(options, plain, without: tuple[str, ...]) -> list[str]:

@@ -44,7 +44,8 @@ class Hand:
         self.begun = 0  # how many times: another process knows nothing of what the one before had made
 
     def begin(self) -> None:
-        """Start the process."""
+        """Start the process; one that runs is ended."""
+        self.end()
         self._lose()
         self.begun += 1
         context = multiprocessing.get_context("spawn")
@@ -75,6 +76,10 @@ class Hand:
         self._waiting[self._number] = answer
         self._send(kind, arguments)
         return self._number, answer
+
+    def waits_for(self, number: int) -> bool:
+        """Is the answer to that job still to come?"""
+        return number in self._waiting
 
     def stop(self) -> None:
         """Let what runs end, and drop what waits, of kinds of which the newest wins."""

@@ -18,12 +18,13 @@ from sketchtree.editing.document import Document, Underlay
 from sketchtree.editing.edits import Edits
 from sketchtree.editing.settled import Depths, Settled
 from sketchtree.options import ReadingOptions, TreeOptions
+from sketchtree.photo.wanted import PhotoOptions
 from sketchtree.sketch.strokes import Stroke
 from sketchtree.studio import wire
 from sketchtree.studio.change import Change, apply, change
 
 VERSION = 1
-_PLAIN = ("edits", "reading", "tree", "seed", "name", "units", "page", "warnings")  # fields that are written as they are
+_PLAIN = ("edits", "reading", "tree", "photo", "seed", "name", "units", "page", "warnings")  # fields that are written as they are
 
 
 class _Line(msgspec.Struct, forbid_unknown_fields=True, frozen=True, kw_only=True, omit_defaults=True):
@@ -57,6 +58,7 @@ class Different(_Line):
     settled: _Resettled | UnsetType = UNSET
     reading: ReadingOptions | UnsetType = UNSET
     tree: TreeOptions | UnsetType = UNSET
+    photo: PhotoOptions | UnsetType = UNSET
     seed: int | UnsetType = UNSET
     underlay: _Placed | None | UnsetType = UNSET
     name: str | UnsetType = UNSET

@@ -72,6 +72,12 @@ class Options(_Record):
     leaf: Annotated[str, Meta(max_length=80)] | None = None  # a model, or "none"
     bark: Annotated[str, Meta(max_length=80)] | None = None
     season: Season = "summer"
+    foliage: Literal["contrast", "paper"] = "contrast"  # of a photo, and all that follow: what counts as foliage, what sets it apart or what is green or red
+    library: Annotated[str, Meta(pattern=r"^(visible|I|II)(,(visible|I|II)){0,2}$")] = "visible,I,II"  # subtrees that grow
+    alternate: bool = True  # round all sides; False: towards the photo alone
+    colours: Literal["photo", "season"] = "photo"  # of the leaves
+    leaf_size: Annotated[float, Meta(ge=0.1, le=10)] = 1.0  # times what covers the foliage
+    leaf_density: Annotated[float, Meta(ge=0.1, le=10)] = 1.0
 
 
 class Underlay(_Record):
@@ -214,13 +220,19 @@ class SetUnderlay(_Said):
     underlay: Underlay | None = None
 
 
+class Grow(_Said):
+    """Grow the tree of the photo under the page now, without a pause after the last stroke; or stop growing it, until it is to be another."""
+
+    on: bool = True
+
+
 class UseTraced(_Said):
     """The limbs that were traced in the photo become the drawing, in place of the strokes that mark them; the photo is a picture to trace over again."""
 
 
 Request = (
     Hello | Strokes | Sketching | Choose | Glance | Hold | Flip | Mirror | Lock | Delete | Settle | Readings | Pick | Undo | Redo | Cancel | New
-    | Open | Save | SetUnderlay | UseTraced
+    | Open | Save | SetUnderlay | UseTraced | Grow
 )  # fmt: skip
 
 
@@ -371,6 +383,16 @@ class Foliage(_Said):
     png: str  # base64; as large as the picture, or smaller; opaque where foliage is. Empty: not known
 
 
+class Growing(_Said):
+    """How far the tree of the photo is, which grows towards its foliage. It comes as a `Tree` of phase "photo", and stays until another does, or until there is `none`."""
+
+    revision: int
+    state: Literal["none", "waits", "grows", "ready", "stopped", "failed"]  # none: nothing to grow; waits: for the foliage, or for the pen to rest
+    stage: str = ""
+    done: Share = 0.0
+    remark: str = ""  # why it failed
+
+
 class Array(_Record):
     """Where an array lies in the frame, and what it is."""
 
@@ -446,7 +468,7 @@ class Tree(_Said):
     """The tree, or the parts of it that became different: the head of a binary frame."""
 
     revision: int
-    phase: Literal["quick", "full", "glance"]  # quick: only what was touched is new, the rest follows; full: as the files will have it
+    phase: Literal["quick", "full", "glance", "photo"]  # quick: only what was touched is new, the rest follows; full: as the files will have it; photo: that of the photo, whole
     scale: float  # metres a page unit
     root: list[float]  # x, y of the world's origin on the page, y down
     owners: list[str]  # of every chunk there is now: others go
@@ -476,4 +498,4 @@ class Ghost(_Said):
     arrays: list[Array]
 
 
-Event = Welcome | Changed | Working | Trouble | Matches | Alternatives | Saved | Read | Traced | Foliage | Tree | Ghost
+Event = Welcome | Changed | Working | Trouble | Matches | Alternatives | Saved | Read | Traced | Foliage | Growing | Tree | Ghost

@@ -17,7 +17,7 @@ MOST = 4096  # `Changed` messages that wait, and
 MOST_BYTES = 8_000_000  # bytes of them
 _TROUBLES = 16
 
-_WHOLE, _ALL, _TREE, _GLANCE = "whole", "all", "tree", "glance"  # the whole drawing, the whole tree, what is new of the tree, a glance
+_WHOLE, _ALL, _TREE, _GLANCE, _PHOTO = "whole", "all", "tree", "glance", "photo"  # the whole drawing, the whole tree, what is new of the tree, a glance, a photo's tree
 _STALE = None  # in the place of a frame: the page needs the whole tree
 
 
@@ -136,6 +136,8 @@ class Outbox:
         head = head_of(frame)
         if head.type != "tree":
             self._newest(head.type, frame)
+        elif head.phase == "photo":
+            self._newest(_PHOTO, frame)
         elif head.phase == "glance":
             self._newest(_GLANCE, frame)
         else:

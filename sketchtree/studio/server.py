@@ -7,7 +7,7 @@
     /underlay/DIGEST                      the picture to trace over
     POST /upload?name=&as=                a drawing or project to open; a picture to trace over, to mark a tree in, or to read strokes from
     POST /export                          the tree, as files
-    /download  /command                   the project; the command line that makes the same tree
+    /download  /marks  /command           the project; the strokes that mark the photo, as SVG; the command line that makes the same tree
 """
 
 import asyncio
@@ -59,6 +59,7 @@ class Studio:
             Route("/upload", self._upload, methods=["POST"]),
             Route("/export", self._export, methods=["POST"]),
             Route("/download", self._download),
+            Route("/marks", self._marks),
             Route("/command", self._command),
             WebSocketRoute("/ws", self._socket),
             Route("/{path:path}", self._file),
@@ -156,7 +157,9 @@ class Studio:
         await desk.ready.wait()
         document = desk.document
         async with self._exporting:
-            files = await desk.engine.export(document, document.name + wanted.format, wanted.options)
+            of_photo = wanted.tree == "photo" and wanted.format != PROJECT  # a project keeps the photo and its strokes
+            export = desk.engine.grown if of_photo else desk.engine.export
+            files = await export(document, document.name + wanted.format, wanted.options)
         if len(files) == 1:
             ((name, data),) = files.items()
             return _attachment(name, data)
@@ -166,6 +169,11 @@ class Studio:
         await self._session.desk.ready.wait()
         document = self._session.document
         return _attachment(document.name + PROJECT, await self._session.desk.engine.project(document))
+
+    async def _marks(self, request: Request) -> Response:
+        await self._session.desk.ready.wait()
+        document = self._session.document
+        return _attachment(document.name + ".svg", await self._session.desk.engine.marks(document))
 
     async def _command(self, request: Request) -> Response:
         await self._session.desk.ready.wait()

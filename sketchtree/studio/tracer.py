@@ -6,33 +6,37 @@
 The processes begin when a photo is first there. They keep it; should the first end, it is begun again and told what it knew.
 """
 
-import asyncio
 from collections.abc import Callable, Coroutine
 from dataclasses import replace
 
 from sketchtree.editing.document import Document
 from sketchtree.errors import SketchError, SketchTreeError
 from sketchtree.sketch.strokes import StrokeKind
-from sketchtree.studio import messages, wire
+from sketchtree.studio import messages
+from sketchtree.studio.grower import Seen
 from sketchtree.studio.hand import Hand
 from sketchtree.studio.ids import fitting
+from sketchtree.studio.laid_photo import LaidPhoto, unheard
 from sketchtree.studio.making.photo_asked import KEPT, Asked, is_mark, is_photo
 
 _NOTHING = "No stroke marks a limb in the photo."
+_STOPPED = "Stopped looking for the foliage. The next stroke looks again."
 _FAINT = 0.5  # how strong the photo is, at most, below limbs that were taken over
 
 
 class Tracer:
-    """`hand` traces, `other` finds foliage; `tell` is given what pages are to know; `run` does work aside."""
+    """`hand` traces, `other` finds foliage; `tell` is given what pages are to know, `seen` what is known once nothing is looked for; `run` does work aside."""
 
-    def __init__(self, hand: Hand, other: Hand, tell: Callable[[int, messages.Event], None], run: Callable[[Coroutine], None]):
-        self._hand, self._other, self._tell, self._run = hand, other, tell, run
+    def __init__(
+        self, hand: Hand, other: Hand, laid: LaidPhoto, tell: Callable[[int, messages.Event], None], seen: Callable[[Seen], None], run: Callable[[Coroutine], None]
+    ):
+        self._hand, self._other, self._laid, self._tell, self._seen, self._run = hand, other, laid, tell, seen, run
         self._asked: tuple[int, Asked] | None = None  # what the page shows now: revision, and what is to be traced; None: nothing
-        self._picture: tuple[str, bytes] = ("", b"")
-        self._laid: dict[Hand, tuple[int, str]] = {}  # the process of each hand that has the photo, and which
+        self._picture = ""  # digest of the photo of which this is known:
         self._foliage: dict[str, bytes] = {}  # of crowns, by name: for a process that is begun again
         self._reasons: dict[str, str] = {}  # why crowns have none
-        self._finds = False  # foliage is being looked for
+        self._finds = self._given_up = False  # foliage is being looked for; it is not wanted any more
+        self._limbs: list[messages.TracedTree] = []  # traced last
         self._tinted: tuple[str, ...] = ()  # crowns whose foliage the pages have
         self._is_on = False
 
@@ -64,28 +68,37 @@ class Tracer:
         faint = replace(document.underlay, photo=False, opacity=min(document.underlay.opacity, _FAINT))
         return fitting(document.replace(strokes=strokes, underlay=faint))
 
+    async def as_svg(self, document: Document) -> bytes:
+        """The strokes that mark the photo, in its pixels. Raises SketchTreeError."""
+        if not is_photo(document.underlay):
+            raise SketchError("The picture under the page is only one to trace over.", remedy="Switch 'From photo' on first.")
+        asked = self._lay(document)
+        self._show(self._hand, asked)
+        return await self._hand.ask("svg", asked)[1]
+
     def end(self) -> None:
         """End the processes."""
         self._hand.end()
         self._other.end()
 
+    def cancel(self) -> None:
+        """What is being traced and looked for is not wanted. The next stroke asks again."""
+        self._hand.stop()
+        if self._finds:
+            self._given_up = True
+            self._other.begin()  # nothing else ends it; another one is ready for the next crown
+
     def _lay(self, document: Document) -> Asked:
         """What is asked; the picture is at hand."""
-        digest = wire.digest(document.underlay.picture)
-        if digest != self._picture[0]:
-            self._picture, self._foliage, self._reasons = (digest, document.underlay.picture), {}, {}
-        return Asked.of(document, digest)
+        asked = self._laid.lay(document)
+        if asked.picture != self._picture:
+            self._picture, self._foliage, self._reasons = asked.picture, {}, {}
+        return asked
 
     def _show(self, hand: Hand, asked: Asked) -> None:
         """The process has the photo, and what is known of it."""
-        hand.ready()
-        has = hand.begun, asked.picture
-        if self._laid.get(hand) == has or asked.picture != self._picture[0]:
-            return
-        self._laid[hand] = has
-        _unheard(hand.ask("photo", *self._picture)[1])
-        if hand is self._hand and self._foliage:
-            _unheard(hand.ask("learn", self._foliage)[1])
+        if self._laid.show(hand, asked) and hand is self._hand and self._foliage:
+            unheard(hand.ask("learn", self._foliage)[1])
 
     async def _trace(self, revision: int) -> None:
         """The limbs of the newest drawing, and after them what became known of foliage."""
@@ -101,9 +114,12 @@ class Tracer:
         if answer is None or self._asked is None or self._asked[0] != revision:
             return
         told, known, unknown = answer
+        self._limbs = told.trees
         remark = told.remark or next((self._reasons[name] for name in unknown if name in self._reasons), "")
         waits = len(known) + len(unknown) <= KEPT and any(name not in self._reasons for name in unknown)
         self._tell(revision, messages.Traced(revision=revision, trees=told.trees, remark=remark, waits=waits))
+        if not waits:
+            self._seen(Seen(asked, {name: self._foliage[name] for name in known if name in self._foliage}, remark if unknown else ""))
         if waits and not self._finds:  # one after the other: what is wanted when it is found is asked for then
             self._finds = True
             self._run(self._find(asked, {name: crown for name, crown in unknown.items() if name not in self._reasons}))
@@ -125,20 +141,21 @@ class Tracer:
             self._show(self._other, asked)
             found, reasons = await self._other.ask("foliage", wanted, asked.seed)[1]
         except SketchTreeError as error:
-            found, reasons = {}, dict.fromkeys(wanted, f"The foliage was not found. {error.message}")
+            found, reasons = {}, {} if self._given_up else dict.fromkeys(wanted, f"The foliage was not found. {error.message}")
         finally:
             self._finds = False
-        if asked.picture == self._picture[0]:
+        if self._given_up:
+            self._given_up = False
+            if self._asked is not None:
+                self._tell(self._asked[0], messages.Traced(revision=self._asked[0], trees=self._limbs, remark=_STOPPED))
+            return
+        if asked.picture == self._picture:
             self._reasons |= reasons
             self._foliage |= found
             for name in list(self._foliage)[:-KEPT]:
                 del self._foliage[name]
             if found and self._hand.runs:
-                _unheard(self._hand.ask("learn", found)[1])
+                unheard(self._hand.ask("learn", found)[1])
         if self._asked is not None:
             await self._trace(self._asked[0])
 
-
-def _unheard(answer: asyncio.Future) -> None:
-    """Whatever comes of it is not waited for: what is asked next fails where this does."""
-    answer.add_done_callback(lambda done: done.cancelled() or done.exception())

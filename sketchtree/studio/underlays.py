@@ -20,6 +20,11 @@ def kind_of(picture: bytes) -> str | None:
     return next((kind for start, kind in _KINDS if picture.startswith(start)), None)
 
 
+def suffix_of(picture: bytes) -> str:
+    """What the name of a file with this picture ends in."""
+    return {"image/png": ".png", "image/jpeg": ".jpg", "image/webp": ".webp"}.get(kind_of(picture), ".png")
+
+
 def placed(picture: bytes, name: str, document: Document) -> Underlay:
     """The picture under the drawing. Raises SketchError for what is no PNG, JPEG or WebP."""
     from PIL import Image

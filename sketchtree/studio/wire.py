@@ -16,6 +16,7 @@ from sketchtree.studio.change import Change
 
 _READING = ("template", "theta", "height", "planar", "crown")
 _TREE = {name: name for name in ("generations", "fill", "density", "light", "leaf", "bark", "season")} | {"gravity": "sag"}
+_PHOTO = ("foliage", "library", "alternate", "colours", "leaf_size", "leaf_density")
 _DOWN = np.array([1.0, -1.0])
 _AGAIN = "Draw it again."
 
@@ -60,6 +61,7 @@ def options_out(document: Document) -> messages.Options:
     """The options as the page is told."""
     said = {name: getattr(document.reading, name) for name in _READING}
     said |= {name: getattr(document.tree, own) for name, own in _TREE.items()}
+    said |= {name: getattr(document.photo, name) for name in _PHOTO} | {"library": ",".join(document.photo.library)}
     return messages.Options(seed=document.seed, **said)
 
 
@@ -76,7 +78,9 @@ def choose(document: Document, options: dict) -> Document:
         raise OptionError(f"The option {name.rstrip('`') or 'given'} can't be that: {_small(what)}.", remedy="Choose another value.") from None
     reading = dataclasses.replace(document.reading, **{name: getattr(said, name) for name in _READING if name in options})
     tree = dataclasses.replace(document.tree, **{own: getattr(said, name) for name, own in _TREE.items() if name in options})
-    return document.replace(reading=reading, tree=tree, seed=said.seed)
+    named = {name: getattr(said, name) for name in _PHOTO if name in options}
+    photo = dataclasses.replace(document.photo, **named | ({"library": tuple(dict.fromkeys(said.library.split(",")))} if "library" in named else {}))
+    return document.replace(reading=reading, tree=tree, photo=photo, seed=said.seed)
 
 
 def edits_out(edits: Edits) -> list[messages.Edit]:
@@ -113,7 +117,7 @@ def changed(what: Change, document: Document, since: int, revision: int, **state
     return messages.Changed(
         since=since, revision=revision,
         put=[stroke_out(stroke) for stroke in what.put.values()], gone=list(what.gone), order=None if what.order is None else list(what.order),
-        options=options_out(document) if others.keys() & {"reading", "tree", "seed"} else None,
+        options=options_out(document) if others.keys() & {"reading", "tree", "photo", "seed"} else None,
         edits=edits_out(document.edits) if "edits" in others else None,
         underlay=underlay_out(document.underlay) if "underlay" in others else None, underlay_changed="underlay" in others,
         name=document.name if "name" in others else None, **state,

@@ -23,6 +23,8 @@ class FakeEngine:
         self.ghosts: list[tuple] = []
         self.glances: list = []
         self.traced: list[tuple[int, Document]] = []
+        self.grows: list[tuple[int, Document, bool]] = []
+        self.stopped = 0
         self.cancelled = self.refreshed = 0
         self.size = 8  # bytes of a frame's arrays
         self.answers = True  # tells a tree for every document
@@ -56,6 +58,21 @@ class FakeEngine:
             raise SketchError("No stroke marks a limb in the photo.", remedy="Draw along the trunk, from its foot.")
         strokes = {"limb": Stroke("limb", [[0, 0], [0, 10]], wood=True)}
         return document.replace(strokes=strokes, underlay=dataclasses.replace(document.underlay, photo=False))
+
+    def grow(self, revision, document, *, at_once=False):
+        self.grows.append((revision, document, at_once))
+        if document.underlay is not None and document.underlay.photo and at_once:
+            self.on_outcome(Outcome(revision, frame(revision, phase="photo"), of_photo=True))
+            self.on_outcome(Outcome(revision, messages.Growing(revision=revision, state="ready", done=1.0)))
+
+    def stop_growing(self):
+        self.stopped += 1
+
+    async def grown(self, document, name, options):
+        return {name: b"of the photo"}
+
+    async def marks(self, document):
+        return b"<svg/>"
 
     def refresh(self):
         self.refreshed += 1

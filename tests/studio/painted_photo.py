@@ -17,8 +17,8 @@ CROWN = [(300, 60), (480, 120), (540, 260), (480, 400), (300, 440), (120, 400), 
 AT = (100.0, 50.0, 300.0)  # where it lies on the page: left and top (y up), and its width, half as many units as pixels
 
 
-def photo(scale: float = 1.0) -> bytes:
-    """A PNG of it."""
+def photo(scale: float = 1.0, *, leafy: bool = False) -> bytes:
+    """A PNG of it; `leafy`: its crown is full of leaves."""
     image = Image.new("RGB", SIZE, SKY)
     draw, chance = ImageDraw.Draw(image), np.random.default_rng(1)
     draw.rectangle((0, 540, *SIZE), fill=GRASS)
@@ -27,6 +27,10 @@ def photo(scale: float = 1.0) -> bytes:
     for x, y in chance.uniform((60, 70), (530, 400), (400, 2)):
         if np.hypot((x - 295) / 230, (y - 235) / 165) < 1 and np.hypot(x - 300, y - 235) > 120:
             draw.ellipse((x - 7, y - 5, x + 7, y + 5), fill=LEAF)
+    for x, y in chance.uniform((60, 70), (530, 400), (5000 if leafy else 0, 2)):
+        if np.hypot((x - 295) / 225, (y - 235) / 160) < 1:
+            light = chance.uniform(0.7, 1.3)
+            draw.ellipse((x - 6, y - 4, x + 6, y + 4), fill=tuple(int(light * channel) for channel in LEAF))
     noisy = np.clip(np.asarray(image) + chance.normal(0.0, 4.0, (*SIZE[::-1], 3)), 0, 255).astype(np.uint8)
     image = Image.fromarray(noisy)
     data = io.BytesIO()

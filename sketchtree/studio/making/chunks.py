@@ -12,6 +12,7 @@ from jaxtyping import Array, Int, Key, Shaped
 from scipy.spatial import cKDTree
 
 from sketchtree.foliage.instanced import leaf_instances
+from sketchtree.foliage.leaf_materials import colours_of
 from sketchtree.foliage.leaves import Leaves
 from sketchtree.geometry.detail import Detail
 from sketchtree.geometry.instances import Instances
@@ -160,7 +161,7 @@ def _leaves(tree: LeafyTree, owner, wanted):
         if worn is None or not len(worn):
             continue
         for one in leaf_instances(worn, season=tree.dress.season):
-            card, wears = f"{worn.model} {one.name}", f"{one.mesh.material.name}.{tree.dress.season}"
+            card, wears = f"{worn.model} {one.name}", f"{one.mesh.material.name}.{colours_of(worn, tree.dress.season)}"
             of = _owner_of(one, worn, owner, tree.skeleton)
             keep = np.ones(len(one), bool) if wanted is None else np.isin(of, wanted)
             if not keep.any():

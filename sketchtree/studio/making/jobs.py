@@ -7,8 +7,9 @@ from pathlib import Path
 
 from sketchtree.editing.document import Document
 from sketchtree.options import FileOptions, options_as_dict
+from sketchtree.photo.wanted import PhotoOptions
 from sketchtree.studio.making.textures import Textures, thumbnail
-from sketchtree.studio.making.watching import pulses, watching
+from sketchtree.studio.making.watching import PHOTO, pulses, watching
 from sketchtree.templates.store.database import Database
 
 
@@ -23,7 +24,8 @@ class Jobs:
 
     def do(self, number: int, kind: str, arguments: tuple) -> object:
         """The answer to one job."""
-        watch = watching(lambda stage, done: self.desk.say(number, "event", ("working", stage, done)), lambda: self.desk.stopped(number, kind))
+        upto = {"upto": PHOTO} if kind == "grow" else {}
+        watch = watching(lambda stage, done: self.desk.say(number, "event", ("working", stage, done)), lambda: self.desk.stopped(number, kind), **upto)
         return getattr(self, f"_{kind}")(number, watch, *arguments)
 
     @cached_property
@@ -46,6 +48,13 @@ class Jobs:
         from sketchtree.studio.making.photo_bench import PhotoBench
 
         return PhotoBench()
+
+    @cached_property
+    def growth(self):
+        """What grew in it."""
+        from sketchtree.studio.making.photo_growth import Growth
+
+        return Growth(self.templates, self.photo_bench)
 
     @cached_property
     def photo_answers(self):
@@ -143,6 +152,15 @@ class Jobs:
     def _tint(self, number, watch, revision: int, names: tuple[str, ...]):
         return self.photo_answers.tinted(self.photo_bench, revision, names)
 
+    def _svg(self, number, watch, asked):
+        return self.photo_answers.marks_as_svg(self.photo_bench, asked)
+
+    def _grow(self, number, watch, revision: int, wish, foliages: dict[str, bytes]):
+        return self.growth.frame(revision, wish, foliages, watch)
+
+    def _grown_files(self, number, watch, wish, foliages: dict[str, bytes], name: str, options: dict):
+        return self.growth.files(wish, foliages, name, options, watch)
+
     def _read(self, number, watch, data: bytes, name: str):
         from sketchtree.studio.making.documents import document_of
 
@@ -169,7 +187,7 @@ class Jobs:
             check_program(path)
             check_files(path, files, instead="Choose .glb.")
             model = self._model(document, watch, tree)
-            written = options_as_dict(document.reading, document.tree, files)
+            written = options_as_dict(document.reading, document.tree, files, *([document.photo] if document.photo != PhotoOptions() else []))
             with watch("export"):
                 write_output(model, path, Made(document.seed, written), files, underlay=document.underlay)
             return {str(one.relative_to(folder)): one.read_bytes() for one in sorted(Path(folder).rglob("*")) if one.is_file()}

@@ -3,6 +3,7 @@
 import contextlib
 import pickle
 from collections.abc import Iterable
+from dataclasses import replace
 
 import numpy as np
 
@@ -12,6 +13,7 @@ from sketchtree.sketch.strokes import Stroke, StrokeKind
 from sketchtree.studio import messages
 from sketchtree.studio.making.photo_asked import Asked, Place
 from sketchtree.studio.making.photo_bench import PhotoBench, foliage_of, limbs_as_strokes, tint, told_limbs
+from sketchtree.studio.making.photo_marks import as_svg
 
 
 def traced(bench: PhotoBench, revision: int, asked: Asked) -> tuple[messages.Traced, tuple[str, ...], dict[str, bytes]]:
@@ -28,6 +30,12 @@ def limbs(bench: PhotoBench, asked: Asked) -> list[Stroke]:
     """The traced limbs as strokes on the page; none where nothing is marked. Raises SketchError."""
     shown = bench.trace(asked)
     return limbs_as_strokes(shown.marks, shown.limbs, asked.place, bench.photo)
+
+
+def marks_as_svg(bench: PhotoBench, asked: Asked) -> bytes:
+    """The strokes in the photo's pixels. Raises SketchTreeError where it can't be read."""
+    bench.marks(replace(asked, strokes=()))
+    return as_svg(asked.strokes, asked.place, bench.photo)
 
 
 def foliages(bench: PhotoBench, crowns: dict[str, bytes], seed: int) -> tuple[dict[str, bytes], dict[str, str]]:

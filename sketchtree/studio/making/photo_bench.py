@@ -25,7 +25,7 @@ from sketchtree.photo.read_photo import photo_in
 from sketchtree.photo.trace.palette import Palette
 from sketchtree.photo.trace.trace import Tracing
 from sketchtree.photo.trace.traced import Traced
-from sketchtree.photo.wanted import PhotoOptions
+from sketchtree.photo.wanted import RULES, PhotoOptions
 from sketchtree.planting import tree_key
 from sketchtree.sketch.strokes import Stroke, StrokeKind
 from sketchtree.studio import messages
@@ -42,6 +42,7 @@ class Crown:
     name: str  # what its foliage is known by
     number: int  # of its tree
     marked: Marked
+    rule: str = RULES[0]  # what counts as foliage
 
 
 @dataclass(frozen=True, eq=False)
@@ -82,18 +83,22 @@ class PhotoBench:
         for name in list(self.foliages)[:-KEPT]:
             del self.foliages[name]
 
-    def trace(self, asked: Asked) -> Shown:
-        """The limbs of each tree that is marked. Raises SketchTreeError."""
+    def marks(self, asked: Asked) -> Marks:
+        """What is marked in it. Raises SketchTreeError."""
         if self.trouble is not None:
             raise self.trouble
         check_package()
         if self.photo is None or asked.picture != self.digest:
             raise OptionError("The photo is not here any more.", remedy="Add it again.")
-        found = marks(asked.strokes, asked.place, self.photo)
+        return marks(asked.strokes, asked.place, self.photo)
+
+    def trace(self, asked: Asked) -> Shown:
+        """The limbs of each tree that is marked. Raises SketchTreeError."""
+        found = self.marks(asked)
         key, limbs, known, unknown = root_key(asked.seed), [], [], []
         tracing = PhotoOptions().tracing if found.crowned else Tracing(most=0)
         for number, marked in enumerate(found.trees):
-            crown = Crown(crown_name(self.digest, marked, number, asked.seed), number, marked)
+            crown = Crown(crown_name(self.digest, marked, number, asked.seed, asked.rule), number, marked, asked.rule)
             foliage = self.foliages.get(crown.name)
             if found.crowned:
                 known.append(crown.name) if foliage is not None else unknown.append(crown)
@@ -112,16 +117,16 @@ def photo_of(picture: bytes) -> Photo:
     return photo_in(picture, "The picture")
 
 
-def crown_name(digest: str, marked: Marked, number: int, seed: int) -> str:
+def crown_name(digest: str, marked: Marked, number: int, seed: int, rule: str = RULES[0]) -> str:
     """The same for crowns of which the same foliage is found."""
-    told = hashlib.blake2b(f"{digest} {number} {seed}".encode(), digest_size=12)
+    told = hashlib.blake2b(f"{digest} {number} {seed} {rule}".encode(), digest_size=12)
     told.update(np.ascontiguousarray(marked.crown).tobytes())
     return told.hexdigest()
 
 
 def foliage_of(photo: Photo, crown: Crown, seed: int) -> Foliage:
     """The foliage of a crown, as `photo_tree` finds it. Raises SketchError."""
-    return foliage_mask(photo, crown.marked, key=foliage_key(root_key(seed), crown.number))
+    return foliage_mask(photo, crown.marked, key=foliage_key(root_key(seed), crown.number), rule=crown.rule)
 
 
 def foliage_key(key: Key[Array, ""], number: int) -> Key[Array, ""]:

@@ -12,6 +12,7 @@ from sketchtree.errors import SketchError
 from sketchtree.photo.marked import Marked
 from sketchtree.photo.photo import Photo, turned_over
 from sketchtree.photo.read_strokes import marked_trees
+from sketchtree.sketch.files.svg_writer import sketch_svg
 from sketchtree.sketch.strokes import Sketch, Stroke, StrokeKind
 from sketchtree.studio.making.photo_asked import Place
 
@@ -30,7 +31,7 @@ class Marks:
 
 def marks(strokes: Iterable[Stroke], place: Place, photo: Photo) -> Marks:
     """What strokes on the page (`photo_asked.is_mark`) mark. Raises SketchError for a stroke that can mark nothing."""
-    there = [replace(stroke, points=place.to_photo(stroke.points, photo)) for stroke in strokes]
+    there = in_pixels(strokes, place, photo)
     crowns = [stroke for stroke in there if stroke.kind == StrokeKind.CROWN]
     limbs = [stroke for stroke in there if stroke.kind == StrokeKind.BRANCH]
     if not limbs:
@@ -38,6 +39,19 @@ def marks(strokes: Iterable[Stroke], place: Place, photo: Photo) -> Marks:
     if not crowns:
         return Marks(marked_trees(_sketch([*limbs, _whole(photo)], photo), photo), crowned=False, remark=NO_CROWN)
     return _of_crowns(crowns, limbs, photo)
+
+
+def in_pixels(strokes: Iterable[Stroke], place: Place, photo: Photo) -> list[Stroke]:
+    """The strokes in the photo's pixels, y up."""
+    return [replace(stroke, points=place.to_photo(stroke.points, photo)) for stroke in strokes]
+
+
+def as_svg(strokes: Iterable[Stroke], place: Place, photo: Photo) -> bytes:
+    """The strokes as a drawing as large as the photo: `read_strokes` finds the same marks in it, to the last bit."""
+    page = (0.0, -float(photo.height), float(photo.width), 0.0)
+    pen = place.unit(photo)
+    drawn = [replace(stroke, width=None if stroke.width is None else stroke.width / pen) for stroke in in_pixels(strokes, place, photo)]
+    return sketch_svg(Sketch(tuple(drawn), name=photo.name, units="px", page=page)).encode()
 
 
 def _of_crowns(crowns: list[Stroke], limbs: list[Stroke], photo: Photo) -> Marks:

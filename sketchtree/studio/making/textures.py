@@ -5,8 +5,8 @@ from functools import lru_cache
 
 import numpy as np
 
-from sketchtree.foliage.leaf_materials import leaf_material
-from sketchtree.foliage.models import leaf_names
+from sketchtree.foliage.leaf_materials import SEEN, leaf_material
+from sketchtree.foliage.models import leaf_names, plain_names
 from sketchtree.geometry.bark import bark_material, bark_names, rachis_material, twig_material
 from sketchtree.geometry.mesh import Material
 
@@ -44,8 +44,8 @@ def _named(key: str) -> Material | None:
     if key in every:
         return every[key]
     name, _, season = key.rpartition(".")
-    for leaf in leaf_names():
-        if season in SEASONS and name in (f"leaf_{leaf}", leaf):
+    for leaf in (*leaf_names(), *plain_names()):
+        if season in (*SEASONS, SEEN) and name in (f"leaf_{leaf}", leaf):
             return leaf_material(leaf, season)
     return None
 

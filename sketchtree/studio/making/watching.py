@@ -1,6 +1,6 @@
 """How does a job tell how far it is, and end when it is not wanted any more?"""
 
-from collections.abc import Callable
+from collections.abc import Callable, Mapping
 
 from sketchtree.watch import Pulse, Watch
 
@@ -11,11 +11,13 @@ class Stopped(Exception):
 
 _UPTO = {"read": 0.05, "match": 0.1, "infer": 0.3, "propagate": 0.6, "foliage": 0.7, "mesh": 0.97, "export": 1.0}
 """How much of a job is done at the end of each stage, of a large tree."""
+PHOTO = {"read": 0.1, "match": 0.15, "infer": 0.3, "propagate": 0.8, "foliage": 0.9, "mesh": 1.0}
+"""The same of the tree in a photo."""
 _STEP = 0.04  # of what is left of a part, that one pulse of it is worth
 
 
-def watching(tell: Callable[[str, float], None], stopped: Callable[[], bool]) -> Watch:
-    """A watch that tells which stage runs, and ends the job when a newer one came."""
+def watching(tell: Callable[[str, float], None], stopped: Callable[[], bool], upto: Mapping[str, float] = _UPTO) -> Watch:
+    """A watch that tells which stage runs, and how much of a job is done (`upto`: at the end of each stage), and ends the job when a newer one came."""
     now, at = "", 0.0  # the stage; how much of the job is done, which only rises
 
     def stage(name: str) -> None:
@@ -27,20 +29,20 @@ def watching(tell: Callable[[str, float], None], stopped: Callable[[], bool]) ->
         nonlocal at
         if stopped():
             raise Stopped
-        low, high = _between(now)
+        low, high = _between(now, upto)
         at = max(at, low + (high - low) * min(max(done, 0.0), 1.0))
         tell(now, at)
 
     return Watch(stage, part)
 
 
-def _between(stage: str) -> tuple[float, float]:
+def _between(stage: str, upto: Mapping[str, float]) -> tuple[float, float]:
     """How much of a job is done at the beginning and at the end of a stage."""
-    names = list(_UPTO)
-    if stage not in _UPTO:
+    names = list(upto)
+    if stage not in upto:
         return 0.0, 1.0
     place = names.index(stage)
-    return _UPTO[names[place - 1]] if place else 0.0, _UPTO[stage]
+    return upto[names[place - 1]] if place else 0.0, upto[stage]
 
 
 def pulses(watch: Watch, low: float, high: float) -> Pulse:

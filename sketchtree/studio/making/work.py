@@ -106,7 +106,7 @@ def tree_frame(
     points = skeleton.tip
     head = messages.Tree(
         revision=revision, phase=phase, scale=similarity.scale, root=[float(root[0]), float(-root[1])], owners=present, chunks=sent, cards=cards,
-        materials=[_material(key, one) for key, one in chunks.materials.items()], limbs=limb_table(drawn),
+        materials=[material_of(key, one) for key, one in chunks.materials.items()], limbs=limb_table(drawn),
         segments=skeleton.segment_count if basis is None else basis.segments,
         drawn=drawn.skeleton.segment_count,
         leaves=len(tree.leaves) if basis is None else basis.leaves,
@@ -119,7 +119,8 @@ def tree_frame(
     return arrays.frame(head), digests
 
 
-def _material(key: str, one) -> messages.Material:
+def material_of(key: str, one) -> messages.Material:
+    """A material as pages are told."""
     maps = {"color": one.base_color_texture, "normal": one.normal_texture, "roughness": one.roughness_texture, "translucency": one.translucency_texture}
     return messages.Material(
         key=key, maps=[name for name, texture in maps.items() if texture is not None], color=[float(value) for value in one.base_color],

@@ -56,6 +56,12 @@ export interface Options {
   leaf: string | null; // a model, or "none"
   bark: string | null;
   season: "autumn" | "bare" | "spring" | "summer";
+  foliage: "contrast" | "paper"; // of a photo, and all that follow: what counts as foliage, what sets it apart or what is green or red
+  library: string; // subtrees that grow
+  alternate: boolean; // round all sides; False: towards the photo alone
+  colours: "photo" | "season"; // of the leaves
+  leaf_size: number; // times what covers the foliage
+  leaf_density: number;
 }
 
 /** One thing done to the tree by hand, for the page's list. */
@@ -194,6 +200,16 @@ export interface Foliage {
   png: string; // base64; as large as the picture, or smaller; opaque where foliage is. Empty: not known
 }
 
+/** How far the tree of the photo is, which grows towards its foliage. It comes as a `Tree` of phase "photo", and stays until another does, or until there is `none`. */
+export interface Growing {
+  type: "growing";
+  revision: number;
+  state: "failed" | "grows" | "none" | "ready" | "stopped" | "waits"; // none: nothing to grow; waits: for the foliage, or for the pen to rest
+  stage: string;
+  done: number;
+  remark: string; // why it failed
+}
+
 /** The wood of one chunk in one material. Arrays, by `array` + one of these: `position` f4 (vertex 3) metres, `normal` i1 (vertex 4) of 127, `uv` f4 (vertex 2), `limb` u2 (vertex) index of `limbs`, `index` u4 (triangle 3). */
 export interface Wood {
   array: string;
@@ -260,7 +276,7 @@ export interface Array {
 export interface Tree {
   type: "tree";
   revision: number;
-  phase: "full" | "glance" | "quick"; // quick: only what was touched is new, the rest follows; full: as the files will have it
+  phase: "full" | "glance" | "photo" | "quick"; // quick: only what was touched is new, the rest follows; full: as the files will have it; photo: that of the photo, whole
   scale: number; // metres a page unit
   root: number[]; // x, y of the world's origin on the page, y down
   owners: string[]; // of every chunk there is now: others go
@@ -440,5 +456,11 @@ export interface UseTraced {
   type: "usetraced";
 }
 
-export type Request = Hello | Strokes | Sketching | Choose | Glance | Hold | Flip | Mirror | Lock | Delete | Settle | Readings | Pick | Undo | Redo | Cancel | New | Open | Save | SetUnderlay | UseTraced;
-export type Event = Welcome | Changed | Working | Trouble | Matches | Alternatives | Saved | Read | Traced | Foliage | Tree | Ghost;
+/** Grow the tree of the photo under the page now, without a pause after the last stroke; or stop growing it, until it is to be another. */
+export interface Grow {
+  type: "grow";
+  on?: boolean;
+}
+
+export type Request = Hello | Strokes | Sketching | Choose | Glance | Hold | Flip | Mirror | Lock | Delete | Settle | Readings | Pick | Undo | Redo | Cancel | New | Open | Save | SetUnderlay | UseTraced | Grow;
+export type Event = Welcome | Changed | Working | Trouble | Matches | Alternatives | Saved | Read | Traced | Foliage | Growing | Tree | Ghost;

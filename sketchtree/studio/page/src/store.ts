@@ -5,7 +5,7 @@
 // `known` mirrors what the program said last; `ui` is this page's own and is never sent.
 
 import type {
-  Alternatives, Changed, Edit, Event, Foliage, Ghost, Limb, Matches, Options, Read, Request, Stroke, Strokes, Traced, Tree, Trouble, Underlay, Welcome, Working,
+  Alternatives, Changed, Edit, Event, Foliage, Ghost, Growing, Limb, Matches, Options, Read, Request, Stroke, Strokes, Traced, Tree, Trouble, Underlay, Welcome, Working,
 } from "./messages";
 import { Echo } from "./link/echo";
 
@@ -33,8 +33,11 @@ export interface Known {
   read: Read | null;
   traced: Traced | null; // in the photo under the page
   foliage: Foliage | null;
-  tree: Tree | null; // head of the last frame; its meshes are tree/'s
-  limbs: Limb[]; // of the last frame that had any
+  growing: Growing | null; // how far the photo's tree is
+  tree: Tree | null; // head of the frame that is shown; its meshes are tree/'s
+  drawnTree: Tree | null; // of the last frame of the drawing's tree; a photo's tree stands in its place
+  photoTree: Tree | null; // of the photo's
+  limbs: Limb[]; // that were drawn, of the last frame that had any; a photo's tree has none to edit
   trouble: Trouble | null;
 }
 
@@ -61,7 +64,8 @@ type Listener = () => void;
 export class Store {
   readonly known: Known = {
     welcome: null, connected: false, strokes: new Map(), options: null, edits: [], underlay: null, name: null, revision: 0, undo: null, redo: null,
-    saved: true, file: null, working: null, matches: null, alternatives: null, read: null, traced: null, foliage: null, tree: null, limbs: [], trouble: null,
+    saved: true, file: null, working: null, matches: null, alternatives: null, read: null, traced: null, foliage: null, growing: null,
+    tree: null, drawnTree: null, photoTree: null, limbs: [], trouble: null,
   };
   readonly ui: Ui = {
     tool: "branch", layout: "beside", turn: 0, selected: null, pointed: null, selectedStrokes: [], uncertainty: false, figure: true, tint: true, theme: "light", palm: false,
@@ -75,6 +79,7 @@ export class Store {
   pending: Strokes[] = []; // sent and not confirmed yet; link/ keeps it
   private readonly echo = new Echo(); // what the program has, and what is on its way
 
+  private drawnLimbs: Limb[] = [];
   private readonly listeners = new Map<Topic, Set<Listener>>();
 
   /** Be told whenever one of these changes; returns what ends it. */
@@ -141,15 +146,39 @@ export class Store {
         known.file = event.name;
         this.tell("saved", "name", "welcome", "file");
         break;
-      case "tree":
-        known.tree = event;
-        if (event.limbs) this.limbs(event.limbs);
-        this.frame = { head: event, arrays };
-        this.tell("frame", "tree", ...(event.limbs ? (["limbs"] as Topic[]) : []));
-        this.frame = null;
+      case "growing":
+        known.growing = event;
+        if (event.state === "none") this.leavePhoto();
+        this.tell("growing");
         break;
+      case "tree": this.tree(event, arrays); break;
       case "ghost": this.ghost = { head: event, arrays }; this.tell("ghost"); this.ghost = null; break;
     }
+  }
+
+  /** A frame: the photo's tree stands in the place of the drawing's, which goes on behind it. */
+  private tree(event: Tree, arrays: Arrays): void {
+    const known = this.known;
+    const hadPhoto = known.photoTree !== null;
+    if (event.phase === "photo") known.photoTree = event;
+    else if (event.phase !== "glance") known.drawnTree = event;
+    known.tree = event.phase === "glance" ? event : (known.photoTree ?? event);
+    if (event.phase !== "photo" && event.limbs) this.drawnLimbs = event.limbs;
+    const limbs = known.photoTree ? !hadPhoto : event.limbs !== null;
+    if (limbs) this.limbs(known.photoTree ? [] : this.drawnLimbs);
+    this.frame = { head: event, arrays };
+    this.tell("frame", "tree", ...(hadPhoto !== (known.photoTree !== null) ? (["photoTree"] as Topic[]) : []), ...(limbs ? (["limbs"] as Topic[]) : []));
+    this.frame = null;
+  }
+
+  /** There is no tree of a photo any more. */
+  private leavePhoto(): void {
+    const known = this.known;
+    if (!known.photoTree) return;
+    known.photoTree = null;
+    known.tree = known.drawnTree;
+    this.limbs(this.drawnLimbs);
+    this.tell("photoTree", "tree", "limbs");
   }
 
   /** The limbs as they are now; a selected limb that was adopted goes by another id. */

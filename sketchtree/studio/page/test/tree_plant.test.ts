@@ -57,8 +57,17 @@ test("a glance is shown and not kept", () => {
   const [tree, glance, after] = [frame({ "1": 0 }, ["1"]), frame({ "9": 0 }, ["9"], "glance"), frame({}, ["1"])];
   const plants = new Plants();
   plants.take(tree.head, tree.arrays);
-  expect([...plants.take(glance.head, glance.arrays).chunks.keys()]).toEqual(["9"]);
-  expect([...plants.take(after.head, after.arrays).chunks.keys()]).toEqual(["1"]);
+  expect([...plants.take(glance.head, glance.arrays)!.chunks.keys()]).toEqual(["9"]);
+  expect([...plants.take(after.head, after.arrays)!.chunks.keys()]).toEqual(["1"]);
+});
+
+test("a photo's tree stands in the place of the drawing's, which goes on behind it", () => {
+  const [tree, photo, after] = [frame({ "1": 0 }, ["1"]), frame({ "7": 0 }, ["7"], "photo"), frame({ "2": 0 }, ["1", "2"])];
+  const plants = new Plants();
+  plants.take(tree.head, tree.arrays);
+  expect([...plants.take(photo.head, photo.arrays)!.chunks.keys()]).toEqual(["7"]);
+  expect(plants.take(after.head, after.arrays)).toBeNull();
+  expect([...plants.leavePhoto().chunks.keys()]).toEqual(["1", "2"]);
 });
 
 test("the wood of all chunks is one mesh a material, and each limb keeps one number", () => {

@@ -2,6 +2,7 @@
 
 import { element } from "../parts/element";
 import { camera as pageCamera } from "../draw/camera";
+import type { Tree } from "../messages";
 import type { Store } from "../store";
 import { byHand } from "./eye/flight";
 import { listen } from "./eye/gestures";
@@ -16,6 +17,7 @@ import { Ghosts } from "./page/ghosts";
 import { Ink } from "./page/ink";
 import { doubtColours } from "./plant/doubt";
 import { Marks } from "./plant/marks";
+import type { Plant } from "./plant/plant";
 import { Plants } from "./plant/plants";
 import { Scenery } from "./plant/scenery";
 import { topOf } from "./plant/spots";
@@ -115,19 +117,17 @@ function followFrames(view: View, store: Store, { scenery, chosen, weather, grou
   const plants = new Plants();
   let stood = false; // there was a tree before
   let scale = 0; // its metres a page unit
-  store.on("frame", () => {
-    if (!store.frame) return;
-    const { head } = store.frame;
-    if (stood && scale && head.scale !== scale) view.rescale(head.scale / scale);
-    scale = head.scale;
-    scenery.show(plants.take(head, store.frame.arrays), head.phase === "quick");
+  const show = (plant: Plant, of: Tree): void => {
+    if (stood && scale && of.scale !== scale) view.rescale(of.scale / scale);
+    scale = of.scale;
+    scenery.show(plant, of.phase === "quick");
     view.box = scenery.box;
     if (!scenery.box.isEmpty()) {
       weather.light(scenery.box);
       ground.under(scenery.box, trunkOf(store));
       figure.beside(scenery.box, scenery.spots);
       figure.stands = true;
-      if (head.phase !== "glance") view.follow(!stood);
+      if (of.phase !== "glance") view.follow(!stood);
     }
     stood = !scenery.box.isEmpty();
     ground.bare = !stood;
@@ -136,6 +136,14 @@ function followFrames(view: View, store: Store, { scenery, chosen, weather, grou
     ghosts.show([], 0); // what was to come is there
     chosen.renew();
     view.stage.shadows();
+  };
+  store.on("frame", () => {
+    const plant = store.frame && plants.take(store.frame.head, store.frame.arrays);
+    if (store.frame && plant) show(plant, store.frame.head);
+  });
+  store.on("photoTree", () => {
+    const { photoTree, drawnTree } = store.known;
+    if (!photoTree && drawnTree) show(plants.leavePhoto(), drawnTree);
   });
   store.on("ghost", () => {
     if (!store.ghost) return;
@@ -211,11 +219,11 @@ function followHand(view: View, store: Store, chosen: Chosen): void {
     near: (factor, x, y) => view.look(zoomed(view.eye, factor, x, y, view.stage.high)),
     flung: (right, down) => { view.flight.fling(view.eye, right, down, performance.now()); view.stage.draw(true); },
     taken: () => { view.flight.stop(); view.root.focus({ preventScroll: true }); },
-    clicked: (event) => store.set("selected", chosen.at(...within(event))),
+    clicked: (event) => store.set("selected", store.known.photoTree ? null : chosen.at(...within(event))),
     hovered: (event) => {
       const onView = event.target === view.root || event.target === view.stage.canvas;
       const slow = view.stage.pace.software && store.ui.tool !== "select" && !event.altKey && !store.ui.uncertainty; // each limb passed over would cost a picture
-      const id = onView && !slow && event.pointerType !== "touch" ? chosen.at(...within(event)) : null;
+      const id = onView && !slow && !store.known.photoTree && event.pointerType !== "touch" ? chosen.at(...within(event)) : null;
       store.set("pointed", id);
       view.root.toggleAttribute("data-pointing", id !== null);
     },

@@ -11,7 +11,9 @@ export interface CommandLine {
   reset: () => void;
 }
 
-export function commandLine(options: () => ExportOptions, failed: (error: Refused) => void): CommandLine {
+const NEEDS = { drawn: "Save the project first: the command reads it.", photo: "Save the photo and its strokes (SVG) beside it first: the command reads them." };
+
+export function commandLine(options: () => ExportOptions, tree: () => keyof typeof NEEDS, failed: (error: Refused) => void): CommandLine {
   const line = element("textarea", { class: "field command", testId: "command-line", aria: { label: "Command line" } });
   line.readOnly = true;
   line.rows = 3;
@@ -20,15 +22,15 @@ export function commandLine(options: () => ExportOptions, failed: (error: Refuse
   const shown = element("div", { class: "command-shown" }, element("h3", {}, "In a terminal"), line, words);
   const fetched = async (): Promise<void> => {
     try {
-      line.value = (await (await ask(`command?${query(options())}`)).text()).trim();
+      line.value = (await (await ask(`command?${query(options(), tree())}`)).text()).trim();
     } catch (error) {
       if (error instanceof Refused) failed(error);
       return;
     }
     shown.hidden = false;
-    words.textContent = "Save the project first: the command reads it.";
+    words.textContent = NEEDS[tree()];
     await navigator.clipboard.writeText(line.value).then(
-      () => { words.textContent = "Copied. Save the project first: the command reads it."; },
+      () => { words.textContent = `Copied. ${NEEDS[tree()]}`; },
       () => line.focus(), // this browser keeps its clipboard shut: the text is selected, ready for Ctrl+C
     );
   };
@@ -38,7 +40,7 @@ export function commandLine(options: () => ExportOptions, failed: (error: Refuse
 }
 
 /** What is not as usual. */
-function query(options: ExportOptions): string {
+function query(options: ExportOptions, tree: string): string {
   const others = (Object.keys(USUAL) as OptionName[]).filter((name) => options[name] !== USUAL[name]);
-  return new URLSearchParams(others.map((name) => [name, String(options[name])])).toString();
+  return new URLSearchParams([...(tree === "photo" ? [["tree", tree]] : []), ...others.map((name) => [name, String(options[name])])]).toString();
 }

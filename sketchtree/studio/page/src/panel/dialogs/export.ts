@@ -25,9 +25,9 @@ export function exportTree(store: Store, views: Views): () => void {
     trouble.replaceChildren(element("strong", {}, error?.message ?? ""), ` ${error?.remedy ?? ""}`);
   };
   const started = (): void => failed(null);
-  const command = commandLine(() => fitting(controls.options(), ".glb"), failed);
+  const command = commandLine(() => fitting(controls.options(), ".glb"), () => treeOf(store), failed);
   const look = { views, started, failed, name: () => (store.known.name ?? "tree").replace(/\.[a-z]+$/i, "") };
-  const request = (format: string): ReturnType<FormatLook["request"]> => ({ ...fitting(controls.options(), format), revision: store.known.revision });
+  const request = (format: string): ReturnType<FormatLook["request"]> => ({ ...fitting(controls.options(), format), tree: treeOf(store), revision: store.known.revision });
   const format = (one: Choice, hint: string): HTMLElement => formatButton({ format: one, hint, started, failed, request: () => request(one.name) });
   onList(store, (welcome) => welcome.formats, (all) => fill(formats, all, format));
   const empty = element("p", { class: "hint" }, "There is no tree yet: draw a trunk and a few branches first.");
@@ -46,6 +46,11 @@ export function exportTree(store: Store, views: Views): () => void {
     box.open();
     formats.querySelector("button")?.focus();
   };
+}
+
+/** The one that is shown. */
+function treeOf(store: Store): "photo" | "drawn" {
+  return store.known.photoTree ? "photo" : "drawn";
 }
 
 function fill(root: HTMLElement, formats: readonly Choice[], make: (format: Choice, hint: string) => HTMLElement): void {

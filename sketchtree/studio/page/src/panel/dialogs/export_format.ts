@@ -12,7 +12,7 @@ const TICK = 200; // milliseconds between two figures of the clock
 export interface FormatLook {
   format: Choice;
   hint: string;
-  request: () => ExportOptions & { revision: number };
+  request: () => ExportOptions & { tree: "photo" | "drawn"; revision: number };
   failed: (error: Refused) => void; // what went wrong, for the dialog to tell
   started: () => void;
 }

@@ -6,7 +6,7 @@ import type { Store } from "../../store";
 import { pace } from "../pace";
 
 export interface OptionLook {
-  option: "generations" | "density" | "gravity" | "light";
+  option: "generations" | "density" | "gravity" | "light" | "leaf_size" | "leaf_density";
   label: string;
   hint: string;
   min: number;

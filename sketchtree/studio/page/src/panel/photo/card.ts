@@ -6,17 +6,19 @@ import { element } from "../../parts/element";
 import { toggle } from "../../parts/toggle";
 import type { Store } from "../../store";
 import { icon } from "../../style/icons";
+import { growButton } from "./grow_button";
+import { said } from "./words";
 
-const HOW = "Left button: the crown. Right button: a branch.";
-const WAITS = "Looking for the foliage …";
 const NONE = "mark the crown and the trunk first";
 const SOON = "limbs are told from leaves once the foliage is known";
 
 export function photoCard(store: Store): HTMLElement {
-  const words = element("p", { testId: "photo-words" });
+  const words = element("p", { testId: "photo-words", role: "status", aria: { live: "polite" } });
+  const bar = element("progress", { aria: { label: "How far the tree is" }, testId: "photo-progress" });
+  bar.max = 1;
   const tint = toggle({ label: "Foliage", on: store.ui.tint, hint: "Tint what was found to be foliage", testId: "photo-tint", onSwitch: (on) => store.set("tint", on) });
   const use = button({
-    label: "Use traced limbs", look: "primary", testId: "use-traced", hint: "The traced limbs become the drawing; the crown stays",
+    label: "Use traced limbs", testId: "use-traced", hint: "The traced limbs become the drawing, to be edited limb by limb; the crown stays",
     onPress: () => store.send({ type: "usetraced" }),
   });
   const close = button({
@@ -24,16 +26,21 @@ export function photoCard(store: Store): HTMLElement {
     onPress: () => setPhoto(store, false),
   });
   const root = element("div", { class: "hint-card photo-card", role: "group", aria: { label: "Marking a photo" }, testId: "photo-card" },
-    icon("picture"), words, tint.root, use, close);
+    icon("picture"), element("div", { class: "photo-said" }, words, bar), tint.root, growButton(store), use, close);
   const show = (): void => {
-    const { underlay, traced, foliage } = store.known;
+    const { underlay, traced, foliage, growing } = store.known;
     root.hidden = !underlay?.photo;
-    words.textContent = traced?.remark || (traced?.waits ? WAITS : HOW);
+    const now = said(traced, growing);
+    if (words.textContent !== now) words.textContent = now; // said aloud once
+    bar.hidden = growing?.state !== "grows";
+    bar.value = growing?.done ?? 0;
     tint.root.hidden = !foliage?.png;
+    use.hidden = !traced?.trees.length || growing?.state === "grows"; // one thing at a time
     block(use, !traced?.trees.length ? NONE : traced.waits ? SOON : null);
     root.dataset["limbs"] = String(traced?.trees.reduce((sum, tree) => sum + tree.parent.length, 0) ?? 0);
+    root.dataset["grown"] = growing?.state ?? "none";
   };
-  store.on(["underlay", "traced", "foliage"], show);
+  store.on(["underlay", "traced", "foliage", "growing"], show);
   show();
   return root;
 }

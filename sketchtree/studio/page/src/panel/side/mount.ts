@@ -14,6 +14,7 @@ import { editsList } from "../edits/list";
 import { barkPicker } from "../looks/bark_picker";
 import { leafPicker } from "../looks/leaf_picker";
 import { seasonPicker } from "../looks/season_picker";
+import { photoSection } from "../photo/section";
 import { alternatives } from "../readings/alternatives";
 import { uncertainty } from "../readings/uncertainty";
 import { wholeTree } from "../readings/whole_tree";
@@ -25,10 +26,12 @@ export function mountSide(root: HTMLElement, store: Store): void {
   hand.body.append(editsList(store, hand.mark));
   const part = (name: string, title: string, ...controls: ((store: Store) => HTMLElement)[]): HTMLElement =>
     section(name, title, true, ...controls.map((control) => control(store))).root;
-  root.append(
-    part("tree", "Tree", seed, generations, density, gravity, light, height, crownToggle, fill, planar, thetaMode),
-    part("looks", "Looks", seasonPicker, leafPicker, barkPicker),
-    part("depth", "Depth", uncertainty, alternatives, wholeTree),
-    hand.root,
-  );
+  const depth = part("depth", "Depth", uncertainty, alternatives, wholeTree);
+  const drawn = [generations, density, light, crownToggle, fill, planar, thetaMode].map((control) => control(store)); // a photo's tree grows in another way
+  const [ofGenerations, ofDensity, ...others] = drawn;
+  const tree = section("tree", "Tree", true, seed(store), ofGenerations!, ofDensity!, gravity(store), height(store), ...others).root;
+  root.append(photoSection(store), tree, part("looks", "Looks", seasonPicker, leafPicker, barkPicker), depth, hand.root);
+  store.on("photoTree", () => {
+    for (const one of [...drawn, depth, hand.root]) one.hidden = store.known.photoTree !== null;
+  });
 }

@@ -15,7 +15,7 @@ export function figuresLine(store: Store, trip: RoundTrip): HTMLElement {
       root.replaceChildren(element("span", {}, strokes.size === 0 ? "Nothing drawn yet" : "No tree yet"));
       return;
     }
-    if (tree.phase === "full" || height === 0) height = tree.height;
+    if (tree.phase !== "quick" || height === 0) height = tree.height;
     const title = welcome?.templates.find((one) => one.name === tree.template)?.title ?? tree.template;
     root.replaceChildren(...figures({ ...tree, height }, title, trip.last).map(figure));
   };

@@ -23,13 +23,13 @@ export function mountStatus(root: HTMLElement, store: Store): void {
 
 /** What programs and tests read: state and figures as data. */
 function mark(root: HTMLElement, store: Store): void {
-  const { working, connected, tree, strokes, revision } = store.known;
+  const { working, connected, tree, drawnTree, strokes, revision } = store.known;
   root.dataset["state"] = connected ? (working?.state ?? "idle") : "error";
   if (tree?.phase === "glance") return;
   const there = tree !== null && strokes.size > 0;
   root.dataset["segments"] = String(there ? tree.segments : 0);
   root.dataset["triangles"] = String(there ? tree.triangles.reduce((sum, one) => sum + one, 0) : 0);
-  if (tree?.phase === "full") root.dataset["revision"] = String(tree.revision);
+  if (drawnTree?.phase === "full") root.dataset["revision"] = String(drawnTree.revision);
   else if (!there) root.dataset["revision"] = String(revision);
 }
 
@@ -37,7 +37,7 @@ function aloud(store: Store): HTMLElement {
   const root = element("span", { class: "tick", role: "status", aria: { live: "polite" } });
   store.on("tree", () => {
     const { tree } = store.known;
-    if (tree?.phase === "full") root.textContent = `The tree is ready: ${tree.segments} segments, ${tree.leaves} leaves.`;
+    if (tree?.phase === "full" || tree?.phase === "photo") root.textContent = `The tree is ready: ${tree.segments} segments, ${tree.leaves} leaves.`;
   });
   store.on("connected", () => { if (!store.known.connected) root.textContent = "The studio does not answer."; });
   return root;

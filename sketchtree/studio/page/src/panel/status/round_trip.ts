@@ -20,7 +20,7 @@ export class RoundTrip {
 
   /** A frame came: true where it answers what was asked last. */
   came(tree: Pick<Tree, "phase" | "revision">): boolean {
-    if (!this.asked || tree.phase === "glance" || tree.revision <= this.asked.revision) return false;
+    if (!this.asked || tree.phase === "glance" || tree.phase === "photo" || tree.revision <= this.asked.revision) return false;
     this.last = this.now() - this.asked.at;
     this.asked = null;
     return true;

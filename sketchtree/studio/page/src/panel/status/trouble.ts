@@ -26,8 +26,8 @@ export function troubleCard(store: Store): HTMLElement {
     show.hidden = trouble.stroke === null || !store.known.strokes.has(trouble.stroke);
   });
   store.on("tree", () => {
-    const { trouble, tree } = store.known;
-    if (trouble?.about === "drawing" && tree?.phase === "full") settle(store);
+    const { trouble, drawnTree } = store.known;
+    if (trouble?.about === "drawing" && drawnTree?.phase === "full") settle(store);
   });
   return root;
 }

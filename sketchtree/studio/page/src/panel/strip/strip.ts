@@ -63,9 +63,9 @@ class Strip {
 
   /** Choice, use and likeness as they are now. */
   show(): void {
-    const { welcome, options, matches } = this.store.known;
+    const { welcome, options, matches, strokes, photoTree } = this.store.known;
     if (!welcome || this.cards.size === 0) return;
-    const used = this.store.known.strokes.size ? (matches?.used ?? null) : null; // an empty page wears none
+    const used = photoTree ? photoTree.template : strokes.size ? (matches?.used ?? null) : null; // an empty page wears none
     const chosen = options?.template ?? "auto";
     const bars = new Map(rank(welcome.templates, matches?.ranked ?? []).map((one) => [one.choice.name, one.bar]));
     for (const [name, one] of this.cards) {
@@ -120,6 +120,7 @@ class Strip {
 
   /** Show the tree with another template for as long as one looks at it. */
   private look(template: string | null): void {
+    if (this.store.known.photoTree) return; // that grows for seconds, for whoever means it
     this.store.send({ type: "glance", template });
     this.words.textContent = template === null ? "" : `Looking at ${this.title(template)}: click to keep it`;
   }

@@ -15,9 +15,9 @@ export function firstTouch(root: HTMLElement, store: Store): void {
       taken = true;
       remember();
     }
-    line.hidden = taken || store.ui.uncertainty || (store.known.tree?.segments ?? 0) === 0;
+    line.hidden = taken || store.ui.uncertainty || store.known.photoTree !== null || (store.known.tree?.segments ?? 0) === 0;
   };
-  store.on(["selected", "tree", "uncertainty"], follow);
+  store.on(["selected", "tree", "photoTree", "uncertainty"], follow);
 }
 
 function remembered(): boolean {

@@ -1,0 +1,185 @@
+"""When does the tree in the photo grow? Once what shows of it is known and nothing was changed for a moment; aside, in a process of its own, so that no stroke waits for it.
+
+    strokes, options → a pause → grown → pages          the newest wins; one that is the same as that shown is not grown again
+    stop             → not grown as it is now; the next change, or asking for it, begins anew
+
+A tree that is shown stays while the next one grows, and goes when there is nothing to grow any more.
+"""
+
+import asyncio
+from collections.abc import Callable, Coroutine, Mapping
+from dataclasses import dataclass
+from functools import partial
+
+from sketchtree.editing.document import Document
+from sketchtree.errors import SketchError, SketchTreeError
+from sketchtree.studio import messages
+from sketchtree.studio.engine import Outcome
+from sketchtree.studio.hand import Ended, Hand
+from sketchtree.studio.laid_photo import LaidPhoto
+from sketchtree.studio.making.photo_asked import Asked, Wish
+
+_REST = 1.0  # seconds without a change before it grows
+_PATIENCE = 1.5  # seconds in which what is stopped ends by itself, before its process is ended
+_PAUSE = 0.2  # seconds between two tellings of how far it is
+_NO_TREE = SketchError("There is no tree in the photo yet.", remedy="Outline its crown, and draw along its trunk.")
+
+
+@dataclass(frozen=True, eq=False)
+class Seen:
+    """What is known of the photo for one drawing."""
+
+    asked: Asked
+    foliages: Mapping[str, bytes]  # of crowns, by name
+    remark: str  # why a crown has none
+
+
+class Grower:
+    """`tell` is given outcomes for the pages; `run` does work aside."""
+
+    def __init__(self, hand: Hand, laid: LaidPhoto, tell: Callable[[Outcome], None], run: Callable[[Coroutine], None]):
+        self._hand, self._laid, self._outcome, self._run = hand, laid, tell, run
+        self._loop = asyncio.get_running_loop()
+        self._now: tuple[int, Wish] | None = None  # the newest drawing
+        self._seen: Seen | None = None
+        self._shown: Wish | None = None  # as pages have it
+        self._works: tuple[Wish, int] | None = None  # what grows, and the number of its job
+        self._given_up: tuple[Wish, str, str] | None = None  # not to be grown again: its state, and why
+        self._soon: asyncio.TimerHandle | None = None
+        self._told: messages.Growing | None = None
+        self._told_at = 0.0
+
+    def make(self, revision: int, document: Document, *, at_once: bool = False) -> None:
+        """The drawing is this now; `at_once`: it is to grow without a pause, even if it was stopped."""
+        asked = self._laid.lay(document)
+        wish = None if asked is None else Wish.of(document, asked.picture)
+        if wish is None:
+            self._now = None
+            self._nothing(revision)
+            return
+        self._now = revision, wish
+        self._laid.show(self._hand, asked)  # it is there by the time the foliage is known
+        if at_once:
+            self._given_up = None
+        self._go_on(0.0 if at_once else _REST)
+
+    def seen(self, seen: Seen) -> None:
+        """All is known of what shows in the photo, for a drawing."""
+        self._seen = seen
+        if self._now is not None and self._now[1].asked.key == seen.asked.key:
+            self._go_on(_REST)
+
+    def stop(self) -> None:
+        """What grows, or is to, is not wanted."""
+        waits = self._works is not None or self._soon is not None or self._told is not None and self._told.state == "waits"
+        if self._now is not None and waits:
+            self._given_up = self._now[1], "stopped", ""
+            self._go_on(0.0)
+
+    def end(self) -> None:
+        """End the process."""
+        self._clear()
+        self._hand.end()
+
+    async def files(self, document: Document, name: str, options: dict) -> dict[str, bytes]:
+        """The files that the tree of a drawing becomes. Raises SketchTreeError."""
+        asked = self._laid.lay(document)
+        wish = None if asked is None else Wish.of(document, asked.picture)
+        if wish is None:
+            raise _NO_TREE
+        self._laid.show(self._hand, asked)
+        foliages = self._seen.foliages if self._seen is not None and self._seen.asked.key == asked.key else {}
+        return await self._hand.ask("grown_files", wish, foliages, name, options)[1]
+
+    def heard(self, number: int, value: tuple) -> None:
+        """The process tells how far it is."""
+        if self._works is None or self._works[1] != number or self._now is None:
+            return
+        _, stage, done = value
+        if self._loop.time() - self._told_at >= _PAUSE:
+            self._tell("grows", stage=stage, done=min(max(float(done), 0.0), 1.0))
+
+    def _go_on(self, pause: float) -> None:
+        """Whatever is to be done for the newest drawing."""
+        _, wish = self._now
+        if self._works is not None and self._works[0].key == wish.key and self._given_up is None:
+            self._works = wish, self._works[1]
+            return
+        self._halt()
+        if self._shown is not None and self._shown.key == wish.key:
+            self._given_up = None
+            self._tell("ready", done=1.0)
+        elif self._given_up is not None and self._given_up[0].key == wish.key:
+            self._tell(self._given_up[1], remark=self._given_up[2])
+        elif self._seen is None or self._seen.asked.key != wish.asked.key:
+            self._tell("waits")
+        elif self._seen.remark:
+            self._tell("failed", remark=self._seen.remark)
+        else:
+            self._given_up = None
+            self._tell("waits")
+            self._soon = self._loop.call_later(pause, self._begin)
+
+    def _begin(self) -> None:
+        self._soon = None
+        revision, wish = self._now
+        self._laid.show(self._hand, wish.asked)
+        number, answer = self._hand.ask("grow", revision, wish, dict(self._seen.foliages))
+        self._works = wish, number
+        self._tell("grows")
+        self._run(self._grown(revision, number, answer))
+
+    async def _grown(self, revision: int, number: int, answer: asyncio.Future) -> None:
+        try:
+            frame, why = await answer, ""
+        except Ended:
+            frame, why = None, "The process that grows it ended. Grow it again."
+        except SketchTreeError as error:
+            frame, why = None, f"{error.message} {error.remedy}"
+        if self._works is None or self._works[1] != number or not (frame or why):
+            return
+        (wish, _), self._works = self._works, None
+        if why:
+            self._given_up = wish, "failed", why
+            self._tell("failed", remark=why)
+            return
+        self._shown = wish
+        self._outcome(Outcome(revision, frame, of_photo=True))
+        self._tell("ready", done=1.0)
+
+    def _nothing(self, revision: int) -> None:
+        """There is no tree to grow."""
+        self._halt()
+        self._shown = self._given_up = None
+        if self._told is not None and self._told.state != "none":
+            self._say(messages.Growing(revision=revision, state="none"))
+
+    def _halt(self) -> None:
+        """Nothing grows from now on."""
+        self._clear()
+        if self._works is not None:
+            (_, number), self._works = self._works, None
+            self._hand.stop()
+            self._loop.call_later(_PATIENCE, partial(self._make_sure, number))
+
+    def _make_sure(self, number: int) -> None:
+        """A job that does not end when it should is ended with its process; what was asked since is asked again."""
+        if self._hand.waits_for(number):
+            again, self._works = self._works is not None, None
+            self._hand.begin()
+            if again:
+                self._begin()
+
+    def _clear(self) -> None:
+        if self._soon is not None:
+            self._soon.cancel()
+            self._soon = None
+
+    def _tell(self, state: str, **more) -> None:
+        self._say(messages.Growing(revision=self._now[0], state=state, **more))
+
+    def _say(self, said: messages.Growing) -> None:
+        if self._told is not None and (said.state, said.stage, said.done, said.remark) == (self._told.state, self._told.stage, self._told.done, self._told.remark):
+            return
+        self._told, self._told_at = said, self._loop.time()
+        self._outcome(Outcome(said.revision, said))

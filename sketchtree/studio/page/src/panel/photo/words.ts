@@ -1,0 +1,32 @@
+// What is said while a photo is marked, and what its one large button does? Words alone: no element is touched.
+
+import type { Growing, Traced } from "../../messages";
+
+export const HOW = "Left button: the crown. Right button: a branch.";
+const LOOKING = "Looking for the foliage …";
+const GROWS = "Growing the tree …";
+const SOON = "It grows in a moment.";
+const READY = "Grown from the photo.";
+const STOPPED = "Stopped.";
+
+/** One sentence. */
+export function said(traced: Traced | null, growing: Growing | null): string {
+  if (traced?.remark) return traced.remark;
+  if (traced?.waits) return LOOKING;
+  switch (growing?.state) {
+    case "waits": return traced?.trees.length ? SOON : HOW;
+    case "grows": return GROWS;
+    case "ready": return READY;
+    case "stopped": return STOPPED;
+    case "failed": return growing.remark;
+    default: return HOW;
+  }
+}
+
+export type Press = "grow" | "stop" | "nothing"; // the tree is as it should be, or there is nothing to grow
+
+/** What a press would do. */
+export function pressed(traced: Traced | null, growing: Growing | null): Press {
+  if (!growing || growing.state === "none" || growing.state === "ready") return "nothing";
+  return growing.state === "grows" || traced?.waits ? "stop" : "grow";
+}
