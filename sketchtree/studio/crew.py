@@ -290,7 +290,8 @@ class Crew:
 
     async def texture(self, key: str, kind: str) -> bytes | None:
         """As `Engine.texture`."""
-        return await self._surely("texture", key, kind)
+        own = self._grower.textures.get((key, kind))
+        return own if own is not None else await self._surely("texture", key, kind)
 
     async def picture(self, what: str, name: str) -> bytes | None:
         """As `Engine.picture`."""

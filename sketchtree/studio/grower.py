@@ -47,6 +47,7 @@ class Grower:
         self._given_up: tuple[Wish, str, str] | None = None  # not to be grown again: its state, and why
         self._soon: asyncio.TimerHandle | None = None
         self._told: messages.Growing | None = None
+        self.textures: Mapping[tuple[str, str], bytes] = {}  # by material and map: those that only the tree that is shown has
         self._told_at = 0.0
 
     def make(self, revision: int, document: Document, *, at_once: bool = False) -> None:
@@ -131,18 +132,19 @@ class Grower:
 
     async def _grown(self, revision: int, number: int, answer: asyncio.Future) -> None:
         try:
-            frame, why = await answer, ""
+            found, why = await answer, ""
         except Ended:
-            frame, why = None, "The process that grows it ended. Grow it again."
+            found, why = None, "The process that grows it ended. Grow it again."
         except SketchTreeError as error:
-            frame, why = None, f"{error.message} {error.remedy}"
-        if self._works is None or self._works[1] != number or not (frame or why):
+            found, why = None, f"{error.message} {error.remedy}"
+        if self._works is None or self._works[1] != number or not (found or why):
             return
         (wish, _), self._works = self._works, None
         if why:
             self._given_up = wish, "failed", why
             self._tell("failed", remark=why)
             return
+        frame, self.textures = found
         self._shown = wish
         self._outcome(Outcome(revision, frame, of_photo=True))
         self._tell("ready", done=1.0)

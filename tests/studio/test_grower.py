@@ -73,9 +73,9 @@ class Scene:
         for _ in range(10):
             await asyncio.sleep(0.001)
 
-    async def answer(self, frame=b"frame"):
+    async def answer(self, frame=b"frame", textures=None):
         number, _, answer = self.hand.jobs("grow")[-1]
-        answer.set_exception(frame) if isinstance(frame, Exception) else answer.set_result(frame)
+        answer.set_exception(frame) if isinstance(frame, Exception) else answer.set_result((frame, textures or {}))
         await self.rest()
 
     @property
@@ -125,8 +125,8 @@ def test_it_grows_once_crown_trunk_and_foliage_are_known():
         await scene.go_on()
         assert scene.states == ["waits", "grows"] and scene.hand.jobs("photo")[0][1] == (scene.laid.digest, PICTURE)
         assert scene.hand.jobs("grow")[0][1][2] == {"crown": b"foliage"}
-        await scene.answer()
-        assert scene.states[-1] == "ready" and scene.frames == [b"frame"]
+        await scene.answer(textures={("bark", "color"): b"brown"})
+        assert scene.states[-1] == "ready" and scene.frames == [b"frame"] and scene.grower.textures == {("bark", "color"): b"brown"}
 
     test(of=it)
 
@@ -153,7 +153,7 @@ def test_another_stroke_ends_what_grows_and_the_tree_that_is_shown_stays_meanwhi
         await scene.draw(CROWN, TRUNK, LEFT)
         await scene.draw(CROWN, LEFT, TRUNK)
         assert scene.grown == 3 and scene.hand.stops == 1 and "none" not in scene.states
-        scene.hand.jobs("grow")[1][2].set_result(b"too late")
+        scene.hand.jobs("grow")[1][2].set_result((b"too late", {}))
         await scene.answer(b"newest")
         assert scene.frames == [b"frame", b"newest"]
 

@@ -74,6 +74,70 @@ def test_traced_limbs_are_taken_over_as_one_step():
     asyncio.run(test())
 
 
+def test_strokes_go_on_while_limbs_are_traced_and_those_of_the_newest_drawing_are_taken_over():
+    async def test():
+        async with talking(page_with(TRUNK)) as talk:
+            asked, traced = [], asyncio.Event()
+            taken_over = talk.engine.with_traced
+
+            async def slowly(document):
+                asked.append(list(document.strokes))
+                await traced.wait()
+                return await taken_over(document)
+
+            talk.engine.with_traced = slowly
+            await talk.say(messages.UseTraced(), drawn("a"))
+            assert talk.strokes() == ["trunk", "a"] and asked == [["trunk"]]
+            traced.set()
+            await talk.hear()
+            assert asked == [["trunk"], ["trunk", "a"]] and talk.strokes() == ["limb"] and talk.last("changed")["undo"] == "traced limbs"
+
+    asyncio.run(test())
+
+
+def test_what_is_being_taken_over_is_taken_back_by_undo_or_cancelled():
+    async def test():
+        async with talking(page_with(TRUNK)) as talk:
+
+            async def never(document):
+                await asyncio.Event().wait()
+
+            talk.engine.with_traced = never
+            for end in (messages.Undo(), messages.Cancel()):
+                await talk.say(messages.UseTraced(), end)
+                assert talk.strokes() == ["trunk"] and talk.session.document.underlay.photo
+                assert not [task for task in talk.desk.tasks if task.get_name() == "traced"] and not talk.desk.pending
+
+    asyncio.run(test())
+
+
+def test_the_tree_grows_anew_with_every_choice_and_a_page_that_joins_later_has_it():
+    async def test():
+        async with talking(page_with(TRUNK)) as talk:
+            await talk.say(messages.Choose(options={"leaf_size": 2.0, "library": "II,visible"}))
+            photo = talk.engine.grows[-1][1].photo
+            assert (photo.leaf_size, photo.library) == (2.0, ("II", "visible")) and len(talk.engine.made) == 1  # the drawing's tree is as it was
+            assert talk.last("changed")["options"]["library"] == "II,visible"
+            await talk.say(messages.Grow(), messages.Grow(on=False))
+            assert talk.engine.grows[-1][2] and talk.engine.stopped == 1 and talk.last("growing")["state"] == "ready"
+            other = Talk(talk.session)
+            await other.say(messages.Hello(version=messages.VERSION))
+            assert other.last("growing") == talk.last("growing") and any(b'"phase": "photo"' in one for one in other.told if isinstance(one, bytes))
+            await talk.say(messages.Undo())
+            assert talk.session.document.photo.leaf_size == 1.0
+
+    asyncio.run(test())
+
+
+def test_a_library_of_nothing_is_refused():
+    async def test():
+        async with talking(page_with(TRUNK)) as talk:
+            await talk.say(messages.Choose(options={"library": ""}))
+            assert talk.last("trouble")["message"].startswith("The option library can't be that")
+
+    asyncio.run(test())
+
+
 def test_where_nothing_is_marked_nothing_is_taken_over():
     async def test():
         async with talking(page_with()) as talk:
@@ -111,8 +175,10 @@ def test_it_is_found_again_after_a_crash(tmp_path, monkeypatch):
         journal = journal_of(None)
         async with talking(page_with(TRUNK, is_photo=False), journal=journal) as talk:
             await switched(talk, True)
+            await talk.say(messages.Choose(options={"leaf_density": 0.5, "library": "I"}))
 
     asyncio.run(test())
     again = journal_of(None)
-    assert again.play().history.document.underlay.photo
+    document = again.play().history.document
+    assert document.underlay.photo and document.photo.leaf_density == 0.5 and document.photo.library == ("I",)
     again.close()

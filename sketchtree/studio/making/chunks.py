@@ -116,7 +116,7 @@ def _wood(tree: LeafyTree, owner, wanted, key, detail: Detail, pulse: Pulse):
     of_limb = owner[lines.first_row]
     shown = np.ones(len(lines), bool) if wanted is None else np.isin(of_limb, wanted)
     found, materials, triangles = {}, {}, 0
-    for _, material, among in limb_skins(lines, frond, dress.bark):
+    for _, material, among in limb_skins(lines, frond, dress.bark, dress.bark_colour):
         among = among & shown
         if not among.any():
             continue

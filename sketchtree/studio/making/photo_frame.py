@@ -14,13 +14,16 @@ from sketchtree.studio import messages
 from sketchtree.studio.making.chunks import DETAIL, Chunks, chunks_of
 from sketchtree.studio.making.frames import Arrays
 from sketchtree.studio.making.photo_asked import Place
+from sketchtree.studio.making.textures import unnamed
 from sketchtree.studio.making.watching import pulses
 from sketchtree.studio.making.work import material_of
 from sketchtree.watch import Watch
 
 
-def photo_frame(revision: int, drawn: DrawnTree, trees: Sequence[tuple[object, LeafyTree]], place: Place, photo: Photo, warnings: tuple[str, ...], watch: Watch) -> bytes:
-    """The frame. `drawn`: the visible limbs of the first tree, in whose scale all are; `trees`: each with its key."""
+def photo_frame(
+    revision: int, drawn: DrawnTree, trees: Sequence[tuple[object, LeafyTree]], place: Place, photo: Photo, warnings: tuple[str, ...], watch: Watch
+) -> tuple[bytes, dict[tuple[str, str], bytes]]:
+    """(the frame, maps of materials that it alone has). `drawn`: the visible limbs of the first tree, in whose scale all are; `trees`: each with its key."""
     with watch("mesh"):
         each = [_chunks(key, tree, number, len(trees), watch) for number, (key, tree) in enumerate(trees)]
     arrays, chunks, materials = Arrays(), [], {}
@@ -43,7 +46,7 @@ def photo_frame(revision: int, drawn: DrawnTree, trees: Sequence[tuple[object, L
         height=max(tree.skeleton.height for _, tree in trees), low=list(points.min(axis=0)), high=list(points.max(axis=0)),
         template=drawn.exemplar.name if drawn.exemplar else None, leaf=worn.leaf, bark=worn.bark, warnings=list(warnings), arrays=[],
     )  # fmt: skip
-    return arrays.frame(head)
+    return arrays.frame(head), unnamed(materials)
 
 
 def _chunks(key, tree: LeafyTree, number: int, count: int, watch: Watch) -> Chunks:

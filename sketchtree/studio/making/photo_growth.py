@@ -36,8 +36,8 @@ class Growth:
     bench: PhotoBench = field(default_factory=PhotoBench)
     grown: tuple[str, list] | None = None  # signature, and each tree with its place
 
-    def frame(self, revision: int, wish: Wish, foliages: Mapping[str, bytes], watch: Watch) -> bytes:
-        """The frame of it, whole. Raises SketchTreeError where it can't be grown."""
+    def frame(self, revision: int, wish: Wish, foliages: Mapping[str, bytes], watch: Watch) -> tuple[bytes, dict[tuple[str, str], bytes]]:
+        """(the frame of it, whole; maps of materials that it alone has). Raises SketchTreeError where it can't be grown."""
         found, told, trees = self._marked(wish), [], []
         for number, (one, at) in enumerate(self._each(wish, found, foliages, watch)):
             key = tree_key(root_key(wish.asked.seed), number)

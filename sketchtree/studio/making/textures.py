@@ -32,6 +32,16 @@ class Textures:
         return None if picture is None else encoded(picture)
 
 
+def unnamed(materials: dict[str, Material]) -> dict[tuple[str, str], bytes]:
+    """The maps of those materials that no name tells how to make (a bark in the colour of a photo), by key and map: they go with the tree that wears them."""
+    found = {}
+    for key, material in materials.items():
+        if _named(key) is None:
+            pictures = {kind: getattr(material, name) for kind, name in _MAPS.items()}
+            found |= {(key, kind): encoded(picture) for kind, picture in pictures.items() if picture is not None}
+    return found
+
+
 @lru_cache(maxsize=64)
 def _named(key: str) -> Material | None:
     """The material that a key names, made anew."""
