@@ -16,12 +16,14 @@ from jaxtyping import Array, Bool, Float, Key
 
 from sketchtree.choose import bark_model, leaf_model
 from sketchtree.drawn_tree import DrawnTree, draw_out_graph
+from sketchtree.errors import OptionError
 from sketchtree.forest import Forest
 from sketchtree.geometry.wood import check_wood
 from sketchtree.keys import stage_key
 from sketchtree.options import ReadingOptions, TreeOptions
 from sketchtree.parameters import Habit
 from sketchtree.photo.as_graph import as_drawing
+from sketchtree.photo.bark_colour import SeenBark, seen_bark
 from sketchtree.photo.foliage import Foliage
 from sketchtree.photo.foliage_mask import foliage_mask
 from sketchtree.photo.known_foliage import known_foliage
@@ -59,6 +61,7 @@ class GrownInPhoto:
     grown: Attraction
     seen: SeenFoliage
     choice: Choice  # of its template, height and leaf, where nobody named them
+    bark: SeenBark
 
 
 @dataclass(frozen=True, eq=False)
@@ -155,19 +158,27 @@ def each_grown(
     foliages: Sequence[Foliage | None] | None = None,
     watch: Watch | None = None,
 ) -> Iterator[tuple[GrownInPhoto, Float[np.ndarray, " 3"]]]:
-    """Every tree of the photo, grown in the scale of the first, and where its foot stands, metres. `foliages`: of each, if it was found before."""
+    """Every tree of the photo, grown in the scale of the first, and where its foot stands, metres. `foliages`: of each, if it was found before. Raises SketchError, OptionError."""
     watch = watch or Watch()
+    check_further(len(marked), depth=depths or (), library=wanted.libraries)
     with watch("read"):
         palette = Palette.of(photo)
     scale = None
     for number, own in enumerate(marked):
-        at = place_of(own, marked[0], scale, 0.0 if depths is None or number == 0 else depths[number - 1])
+        at = place_of(own, marked[0], scale, depths[number - 1] if 0 < number <= len(depths or ()) else 0.0)
         found = grow_in_photo(
-            photo, own, templates, key=tree_key(key, number), wanted=wanted, reading=reading, palette=palette, mask=mask, scale=scale,
+            photo, own, templates, key=tree_key(key, number), wanted=wanted.of_tree(number), reading=reading, palette=palette, mask=mask, scale=scale,
             foliage=None if foliages is None else foliages[number], watch=watch,
         )  # fmt: skip
         scale = found.drawn.similarity.scale if scale is None else scale
         yield found, at
+
+
+def check_further(trees: int, **given: Sequence) -> None:
+    """Refuse what is given for more trees than there are beside the first. Raises OptionError."""
+    for name, values in given.items():
+        if len(values) >= trees > 0:
+            raise OptionError(f"`--{name}` is given for {len(values) + 1} trees, and {trees} {'is' if trees == 1 else 'are'} marked.", remedy="Give it once for each tree.")
 
 
 def grow_in_photo(
@@ -199,7 +210,7 @@ def grow_in_photo(
     with watch("propagate"):
         stage = Attract(targets=target_of(seen), library=wanted.library, iterations=wanted.replacements, alternate=wanted.alternate, twigs=wanted.replacements > 0)
         grown = stage.run(drawn.skeleton, key=stage_key(key, "attract"), pulse=_pulse(watch))
-    return GrownInPhoto(own, foliage, traced, drawn, grown, seen, choice)
+    return GrownInPhoto(own, foliage, traced, drawn, grown, seen, choice, seen_bark(photo, foliage, traced))
 
 
 def _foliage(photo: Photo, own: Marked, key: Key[Array, ""], wanted: PhotoOptions, mask: Bool[np.ndarray, "row column"] | None) -> Foliage:
@@ -242,7 +253,7 @@ def to_finish(found: GrownInPhoto, key: Key[Array, ""], options: TreeOptions, te
     if wanted.bare_as_seen and found.foliage.bare and options.leaf is None:
         options = dataclasses.replace(options, leaf="none", season="bare")
     options = dataclasses.replace(options, leaf=options.leaf or found.choice.leaf)
-    return Grown(found.drawn, found.grown, key, options, templates, place, PhotoLeafing(found.seen.moved(place), wanted))
+    return Grown(found.drawn, found.grown, key, options, templates, place, PhotoLeafing(found.seen.moved(place), wanted), found.bark if wanted.bark_colour == "photo" else None)
 
 
 def _dressed(found: GrownInPhoto, key: Key[Array, ""], options: TreeOptions, templates: Database | None, place, wanted: PhotoOptions, watch: Watch) -> PhotoTree:

@@ -4,6 +4,7 @@ import time
 from pathlib import Path
 
 import click
+from click.core import ParameterSource
 
 from sketchtree.commands import options
 from sketchtree.commands.progress import Progress
@@ -14,9 +15,10 @@ from sketchtree.commands.progress import Progress
 @click.option("-o", "--output", required=True, type=click.Path(path_type=Path), metavar="TREE", help=".glb .gltf .usd .usdz .obj .ply .stl .3mf, .swc .mtg .json .h5, .sketchtree, or .png")
 @options.reading
 @options.tree(200_000, "the tree")
+@click.option("--as-drawn", is_flag=True, help="Of a project with a photo: the tree of its strokes alone, not the one in the photo.")
 @options.files
 @options.common
-def build(sketch: Path, output: Path, seed: int, quiet: bool, json_log: bool, report: Path | None, db: Path | None, **wanted) -> None:
+def build(sketch: Path, output: Path, as_drawn: bool, seed: int, quiet: bool, json_log: bool, report: Path | None, db: Path | None, **wanted) -> None:
     """Turn SKETCH into a complete tree."""
     began = time.perf_counter()
     from sketchtree.commands import writing
@@ -30,6 +32,7 @@ def build(sketch: Path, output: Path, seed: int, quiet: bool, json_log: bool, re
     writing.check_outputs(sketch, output, report, wanted["skeleton"], wanted["preview"], files=files, kinds=writing.WHOLE)
     from sketchtree import pipeline
     from sketchtree.keys import root_key
+    from sketchtree.sketch.files.project import holds_photo
     from sketchtree.templates.store.database import Database
     from sketchtree.watch import Watch
 
@@ -39,10 +42,29 @@ def build(sketch: Path, output: Path, seed: int, quiet: bool, json_log: bool, re
     watch = Watch(progress, progress.part)
     with progress.running():
         templates = None if db is None and reading.template == "none" else Database.open(db)
-        model = pipeline.sketch_to_tree(sketch, templates, key=root_key(seed), reading=reading, tree=tree, watch=watch)
-        run = writing.Run("build", seed, imported, began, watch, choices.options_as_dict(reading, tree, files))
-        with watch("export"):
-            unseen = writing.write_tree(model, output, run, skeleton=wanted["skeleton"], preview=wanted["preview"], files=files, sketches=(sketch,))
-        record = writing.record(run, model.drawn, model, extra_warnings=unseen)
+        beside = {"skeleton": wanted["skeleton"], "preview": wanted["preview"]}
+        if not as_drawn and holds_photo(sketch):
+            record = _of_photo(sketch, output, files, beside, seed, imported, began, templates, reading, tree, watch)
+        else:
+            model = pipeline.sketch_to_tree(sketch, templates, key=root_key(seed), reading=reading, tree=tree, watch=watch)
+            run = writing.Run("build", seed, imported, began, watch, choices.options_as_dict(reading, tree, files))
+            with watch("export"):
+                unseen = writing.write_tree(model, output, run, files=files, sketches=(sketch,), **beside)
+            record = writing.record(run, model.drawn, model, extra_warnings=unseen)
         writing.write_report(report, record)
     writing.conclude(record, output, progress)
+
+
+def _of_photo(project: Path, output: Path, files, beside: dict, seed: int, imported: float, began: float, templates, reading, tree, watch) -> dict:
+    """The tree in a project's photo, made again and written; its report."""
+    from sketchtree.commands import photo_files, writing
+    from sketchtree.options import options_as_dict
+    from sketchtree.photo_project import picture_in
+
+    asked = click.get_current_context().get_parameter_source("season") is not ParameterSource.DEFAULT
+    made, how = photo_files.made_again(project, templates, seed=seed, reading=reading, tree=tree, season_asked=asked, watch=watch)
+    photo_files.check_trees(output, made.photo, len(made.trees))
+    run = writing.Run("build", seed, imported, began, watch, options_as_dict(reading, tree, files, how))
+    with watch("export"):
+        unseen = photo_files.write_trees(made, output, run, files, picture=picture_in(project), kept=(project,), **beside)
+    return photo_files.record(run, made, extra_warnings=unseen)

@@ -21,13 +21,14 @@ _PICTURE = click.Path(path_type=Path)
 @click.option("--use-mask", type=_PICTURE, metavar="M.png", help="Take the foliage from a mask of the photo's size, white where it is.")
 @click.option("--traced", type=_PICTURE, metavar="VISIBLE.swc", help="Write the limbs that show in the photo (pixels, y negated).")
 @click.option("--compare", type=_PICTURE, metavar="C.png", help="Write the photo beside the tree, seen from where the photo was taken.")
-@click.option("--library", default="all", show_default=True, metavar="visible|I|II|all", help="Subtrees that grow: of the visible limbs, predefined of type I, of type II; several with commas.")
+@click.option("--library", "libraries", multiple=True, default=("all",), show_default=True, metavar="visible|I|II|all", help="Subtrees that grow: of the visible limbs, predefined of type I, of type II; several with commas. Again for the second tree of a photo, the third ...")
 @click.option("--lift", type=click.Choice(["okabe", "elevation"]), default="elevation", show_default=True, help="How the visible limbs get their depths.")
 @click.option("--foliage", type=click.Choice(["contrast", "paper"]), default="contrast", show_default=True, help="What counts as foliage: what differs from round the crown, or the paper's colours.")
 @click.option("--trace/--no-trace", default=True, show_default=True, help="Follow the wood in the photo on from the strokes.")
 @click.option("--replacements", type=click.IntRange(0, 10_000), default=100, show_default=True, help="Rounds of growth, at most; in each up to three branches are replaced.")
 @click.option("--alternate/--image-only", default=True, help="Grow round all sides, or (as a comparison) towards the image alone.")
 @click.option("--colours", type=click.Choice(["photo", "season"]), default="photo", show_default=True, help="Leaves as the photo shows them, or in the season's colours.")
+@click.option("--bark-colour", type=click.Choice(["photo", "species"]), default="photo", show_default=True, help="Bark as the photo shows it, or in the species' own colour.")
 @click.option("--fit-leaves/--no-fit-leaves", default=True, show_default=True, help="As large and dense as it takes to cover the foliage.")
 @click.option("--leaf-size", type=float, default=1.0, show_default=True, metavar="TIMES", help="Larger or smaller leaves than that: 0.1 to 10.")
 @click.option("--leaf-density", type=float, default=1.0, show_default=True, metavar="TIMES", help="More or fewer leaves: 0.1 to 10.")
@@ -49,10 +50,9 @@ def photo(image: Path, strokes: Path | None, auto: bool, output: Path, seed: int
 
     photo_files.check_strokes(strokes, auto)
     asked = click.get_current_context().get_parameter_source("season") is not ParameterSource.DEFAULT
-    how = PhotoOptions(
-        wanted["foliage"], wanted["trace"], photo_files.libraries(wanted["library"]), wanted["replacements"], wanted["alternate"], wanted["colours"],
-        wanted["fit_leaves"], wanted["leaf_size"], wanted["leaf_density"], wanted["leaf_arrangement"], bare_as_seen=not asked,
-    )  # fmt: skip
+    library, *further = (photo_files.libraries(names) for names in wanted["libraries"])
+    named = ("foliage", "trace", "replacements", "alternate", "colours", "fit_leaves", "leaf_size", "leaf_density", "leaf_arrangement", "bark_colour")
+    how = PhotoOptions(library=library, libraries=tuple(further), bare_as_seen=not asked, **{name: wanted[name] for name in named})
     (files,) = writing.split_options(wanted, choices.FileOptions)
     check_extension(output, writing.WHOLE)
     writing.check_files(output, files)

@@ -64,12 +64,40 @@ def check_trees(output: Path, photo, trees: int) -> None:
         raise ExportError(f"A project holds one tree, and {trees} are marked in {photo.name}.", remedy="Write .glb, or give strokes of one tree.")
 
 
-def write(made, output: Path, run, wanted: dict, files, *, kept: tuple[Path, ...]) -> tuple[str, ...]:
-    """Everything asked for; returns warnings (a picture that could not be drawn)."""
+def made_again(project: Path, templates, *, seed: int, reading, tree, season_asked: bool, watch):
+    """(the trees of a project's photo, how they were wanted). Raises SketchError, OptionError."""
+    import dataclasses
+
+    from sketchtree.keys import root_key
+    from sketchtree.photo_project import read_photo_project
+    from sketchtree.photo_tree import photo_to_tree
+
+    found = read_photo_project(project, reading)
+    wanted = dataclasses.replace(found.wanted, bare_as_seen=found.wanted.bare_as_seen and not season_asked)
+    return photo_to_tree(found.photo, found.marked, templates, key=root_key(seed), wanted=wanted, reading=reading, tree=tree, watch=watch), wanted
+
+
+def write_trees(made, output: Path, run, files, *, picture: bytes, skeleton: Path | None = None, preview: Path | None = None, kept: tuple[Path, ...] = ()) -> tuple[str, ...]:
+    """The trees, and a project with the photo, whose file's bytes are `picture`; returns warnings."""
     from sketchtree.commands import writing
+    from sketchtree.export.files import PROJECTS
+
+    if output.suffix.lower() not in PROJECTS:
+        return writing.write_tree(made.model, output, run, skeleton=skeleton, preview=preview, files=files, sketches=kept)
+    from sketchtree.photo_project import as_project
+
+    model, underlay, told = as_project(made.trees[0], picture)
+    return told + writing.write_tree(model, output, run, skeleton=skeleton, preview=preview, files=files, sketches=kept, underlay=underlay)
+
+
+def write(made, output: Path, run, wanted: dict, files, *, kept: tuple[Path, ...]) -> tuple[str, ...]:
+    """Everything asked for; returns warnings (a picture that could not be drawn, what a project can't keep). The first of `kept` is the photo."""
+    from sketchtree.export.files import PROJECTS
     from sketchtree.tree_output import write_skeleton_of
 
-    warnings = writing.write_tree(made.model, output, run, skeleton=None, preview=wanted["preview"], files=files, sketches=kept)
+    warnings = write_trees(made, output, run, files, picture=kept[0].read_bytes(), preview=wanted["preview"], kept=kept)
+    if wanted["use_mask"] is not None and output.suffix.lower() in PROJECTS:
+        warnings += (f"A project keeps no mask: the foliage in {output.name} is found anew, not taken from {wanted['use_mask'].name}.",)
     pixels = {"units": "pixels", "frame": "photo"}
     if wanted["skeleton"] is not None:
         write_skeleton_of(wanted["skeleton"], made.in_pixels(), run.made, **pixels)

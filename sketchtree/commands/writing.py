@@ -77,14 +77,14 @@ def check_files(output: Path, files, instead: str = "") -> None:
 
 
 def write_tree(
-    model, output: Path, run: Run, *, skeleton: Path | None, preview: Path | None, files=None, sketches: tuple[Path, ...] = ()
+    model, output: Path, run: Run, *, skeleton: Path | None, preview: Path | None, files=None, sketches: tuple[Path, ...] = (), underlay=None
 ) -> tuple[str, ...]:
-    """Write the tree and what else was asked for; returns warnings (a picture that could not be made). `files` is a `FileOptions`.
+    """Write the tree and what else was asked for; returns warnings (a picture that could not be made). `files` is a `FileOptions`, `underlay` what a project keeps below its strokes.
 
     None of the `sketches` it was made of is overwritten."""
     from sketchtree.tree_output import write_output, write_skeleton_of
 
-    shown, warnings = write_output(model, output, run.made, files, kept=sketches)
+    shown, warnings = write_output(model, output, run.made, files, kept=sketches, underlay=underlay)
     if skeleton is not None:
         write_skeleton_of(skeleton, model.skeleton, run.made)
     pictures = [path for path in (output if output.suffix.lower() in PICTURES else None, preview) if path is not None]

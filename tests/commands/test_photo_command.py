@@ -15,6 +15,7 @@ import leafy  # noqa: E402
 from sketchtree.commands.app import run  # noqa: E402
 from sketchtree.export.gltf import read_glb, read_glb_skeleton  # noqa: E402
 from sketchtree.skeleton import TreeSkeleton  # noqa: E402
+from sketchtree.studio.making.documents import document_of  # noqa: E402
 
 FAST = ["--replacements", "0", "--lift", "okabe", "--template", "apple", "--height", "6", "--quiet"]
 
@@ -55,11 +56,34 @@ def test_every_file_that_is_asked_for_is_written(folder):
     assert read_glb_skeleton(folder / "out.glb").height > 4
 
 
-def test_a_project_opens_as_a_drawing_whose_strokes_are_the_traced_limbs(folder):
+def test_a_project_keeps_the_photo_and_its_strokes_and_builds_the_same_tree_again(folder):
+    assert photo(folder, "--leaf-size", "0.7") == photo(folder, "--leaf-size", "0.7", output="tree.sketchtree") == 0
+    built = ["build", str(folder / "tree.sketchtree"), "--method", "okabe", "--template", "apple", "--height", "6", "--quiet"]
+    assert run([*built, "-o", str(folder / "again.glb")]) == run([*built, "-o", str(folder / "tree2.sketchtree")]) == 0
+    assert (folder / "again.glb").read_bytes() == (folder / "out.glb").read_bytes()
+    (folder / "tree.sketchtree").rename(folder / "first.sketchtree")
+    (folder / "tree2.sketchtree").rename(folder / "tree.sketchtree")
+    assert run([*built, "-o", str(folder / "third.glb")]) == 0
+    assert (folder / "third.glb").read_bytes() == (folder / "out.glb").read_bytes()
+
+
+def test_a_projects_strokes_alone_are_a_drawing(folder):
     assert photo(folder, output="tree.sketchtree") == 0
-    assert run(["build", str(folder / "tree.sketchtree"), "-o", str(folder / "again.swc"), "--generations", "0", "--leaf", "none", "--method", "okabe", "--report", str(folder / "again.json"), "--quiet"]) == 0
-    report = json.loads((folder / "again.json").read_text())
-    assert report["segments"]["limbs"] >= 2 and report["segments"]["drawn"] > 2
+    assert run(["build", str(folder / "tree.sketchtree"), "-o", str(folder / "drawn.swc"), "--as-drawn", "--generations", "0", "--leaf", "none", "--report", str(folder / "drawn.json"), "--quiet"]) == 0
+    report = json.loads((folder / "drawn.json").read_text())
+    assert report["command"] == "build" and "replacements" not in report["options"] and report["segments"]["limbs"] >= 1
+
+
+def test_a_project_keeps_a_picture_that_the_studio_can_show_and_tells_what_it_can_not_keep(capsys, folder):
+    Image.open(folder / "tree.png").save(folder / "tree.tif")
+    assert photo(folder, "--mask", str(folder / "m.png"), "--leaf", "none") == 0
+    capsys.readouterr()
+    assert run(["photo", str(folder / "tree.tif"), "--strokes", str(folder / "strokes.svg"), "-o", str(folder / "tree.sketchtree"), *FAST[:-1], "--leaf", "none", "--use-mask", str(folder / "m.png")]) == 0
+    told = capsys.readouterr().err
+    assert "The project keeps tree.tif as PNG, in 8 bits." in told and "A project keeps no mask" in told
+    document = document_of((folder / "tree.sketchtree").read_bytes(), "tree.sketchtree")
+    assert document.underlay.photo and document.underlay.picture.startswith(b"\x89PNG") and (document.underlay.width, document.underlay.height) == (leafy.WIDE, leafy.HIGH)
+    assert [stroke.kind for stroke in document.strokes.values()].count("crown") == 1 and document.photo.replacements == 0
 
 
 def test_its_own_mask_gives_the_foliage_back(folder):

@@ -27,6 +27,20 @@ def drawing_in_project(data: bytes, name: str) -> bytes | None:
         return None
 
 
+def holds_photo(path) -> bool:
+    """Is it a project whose strokes mark the tree in a photo?"""
+    try:
+        with open(path, "rb") as file:
+            if file.read(8) != SIGNATURE:
+                return False
+        import h5py
+
+        with h5py.File(path, "r") as file:
+            return "underlay" in file and bool(file["underlay"].attrs.get("photo", False))
+    except (OSError, RuntimeError, ValueError, TypeError, KeyError, AttributeError):
+        return False  # whoever reads the strokes says so
+
+
 def check_schema(file, name: str) -> None:
     """Raise SketchError for an open project that a newer version wrote: what it holds may mean something else there."""
     try:
