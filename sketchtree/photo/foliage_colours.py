@@ -15,7 +15,7 @@ from jaxtyping import Array, Float, Key
 from sketchtree.photo.appearance import Mixture, fit_mixture
 
 COMPONENTS = 6
-TAIL = 0.1
+TAIL = 0.05
 ROUNDS = 4
 BLUR = 0.4
 _WIDER = 3.0  # added to the standard deviation of every component

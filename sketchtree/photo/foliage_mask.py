@@ -9,8 +9,8 @@ most green or red are leaves (`greenness`), the others background. Of the labels
 
 Our rule `contrast` (the default; it measures better) does not ask for green or red: blossom, autumn leaves and a grey photo have another colour than what is around the crown, near
 by (`surroundings`), and that is foliage (`foliage_colours`). E_d = −log P, with P the probability of either label, at least DOUBT; λ = 6. In a picture with alpha the alpha says it.
-A tree is bare where what was found covers less than half of what the stroke surrounds: then the mask is the area that the twigs span, closed over gaps up to GAP of the crown's size, since twigs, and one day
-leaves, are there. Wood within the crown counts as foliage: leaves hide it or hang before it.
+A tree is bare where what was found is lines rather than an area (`bareness`): then hedges and other trees that stand beside it are left out, and the mask is the area that the twigs
+span, since twigs, and one day leaves, are there. Wood within the crown counts as foliage: leaves hide it or hang before it.
 
 Pictures whose longer side is over FULL pixels are brought down by a whole factor meanwhile.
 """
@@ -26,23 +26,25 @@ from scipy import ndimage
 from sketchtree.errors import OptionError, SketchError
 from sketchtree.keys import numpy_generator, stage_key
 from sketchtree.photo.appearance import Mixture, fit_mixture
+from sketchtree.photo.bareness import looks_bare, spanned
 from sketchtree.photo.cut import grid_links, least_energy
 from sketchtree.photo.foliage import Foliage
-from sketchtree.photo.foliage_colours import leaf_probability, learn_leaves, without_blur
+from sketchtree.photo.foliage_colours import TAIL, leaf_probability, learn_leaves, without_blur
 from sketchtree.photo.greenness import LEAF_COMPONENTS, greenest, greenness
 from sketchtree.photo.marked import Marked
 from sketchtree.photo.photo import Photo
 from sketchtree.photo.pixels import Pixels
-from sketchtree.photo.surroundings import learn_surroundings, rarely_around, ring_around
+from sketchtree.photo.surroundings import Surroundings, learn_surroundings, rarely_around, ring_around
 
 Rule = Literal["contrast", "paper"]
 COMPONENTS = 10
 DILATIONS = 10
+SLACK = 10 / 1500  # of the longer side: how far outside the stroke foliage may lie (`contrast`)
 SMOOTHNESS = {"paper": 60.0, "contrast": 6.0}  # λ
 DOUBT = 0.02
-FULL = 2000  # pixels
-GAP = 0.06  # of the crown's size (√area): gaps between a bare tree's twigs
-_COVERED = 0.5  # share of what the stroke surrounds that is foliage, below which the tree is bare
+FULL = 1200  # pixels: what is finer is grain; 1500 take half a second
+_FEW = 0.08  # share of what the stroke surrounds that must be rare around it: the barest tree (severely pruned, a fifth) has far more, open sky TAIL
+_OWN = 0.33  # share of the crown with no other trees beside it that is enough to tell whether it is bare
 _LEAST = 0.01  # share of the region that must be foliage
 _PALE = 0.02  # score of the greenest component that is hardly green or red
 _SAMPLE = 20_000
@@ -56,6 +58,7 @@ class _Found:
     leaf: Mixture | None = None
     background: Mixture | None = None
     warnings: tuple[str, ...] = ()
+    bare: bool = False
 
 
 def foliage_mask(photo: Photo, marked: Marked, *, key: Key[Array, ""], rule: Rule = "contrast", bare: bool | None = None) -> Foliage:
@@ -67,17 +70,17 @@ def foliage_mask(photo: Photo, marked: Marked, *, key: Key[Array, ""], rule: Rul
     inside = within(marked.crown / factor, rgb.shape[:2])
     if not inside.any():
         raise SketchError("it holds no pixel of the photo.", stroke=marked.crown_name, remedy="Draw it round the tree's crown.")
-    region = ndimage.binary_dilation(inside, iterations=DILATIONS)
-    if photo.alpha is not None and rule == "contrast":
-        found = _Found(region & (_reduced(photo.alpha, factor) >= 128))
+    region = ndimage.binary_dilation(inside, iterations=DILATIONS if rule == "paper" else max(round(SLACK * max(inside.shape)), 2))
+    if rule == "paper":
+        found = _by_colour(rgb, inside, region, marked, key=key)
+    elif photo.alpha is not None:
+        found = _by_alpha(_reduced(photo.alpha, factor) >= 128, inside, region, bare)
     else:
-        found = (_by_contrast if rule == "contrast" else _by_colour)(rgb, inside, region, marked, key=key)
+        found = _by_contrast(rgb, inside, region, marked, bare, key=key)
     _check(found.mask, region, marked)
     leaf, background = _mixtures(found, rgb, region, key=key)
-    size = float(np.sqrt(inside.sum()))
-    bare = bool(rule == "contrast" and (found.mask.sum() < _COVERED * inside.sum() if bare is None else bare))
-    mask = _spanned(found.mask, region, size) if bare else found.mask
-    return Foliage(_enlarged(mask, factor, photo), _enlarged(region, factor, photo), leaf, background, found.warnings, bare)
+    mask = spanned(found.mask, inside) & region if found.bare else found.mask
+    return Foliage(_enlarged(mask, factor, photo), _enlarged(region, factor, photo), leaf, background, found.warnings, found.bare)
 
 
 def within(outline: Float[np.ndarray, "point 2"], shape: tuple[int, int]) -> Bool[np.ndarray, "row column"]:
@@ -106,7 +109,13 @@ def _by_colour(rgb, inside, region, marked: Marked, *, key: Key[Array, ""]) -> _
     return _Found(_cut(rgb, region, zero, one, SMOOTHNESS["paper"]), leaf, background, told)
 
 
-def _by_contrast(rgb, inside, region, marked: Marked, *, key: Key[Array, ""]) -> _Found:
+def _by_alpha(opaque: Bool[np.ndarray, "row column"], inside, region, bare: bool | None) -> _Found:
+    """What a picture that was cut out says itself."""
+    mask = region & opaque
+    return _Found(mask, bare=looks_bare(mask, inside) if bare is None else bare)
+
+
+def _by_contrast(rgb, inside, region, marked: Marked, bare: bool | None, *, key: Key[Array, ""]) -> _Found:
     """Our rule."""
     size = float(np.sqrt(inside.sum()))
     ring_mask = ring_around(region, size)
@@ -118,16 +127,22 @@ def _by_contrast(rgb, inside, region, marked: Marked, *, key: Key[Array, ""]) ->
     drawn = numpy_generator(stage_key(key, "sample"))
     own, near = own.some(np.sort(drawn.permutation(len(own))[:_SAMPLE])), ring.some(np.sort(drawn.permutation(len(ring))[:_SAMPLE]))
     around = learn_surroundings(own, near, region.shape, size, key=stage_key(key, "around"))
-    rare = rarely_around(around, own, near, 0.1)
-    if around.leafy.all() or len(rare) < 0.12 * len(own):
+    rare = rarely_around(around, own, near, TAIL)
+    if around.leafy.all() or len(rare) < _FEW * len(own):
         if around.leafy.any() or greenness(np.median(own.colours(), axis=0)) > 0.06:
             return _Found(region.copy(), warnings=("The crown has the colours of what is around it: all that its stroke surrounds was taken for foliage.",))
         raise _nothing(marked, "it has the colours of what is around it, and none of them is a leaf's")
-    leaf, share = learn_leaves(own.colours(), around.log_density(own), rare, key=stage_key(key, "leaves"))
-    kept = without_blur(leaf, around.common())
-    sure = leaf_probability(kept.log_density(pixels.colour)[pixels.which], around.log_density(pixels), share)
-    sure = np.clip(sure, DOUBT, 1 - DOUBT)
-    return _Found(_cut(rgb, region, -np.log(sure), -np.log1p(-sure), SMOOTHNESS["contrast"]))
+    def mask_before(background: Surroundings, rare) -> Bool[np.ndarray, "row column"]:
+        leaf, share = learn_leaves(own.colours(), background.log_density(own), rare, key=stage_key(key, "leaves"))
+        leaf_density = without_blur(leaf, background.common()).log_density(pixels.colour)[pixels.which]
+        sure = np.clip(leaf_probability(leaf_density, background.log_density(pixels), share), DOUBT, 1 - DOUBT)
+        return _cut(rgb, region, -np.log(sure), -np.log1p(-sure), SMOOTHNESS["contrast"])
+
+    mask, (neighbours, theirs) = mask_before(around, rare), around.with_neighbours(region.shape)
+    own_place = inside & ~theirs
+    bare = looks_bare(mask, own_place if own_place.sum() > _OWN * inside.sum() else inside) if bare is None else bare
+    rare = rarely_around(neighbours, own, near, TAIL) if bare and (region & theirs).any() else []
+    return _Found(mask_before(neighbours, rare) if len(rare) >= _FEW * len(own) else mask, bare=bare)
 
 
 def _cut(rgb: UInt8[np.ndarray, "row column 3"], region, zero, one, smoothness: float) -> Bool[np.ndarray, "row column"]:
@@ -163,13 +178,6 @@ def _mixtures(found: _Found, rgb, region, *, key: Key[Array, ""]) -> tuple[Mixtu
     rest = rest if rest.sum() >= 64 else ~found.mask if (~found.mask).sum() >= 2 else region
     leaf = fit_mixture(rgb[found.mask], LEAF_COMPONENTS, key=stage_key(key, "leaf"))
     return leaf, fit_mixture(rgb[rest], COMPONENTS - LEAF_COMPONENTS, key=stage_key(key, "background"))
-
-
-def _spanned(mask: Bool[np.ndarray, "row column"], region: Bool[np.ndarray, "row column"], size: float) -> Bool[np.ndarray, "row column"]:
-    """The area that twigs span: closed by a disc, within the region."""
-    reach = max(GAP * size, 2.0)
-    near = ndimage.distance_transform_edt(~mask) <= reach
-    return ((ndimage.distance_transform_edt(near) > reach) | mask) & region
 
 
 def _reduced(alpha: UInt8[np.ndarray, "row column"], factor: int) -> UInt8[np.ndarray, "row column"]:

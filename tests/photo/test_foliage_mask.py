@@ -37,10 +37,18 @@ def found(photo, **options):
     return foliage_mask(photo, Marked(CROWN, ()), key=root_key(0), **options)
 
 
-def test_the_region_is_the_closed_stroke_expanded_ten_times():
+def test_the_region_is_the_closed_stroke_expanded_ten_times_by_the_paper():
     photo, _ = painted(LEAF)
     expected = ndimage.binary_dilation(within(CROWN, (160, 160)), iterations=10)
-    assert (found(photo).region == expected).all() and (found(photo, rule="paper").region == expected).all()
+    assert (found(photo, rule="paper").region == expected).all()
+
+
+@pytest.mark.parametrize("times", [1, 6])
+def test_by_contrast_it_is_expanded_by_ten_pixels_where_a_photo_has_1500(times):
+    photo, _ = painted(LEAF)
+    large = Photo(np.kron(photo.rgb, np.ones((times, times, 1), np.uint8)))
+    region = foliage_mask(large, Marked(CROWN * times, ()), key=root_key(0)).region
+    assert (region == ndimage.binary_dilation(within(CROWN * times, region.shape), iterations={1: 2, 6: 6}[times])).all()
 
 
 def test_within_takes_the_pixels_whose_middles_are_surrounded():
