@@ -87,8 +87,9 @@ def disposition(name: str) -> str:
 
 def _of_photo(wanted: PhotoOptions) -> list[str]:
     """The options of a photo's tree, in the words of `sketchtree photo`."""
-    words = _spelled(wanted, PhotoOptions(), ("library", "alternate", "bare_as_seen"))
-    words += [] if wanted.library == PhotoOptions().library else ["--library", ",".join(wanted.library)]
+    words = _spelled(wanted, PhotoOptions(), ("library", "libraries", "alternate", "bare_as_seen"))
+    further = getattr(wanted, "libraries", ())
+    words += [] if wanted.library == PhotoOptions().library and not further else [word for names in (wanted.library, *further) for word in ("--library", ",".join(names))]
     return words + ([] if wanted.alternate else ["--image-only"])
 
 

@@ -1,4 +1,4 @@
-"""A photo in the studio, as a person meets it: the crown with the left button, a branch with the right; limbs appear on the photo, become the drawing, and the tree follows."""
+"""A photo in the studio, as a person meets it: the crown with the left button, a branch with the right; limbs appear on the photo, become the drawing, and the tree grows."""
 
 import base64
 
@@ -86,10 +86,15 @@ def limbs(page) -> int:
     return int(page.get("photo-card").get_attribute("data-limbs"))
 
 
+def wait_until(page, state: str) -> None:
+    """The photo's tree is so."""
+    page.page.locator(f"[data-testid=photo-card][data-grown={state}]").wait_for()
+
+
 def test_the_page_says_what_to_mark_first(page):
     assert page.get("photo-words").inner_text() == "Left button: the crown. Right button: a branch."
     assert page.get("tool-crown").get_attribute("aria-pressed") == "true" and page.get("photo-mode").get_attribute("aria-checked") == "true"
-    assert page.get("use-traced").get_attribute("aria-disabled") == "true"
+    assert page.get("use-traced").is_hidden() and page.get("photo-grow").is_hidden()
 
 
 def test_left_is_the_crown_and_right_a_branch_and_limbs_appear(page, ear, photo):
@@ -101,6 +106,29 @@ def test_left_is_the_crown_and_right_a_branch_and_limbs_appear(page, ear, photo)
     assert limbs(page) > 8 and page.get("use-traced").get_attribute("aria-disabled") is None
     assert page.page.evaluate("getComputedStyle(document.documentElement).getPropertyValue('--traced') !== ''")
     assert page.weak_contrasts() == []
+
+
+def test_the_photos_tree_grows_by_itself_and_its_files_are_of_that_tree(page, ear):
+    wait_until(page, "ready")
+    assert page.get("photo-words").inner_text() == "Grown from the photo." and page.get("photo-grow").is_hidden()
+    assert int(page.get("status").get_attribute("data-segments")) > 500 and page.get("generations").is_hidden()
+    assert page.weak_contrasts() == []
+    with page.page.expect_download() as kept:
+        page.get("photo-strokes").click()
+    drawing = kept.value.path().read_text()
+    assert kept.value.suggested_filename == "elm.svg" and 'viewBox="0.0 -0.0 600.0 600.0"' in drawing and drawing.count("<path") == 2
+    command = page.page.evaluate("fetch('command?tree=photo').then((answer) => answer.text())")
+    assert command == "sketchtree photo elm.png --strokes elm.svg -o elm.glb"
+
+
+def test_another_choice_grows_it_anew_and_it_can_be_stopped(page, ear):
+    page.get("library-visible").click()
+    wait_until(page, "grows")
+    page.get("photo-grow").click()
+    wait_until(page, "stopped")
+    assert ear.options["library"] == "I,II" and page.get("photo-grow").inner_text() == "Grow the tree"
+    page.get("undo").click()
+    wait_until(page, "ready")
 
 
 def test_traced_limbs_become_the_drawing_and_the_tree_follows(page, ear):

@@ -118,6 +118,8 @@ def test_the_package_has_what_the_page_shows():
 
 def test_a_project_keeps_the_picture_and_the_options():
     from sketchtree.editing.document import Document, Underlay
+    from sketchtree.options import options_as_dict
+    from sketchtree.photo.wanted import PhotoOptions
     from sketchtree.studio.making.documents import document_of
     from sketchtree.tree_output import Made, write_output
 
@@ -128,9 +130,11 @@ def test_a_project_keeps_the_picture_and_the_options():
     underlay = Underlay(b"\x89PNG...", 1.0, 2.0, 30.0, 40.0, 0.3, photo=True)
     with tempfile.TemporaryDirectory() as folder:
         path = Path(folder) / "tree.sketchtree"
-        write_output(model, path, Made(4, dataclasses.asdict(document.reading) | dataclasses.asdict(document.tree)), underlay=underlay)
+        photo = PhotoOptions(library=("I", "visible"), leaf_size=2.0, foliage="paper")
+        write_output(model, path, Made(4, options_as_dict(document.reading, document.tree, photo)), underlay=underlay)
         again = document_of(path.read_bytes(), path.name)
     assert again.underlay == underlay and again.seed == 4 and again.tree == document.tree and again.reading == document.reading and again.name == "tree"
+    assert again.photo == photo
     assert len(again.settled) == len(drawn.settled) and list(again.strokes) == ["trunk", "left"]
 
 

@@ -167,8 +167,8 @@ class Ear:
             self._others["underlay"] = event["underlay"]
 
     def _take_tree(self, event: dict) -> None:
-        if event["phase"] == "glance":
-            self._counts["glance"] += 1
+        if event["phase"] in ("glance", "photo"):
+            self._counts[event["phase"]] += 1
             return
         if event["limbs"] is not None:
             self._limbs = event["limbs"]

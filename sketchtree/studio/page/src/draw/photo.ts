@@ -19,16 +19,30 @@ export function setPhoto(store: Store, on: boolean): void {
   store.send({ type: "setunderlay", underlay: { ...underlay, photo: on, opacity: on ? Math.max(underlay.opacity, CLEAR) : underlay.opacity } });
 }
 
-/** With the photo the pen draws the crown first. */
+/** Is it marked by a pen or a finger, which has one button? */
+export function byHand(): boolean {
+  return matchMedia("(pointer: coarse)").matches;
+}
+
+/** With the photo the pen draws the crown first; then, where it has one button, the trunk. */
 export function followPhoto(store: Store): void {
   let was = false;
+  let crowned = false;
+  store.on("strokes", () => {
+    const before = crowned;
+    crowned = hasCrown(store);
+    if (crowned && !before && byHand() && store.ui.tool === "crown" && photoHere(store)) store.set("tool", "branch");
+  });
   store.on("underlay", () => {
     const is = photoHere(store) !== null;
     if (is === was) return;
     was = is;
     if (!is) return;
-    const crowned = [...store.known.strokes.values()].some((stroke) => stroke.kind === "crown");
     store.set("turn", 0);
-    store.set("tool", crowned ? "branch" : "crown");
+    store.set("tool", hasCrown(store) ? "branch" : "crown");
   });
+}
+
+function hasCrown(store: Store): boolean {
+  return [...store.known.strokes.values()].some((stroke) => stroke.kind === "crown");
 }

@@ -1,13 +1,13 @@
 // A photo is being marked: what is to be done, what is missing, and what comes of it. A card at the top of the page.
 
-import { setPhoto } from "../../draw/photo";
+import { byHand, setPhoto } from "../../draw/photo";
 import { block, button } from "../../parts/button";
 import { element } from "../../parts/element";
 import { toggle } from "../../parts/toggle";
 import type { Store } from "../../store";
 import { icon } from "../../style/icons";
 import { growButton } from "./grow_button";
-import { said } from "./words";
+import { HOW, HOW_BY_HAND, said } from "./words";
 
 const NONE = "mark the crown and the trunk first";
 const SOON = "limbs are told from leaves once the foliage is known";
@@ -30,7 +30,7 @@ export function photoCard(store: Store): HTMLElement {
   const show = (): void => {
     const { underlay, traced, foliage, growing } = store.known;
     root.hidden = !underlay?.photo;
-    const now = said(traced, growing);
+    const now = said(traced, growing, byHand() ? HOW_BY_HAND : HOW);
     if (words.textContent !== now) words.textContent = now; // said aloud once
     bar.hidden = growing?.state !== "grows";
     bar.value = growing?.done ?? 0;

@@ -3,23 +3,24 @@
 import type { Growing, Traced } from "../../messages";
 
 export const HOW = "Left button: the crown. Right button: a branch.";
+export const HOW_BY_HAND = "Outline the crown, then draw along the trunk."; // a pen or a finger has one button
 const LOOKING = "Looking for the foliage …";
 const GROWS = "Growing the tree …";
 const SOON = "It grows in a moment.";
 const READY = "Grown from the photo.";
 const STOPPED = "Stopped.";
 
-/** One sentence. */
-export function said(traced: Traced | null, growing: Growing | null): string {
+/** One sentence; `how` says what to do. */
+export function said(traced: Traced | null, growing: Growing | null, how: string = HOW): string {
   if (traced?.remark) return traced.remark;
   if (traced?.waits) return LOOKING;
   switch (growing?.state) {
-    case "waits": return traced?.trees.length ? SOON : HOW;
+    case "waits": return traced?.trees.length ? SOON : how;
     case "grows": return GROWS;
     case "ready": return READY;
     case "stopped": return STOPPED;
     case "failed": return growing.remark;
-    default: return HOW;
+    default: return how;
   }
 }
 
