@@ -15,7 +15,7 @@ from sketchtree.editing.document import Document
 from sketchtree.options import ReadingOptions, TreeOptions
 from sketchtree.photo.wanted import PhotoOptions
 from sketchtree.studio.folder import PROJECT
-from sketchtree.studio.making.photo_asked import Wish
+from sketchtree.studio.making.photo_asked import Wish, is_photo
 from sketchtree.studio.underlays import suffix_of
 
 Format = Annotated[str, Meta(pattern=r"^\.[a-z0-9]{1,12}$")]
@@ -50,7 +50,7 @@ def command_line(document: Document, export: Export) -> str:
     tree = tree if export.wood is None else dataclasses.replace(tree, wood=export.wood)
     tree = dataclasses.replace(tree, solid=True) if export.solid else tree
     if wish is None:
-        words = ["sketchtree", "build", name + PROJECT, "-o", name + export.format] + _spelled(document.reading, ReadingOptions(), _LATER["reading"])
+        words = ["sketchtree", "build", name + PROJECT, "-o", name + export.format, *(["--as-drawn"] if is_photo(document.underlay) else [])] + _spelled(document.reading, ReadingOptions(), _LATER["reading"])
     else:
         words = ["sketchtree", "photo", name + suffix_of(document.underlay.picture), "--strokes", name + ".svg", "-o", name + export.format]
         words += _spelled(wish.reading, ReadingOptions(), _LATER["reading"]) + _of_photo(wish.wanted)
@@ -88,8 +88,8 @@ def disposition(name: str) -> str:
 def _of_photo(wanted: PhotoOptions) -> list[str]:
     """The options of a photo's tree, in the words of `sketchtree photo`."""
     words = _spelled(wanted, PhotoOptions(), ("library", "libraries", "alternate", "bare_as_seen"))
-    further = getattr(wanted, "libraries", ())
-    words += [] if wanted.library == PhotoOptions().library and not further else [word for names in (wanted.library, *further) for word in ("--library", ",".join(names))]
+    each = (wanted.library, *wanted.libraries)
+    words += [] if each == (PhotoOptions().library,) else [word for names in each for word in ("--library", ",".join(names))]
     return words + ([] if wanted.alternate else ["--image-only"])
 
 

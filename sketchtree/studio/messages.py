@@ -78,6 +78,8 @@ class Options(_Record):
     colours: Literal["photo", "season"] = "photo"  # of the leaves
     leaf_size: Annotated[float, Meta(ge=0.1, le=10)] = 1.0  # times what covers the foliage
     leaf_density: Annotated[float, Meta(ge=0.1, le=10)] = 1.0
+    leaf_arrangement: Literal["alternate", "opposite", "decussate", "whorled", "spiral"] | None = None  # about their twig; None: the species'
+    bark_colour: Literal["photo", "species"] = "photo"
 
 
 class Underlay(_Record):

@@ -16,7 +16,7 @@ from sketchtree.studio.change import Change
 
 _READING = ("template", "theta", "height", "planar", "crown")
 _TREE = {name: name for name in ("generations", "fill", "density", "light", "leaf", "bark", "season")} | {"gravity": "sag"}
-_PHOTO = ("foliage", "library", "alternate", "colours", "leaf_size", "leaf_density")
+_PHOTO = ("foliage", "library", "alternate", "colours", "leaf_size", "leaf_density", "leaf_arrangement", "bark_colour")
 _DOWN = np.array([1.0, -1.0])
 _AGAIN = "Draw it again."
 

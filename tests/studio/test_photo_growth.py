@@ -79,6 +79,7 @@ def test_its_files_are_those_of_the_command_line(growth, tmp_path):
         "sketchtree", "photo", "elm.png", "--strokes", "elm.svg", "-o", "elm.glb", "--replacements", "3", "--leaf-size", "1.25", "--library", "I,II",
         "--season", "autumn", "--seed", "3",
     ]  # fmt: skip
+    assert exports.command_line(document, exports.Export(format=".glb")).split()[:6] == ["sketchtree", "build", "elm.sketchtree", "-o", "elm.glb", "--as-drawn"]
     words = [str(tmp_path / word) if word.startswith("elm.") else word for word in command[2:]]
     answer = CliRunner().invoke(photo_command, [*words, "--quiet"])
     assert answer.exit_code == 0, answer.output

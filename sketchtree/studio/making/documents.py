@@ -61,7 +61,7 @@ def _with_choices(document: Document, data: bytes, name: str) -> Document:
     said, meshes = _without_meshes(said)
     told = tuple(f"The studio opens no file that a project names: the tree is made without {name}. `sketchtree build` takes it." for name in meshes)
     return document.replace(
-        reading=_options(ReadingOptions, said), tree=_options(TreeOptions, said), photo=_photo_options(said), seed=seed, underlay=underlay, warnings=(*document.warnings, *told)
+        reading=_options(ReadingOptions, said), tree=_options(TreeOptions, said), photo=_options(PhotoOptions, said), seed=seed, underlay=underlay, warnings=(*document.warnings, *told)
     )
 
 
@@ -77,11 +77,6 @@ def _is_plane(text: str) -> bool:
         return plane(text) is not None
     except SketchTreeError:
         return False
-
-
-def _photo_options(said: dict) -> PhotoOptions:
-    """Those of a photo's tree; JSON knows no tuples."""
-    return _options(PhotoOptions, said | {"library": tuple(said["library"])} if isinstance(said.get("library"), list) else said)
 
 
 def _options(kind: type, said: dict):

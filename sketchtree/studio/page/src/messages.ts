@@ -62,6 +62,8 @@ export interface Options {
   colours: "photo" | "season"; // of the leaves
   leaf_size: number; // times what covers the foliage
   leaf_density: number;
+  leaf_arrangement: "alternate" | "decussate" | "opposite" | "spiral" | "whorled" | null; // about their twig; None: the species'
+  bark_colour: "photo" | "species";
 }
 
 /** One thing done to the tree by hand, for the page's list. */

@@ -4,6 +4,7 @@ import { choice } from "../../parts/choice";
 import { element } from "../../parts/element";
 import { toggle } from "../../parts/toggle";
 import type { Store } from "../../store";
+import { arrangement } from "./arrangement";
 
 const RECTANGLE = "rectangle"; // the leaf model of the paper
 
@@ -30,5 +31,5 @@ export function morePhoto(store: Store): HTMLElement {
     flat.set(options?.leaf === RECTANGLE);
     alone.set(options?.alternate === false);
   });
-  return element("details", { class: "more", testId: "photo-more" }, element("summary", {}, "More"), rule.root, flat.root, alone.root);
+  return element("details", { class: "more", testId: "photo-more" }, element("summary", {}, "More"), rule.root, arrangement(store), flat.root, alone.root);
 }
