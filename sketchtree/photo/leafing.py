@@ -1,7 +1,7 @@
 """The leaves of a photo's tree (§4): where its twigs bear them, kept where the photo confirms them, of the size and as many as its foliage asks for, in its colours.
 
-The paper's own, flat rectangles of a tenth of the trunk's radius, are the leaf model `rectangle` (`paper_leaves`). Any other is worn as its species does, larger or smaller (`leaf_cover`),
-and up to DENSEST times as dense where they would have to be larger than they may.
+The paper's own, flat rectangles of a tenth of the trunk's radius, are the leaf model `rectangle` (`paper_leaves`); any other is worn as its species does. Then, unless the species' own
+size and density are asked for: about WORN leaves, larger or smaller (`leaf_cover`), and more where twigs are near but the foliage is open (`leaf_filling`), MOST in all.
 """
 
 from dataclasses import dataclass, replace
@@ -11,18 +11,25 @@ from jaxtyping import Array, Key
 
 from sketchtree.dressing import Dress
 from sketchtree.foliage.blossom import blossom
-from sketchtree.foliage.leaves import Leaves
+from sketchtree.foliage.leaves import Leaves, select
 from sketchtree.foliage.populate import populate
-from sketchtree.keys import stage_key
-from sketchtree.photo.leaf_cover import best_size, mostly_inside
+from sketchtree.foliage.twigs import wood_pieces
+from sketchtree.foliage.wear import wear_of
+from sketchtree.keys import numpy_generator, stage_key
+from sketchtree.photo.leaf_cover import Page, best_size, grain_of, worthwhile
+from sketchtree.photo.leaf_filling import filled
 from sketchtree.photo.leaf_print import leaf_print
 from sketchtree.photo.paper_leaves import RECTANGLE, paper_leaves
-from sketchtree.photo.photo_leaves import SeenFoliage, without_shadows
+from sketchtree.photo.photo_leaves import SeenFoliage, on_shoots, without_shadows
 from sketchtree.photo.wanted import PhotoOptions
+from sketchtree.roots import without_roots
 from sketchtree.skeleton import TreeSkeleton
 
-DENSEST = 4.0
 MOST = 80_000  # leaves
+WORN = 40_000  # leaves, before more are put where it is open
+FEW = 0.5  # of that many: where a species bears fewer, they stand closer,
+CLOSEST = 10.0  # times as close at most
+DENSEST = 2.0  # times as many, at most, if more are asked for
 
 
 @dataclass(frozen=True)
@@ -37,27 +44,45 @@ class PhotoLeafing:
         key = stage_key(key, "foliage")
         if dress.leaf is None:
             return Leaves.none(dress.habit.leaf), None
+        leaves, size = self._fitted(tree, dress, key)
         if dress.leaf == RECTANGLE:
-            found = paper_leaves(tree, key=key, scale=self.wanted.leaf_size, density=self.wanted.leaf_density, most=MOST)
-            return self._printed(self._coloured(self.seen.confirmed(found))), None
+            return self._printed(self._coloured(leaves)), None
         flowers = blossom(tree, dress.habit, key=key, model=dress.leaf, season=dress.season)
-        return self._coloured(self._fitted(tree, dress, key)), None if flowers is None else self._coloured(self.seen.confirmed(flowers))
+        return self._coloured(leaves), None if flowers is None else self._coloured(self.seen.confirmed(_larger(flowers, size)))
 
-    def _fitted(self, tree: TreeSkeleton, dress: Dress, key) -> Leaves:
-        """The leaves in their size."""
-        density = self.wanted.leaf_density
-        leaves = self._worn(tree, dress, key, density)
+    def _fitted(self, tree: TreeSkeleton, dress: Dress, key) -> tuple[Leaves, float]:
+        """(the leaves in their size, how many times the species' that is)."""
+        scale, density = self.wanted.leaf_size, self.wanted.leaf_density
         if not self.wanted.fit_leaves:
-            return replace(leaves, size=self.wanted.leaf_size * leaves.size)
-        size, _, open_size = best_size(leaves, self.seen, tree.height)
-        more = min((open_size / size) ** 2, DENSEST, MOST / max(len(leaves), 1))
-        if more > 1.1:
-            leaves = self._worn(tree, dress, key, more * density)
-            size, _, _ = best_size(leaves, self.seen, tree.height)
-        return mostly_inside(replace(leaves, size=size * self.wanted.leaf_size * leaves.size), self.seen)
+            worn = self._worn(tree, dress, key, density)
+            return _larger(worn, scale), scale
+        draw = numpy_generator(stage_key(key, "fitted"))
+        worn = self._enough(tree, dress, key, int(WORN * np.clip(density, 1.0, DENSEST)), draw)
+        if len(worn) == 0:
+            return worn, scale
+        rootless, _ = without_roots(tree)
+        wood = wood_pieces(rootless)
+        seen = self.seen.coarser(grain_of(dress.leaf, self.seen, tree.height))
+        page = Page.of(seen, wood)
+        fit = best_size(worn if density <= 1 else _some(worn, 1 / density, draw), page, seen, height=tree.height, most=MOST)
+        leaves = worthwhile(_larger(worn, fit), page, seen)
+        if wear_of(dress.habit, dress.leaf).arrangement != "frond":
+            axis = rootless.tip[rootless.is_base].mean(axis=0)
+            leaves = filled(leaves, page, seen, wood.select(rootless.order[wood.row] > 0), axis, most=int(MOST * np.clip(density, 1.0, DENSEST)), key=key)
+            leaves = worthwhile(leaves, page, seen)
+        return on_shoots(_larger(_some(leaves, density, draw), scale)), fit * scale
+
+    def _enough(self, tree: TreeSkeleton, dress: Dress, key, count: int, draw: np.random.Generator) -> Leaves:
+        """About `count` leaves of the twigs."""
+        worn = self._worn(tree, dress, key, 1.0)
+        if 0 < len(worn) < FEW * count:
+            worn = self._worn(tree, dress, key, min(count / len(worn), CLOSEST))
+        return _some(worn, count / max(len(worn), 1), draw)
 
     def _worn(self, tree: TreeSkeleton, dress: Dress, key, density: float) -> Leaves:
         """The leaves that the twigs bear, where their middles are seen in the foliage."""
+        if dress.leaf == RECTANGLE:
+            return self.seen.confirmed(paper_leaves(tree, key=key, density=density, most=2 * MOST))
         how = {"model": dress.leaf, "season": dress.season, "arrangement": self.wanted.leaf_arrangement}
         return self.seen.confirmed(populate(tree, dress.habit, key=key, density=density, max_leaves=2 * MOST, **how))
 
@@ -71,3 +96,13 @@ class PhotoLeafing:
             return leaves
         coloured = self.seen.coloured(leaves)
         return replace(coloured, seen=without_shadows(coloured.seen))
+
+
+def _some(leaves: Leaves, share: float, draw: np.random.Generator) -> Leaves:
+    """A share of the leaves, by chance."""
+    return leaves if share >= 1 else select(leaves, draw.random(len(leaves)) < share)
+
+
+def _larger(leaves: Leaves, times: float) -> Leaves:
+    """The leaves so many times as large."""
+    return replace(leaves, size=times * leaves.size)

@@ -19,6 +19,7 @@ import numpy as np
 from jaxtyping import Bool, Float
 from PIL import Image, ImageDraw
 from scipy import ndimage
+from scipy.spatial import cKDTree
 
 from sketchtree.axes import NULL
 from sketchtree.foliage.leaves import Leaves, select
@@ -53,32 +54,48 @@ class SeenFoliage:
         """The same hanging elsewhere in the world, metres."""
         return replace(self, similarity=Similarity(self.similarity.scale, tuple((np.asarray(self.similarity.translate) + by).tolist())))
 
+    def coarser(self, times: int) -> "SeenFoliage":
+        """The foliage in pixels so many times as large; where most of one is foliage, it is."""
+        if times == 1:
+            return self
+        rows, columns = (-(-side // times) for side in self.mask.shape)
+        whole = np.zeros((rows * times, columns * times), bool)
+        whole[: self.mask.shape[0], : self.mask.shape[1]] = self.mask
+        share = whole.reshape(rows, times, columns, times).mean(axis=(1, 3))
+        return replace(self, mask=share >= 0.5, similarity=Similarity(times * self.similarity.scale, self.similarity.translate), leafy=None)
+
     def confirmed(self, leaves: Leaves) -> Leaves:
-        """The leaves that project into the foliage, and the short shoots that end in it."""
-        kept = select(leaves, at_pixels(self.mask, self.pixels(middles(leaves))))
-        return replace(kept, shoot=leaves.shoot[at_pixels(self.mask, self.pixels(leaves.shoot[:, 1]))])
+        """The leaves that project into the foliage, and the short shoots they stand on."""
+        return on_shoots(select(leaves, at_pixels(self.mask, self.pixels(middles(leaves)))))
 
     def coloured(self, leaves: Leaves) -> Leaves:
         """The same leaves in the colours of the photo."""
         if len(leaves) == 0:
             return leaves
         reach = max(int(round(0.5 * float(np.median(leaves.size)) / self.similarity.scale)), 1)
-        picture, known = self._foliage_alone(reach)
-        place = self.pixels(middles(leaves))
-        column, row = np.floor(place).astype(np.int64).T
-        row, column = np.clip(row, 0, self.photo.height - 1), np.clip(column, 0, self.photo.width - 1)
-        nearest = ndimage.distance_transform_edt(~known, return_distances=False, return_indices=True)[:, row, column] if known.any() else np.stack([row, column])
-        return replace(leaves, seen=picture[nearest[0], nearest[1]])
+        leafy = self.mask if self.leafy is None else self.leafy
+        box = box_of(leafy)
+        place = np.floor(self.pixels(middles(leaves))).astype(np.int64) - [box[1].start, box[0].start]
+        column, row = (np.clip(place[:, axis], 0, leafy[box].shape[1 - axis] - 1) for axis in (0, 1))
+        picture, known = _foliage_alone(self.photo.rgb[box], leafy[box], reach)
+        if not known[row, column].all():
+            row, column = ndimage.distance_transform_edt(~known, return_distances=False, return_indices=True)[:, row, column]
+        return replace(leaves, seen=picture[row, column])
 
-    def _foliage_alone(self, reach: int) -> tuple[Float[np.ndarray, "row column 3"], Bool[np.ndarray, "row column"]]:
-        """(means of the foliage's linear colours over squares, where there is any)."""
-        weight = (self.mask if self.leafy is None else self.leafy).astype(np.float32)
-        side = 2 * reach + 1
-        near = ndimage.uniform_filter(weight, side, mode="constant")
-        lit = to_linear(np.arange(256) / 255.0).astype(np.float32)[self.photo.rgb] * weight[..., None]
-        total = ndimage.uniform_filter(lit, (side, side, 1), mode="constant")
-        known = near > 0.5 / side**2
-        return np.where(known[..., None], total / np.maximum(near, 1e-9)[..., None], 0.0), known
+
+def box_of(mask: Bool[np.ndarray, "row column"]) -> tuple[slice, slice]:
+    """The least rectangle that holds a mask; the whole of an empty one."""
+    rows, columns = (np.flatnonzero(mask.any(axis=axis)) for axis in (1, 0))
+    return np.s_[rows[0] : rows[-1] + 1, columns[0] : columns[-1] + 1] if len(rows) else np.s_[0 : mask.shape[0], 0 : mask.shape[1]]
+
+
+def _foliage_alone(rgb, leafy, reach: int) -> tuple[Float[np.ndarray, "row column 3"], Bool[np.ndarray, "row column"]]:
+    """(means of the foliage's linear colours over squares, where there is any)."""
+    side = 2 * reach + 1
+    near = ndimage.uniform_filter(leafy.astype(np.float32), side, mode="constant")
+    lit = to_linear(np.arange(256) / 255.0).astype(np.float32)[rgb] * leafy[..., None]
+    total = np.stack([ndimage.uniform_filter(lit[..., channel], side, mode="constant") for channel in range(3)], axis=2)
+    return total / np.maximum(near, 1e-9)[..., None], near > 0.5 / side**2
 
 
 def without_shadows(colour: Float[np.ndarray, "leaf 3"]) -> Float[np.ndarray, "leaf 3"]:
@@ -121,3 +138,14 @@ def wood_pixels(traced: Traced, shape: tuple[int, int]) -> Bool[np.ndarray, "row
 def middles(leaves: Leaves) -> Float[np.ndarray, "leaf 3"]:
     """The middle of every blade, metres."""
     return leaves.position + 0.5 * leaves.size[:, None] * leaves.direction
+
+
+def on_shoots(leaves: Leaves) -> Leaves:
+    """The same without the short shoots that bear none of them: no leaf starts nearer to the end of those than they are long."""
+    if len(leaves.shoot) == 0:
+        return leaves
+    end, length = leaves.shoot[:, 1], np.linalg.norm(leaves.shoot[:, 1] - leaves.shoot[:, 0], axis=1)
+    if len(leaves) == 0:
+        return replace(leaves, shoot=leaves.shoot[:0])
+    away, _ = cKDTree(leaves.position, balanced_tree=False, compact_nodes=False).query(end, distance_upper_bound=float(length.max()))
+    return replace(leaves, shoot=leaves.shoot[away < length])

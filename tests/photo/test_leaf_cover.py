@@ -1,5 +1,7 @@
 """Leaves are as large as the foliage asks for, lie in it for the most part, and the paper's own are rectangles of a tenth of the trunk's radius, 50 to 200 a branch (§4)."""
 
+from dataclasses import replace
+
 import numpy as np
 import pytest
 
@@ -8,11 +10,15 @@ from sketchtree.errors import OptionError
 from sketchtree.foliage.cards import leaf_mesh
 from sketchtree.foliage.leaf_materials import leaf_material
 from sketchtree.foliage.leaves import Leaves
-from sketchtree.foliage.models import leaf_model, leaf_names, plain_names
+from sketchtree.foliage.models import leaf_model, leaf_names, leaf_painting, plain_names
 from sketchtree.foliage.populate import populate
+from sketchtree.foliage.triangles import drawn_area
+from sketchtree.foliage.twigs import wood_pieces
 from sketchtree.keys import root_key
 from sketchtree.parameters import Habit
-from sketchtree.photo.leaf_cover import INSIDE, SIZES, SMALLER, best_size, mostly_inside, points_of
+from sketchtree.photo.leaf_cover import BROAD, INSIDE, LONGEST, SHORTEST, Page, best_size, worthwhile
+from sketchtree.photo.leaf_filling import followed
+from sketchtree.photo.leaf_spots import LeafSpots, spots_of
 from sketchtree.photo.paper_leaves import paper_leaves
 from sketchtree.photo.photo import Photo
 from sketchtree.photo.photo_leaves import SeenFoliage, without_shadows
@@ -37,35 +43,83 @@ def scattered(count: int, size: float, *, seed: int = 0) -> Leaves:
     return Leaves("oak", place, direction, np.tile([0.0, 0.0, 1.0], (count, 1)), np.full(count, size), draw.uniform(size=count), np.zeros(count, np.int64))
 
 
+def bare_page(of: SeenFoliage) -> Page:
+    return Page.of(of, wood_pieces(TreeSkeleton.from_columns(np.array([NULL]), np.zeros((1, 3)), np.ones(1), order=np.zeros(1, int), limb=np.zeros(1, int))))
+
+
+def size_of(leaves: Leaves, *, height: float = 40.0, most: int = 0) -> float:
+    return best_size(leaves, bare_page(seen()), seen(), height=height, most=most)
+
+
 def test_few_leaves_become_large_and_many_small():
-    few, overlap_few, _ = best_size(scattered(800, 0.08), seen())
-    many, overlap_many, _ = best_size(scattered(12_000, 0.08), seen())
-    assert SIZES[0] <= many < few <= SIZES[-1]
-    assert overlap_many > 0.75 and overlap_few > 0.5
+    few, many = size_of(scattered(800, 0.08)), size_of(scattered(12_000, 0.08))
+    assert SHORTEST * METRES / 0.08 <= many < 1 < few
+
+
+def test_leaves_are_smaller_where_more_of_them_may_fill_what_is_open():
+    leaves = scattered(6000, 0.04)
+    assert size_of(leaves, most=30_000) < size_of(leaves)
 
 
 def test_no_leaf_becomes_longer_than_a_tree_bears():
-    size, _, asked = best_size(scattered(500, 0.08), seen(), height=4.0)
-    assert size <= 1.2 < asked
+    leaves, longest = scattered(500, 0.08), LONGEST * 4.0 * max(np.sqrt(BROAD / drawn_area(leaf_painting("oak"))), 1.0)
+    assert 0.08 * size_of(leaves, height=4.0) <= longest < 0.08 * size_of(leaves)
 
 
-def test_a_leaf_that_leaves_the_foliage_is_made_smaller_or_is_dropped():
-    leaves = scattered(4000, 0.2)
-    kept = mostly_inside(leaves, seen())
+def test_a_leaf_that_leaves_the_foliage_is_dropped():
+    leaves, page = scattered(4000, 0.2), bare_page(seen())
+    kept = worthwhile(leaves, page, seen())
     assert 0 < len(kept) < len(leaves)
-    assert set(np.round(np.unique(kept.size / 0.2), 6)) == {SMALLER, 1.0}
-    middle = kept.position[:, :2] + 0.5 * kept.size[:, None] * kept.direction[:, :2]
-    assert (np.abs(middle - 1.0) <= 0.8 + 0.2 * (1 - INSIDE)).all()
+    spots = LeafSpots.of(kept, seen(), 18)
+    assert (page.mask[page.pixels(*spots.at(1.0))].mean(axis=1) >= INSIDE - 0.12).all()
 
 
-def test_points_stand_for_the_drawing():
-    point = points_of("rectangle")
-    assert np.abs(point[:, 0]).max() <= 0.5 and 0 <= point[:, 1].min() and point[:, 1].max() <= 1.0
-    assert np.ptp(point, axis=0).min() > 0.8
+def test_a_leaf_that_sticks_out_stays_only_where_no_other_covers_what_it_covers():
+    right, front = np.array([[1.0, 0.0, 0.0]]), np.array([[0.0, 0.0, 1.0]])
+    out = Leaves("rectangle", np.array([[1.768, 1.0, 0.0]]), right, front, np.array([0.05]), np.array([0.5]), np.zeros(1, int))
+    place = np.array([1.742, 1.0, 0.1]) + np.random.default_rng(0).uniform(-0.006, 0.006, (12, 3))
+    inner = Leaves("rectangle", place, np.repeat(right, 12, axis=0), np.repeat(front, 12, axis=0), np.full(12, 0.05), np.full(12, 0.5), np.zeros(12, int))
+    page = bare_page(seen())
+    assert len(worthwhile(out, page, seen())) == 1
+    together = worthwhile(followed(inner, out), page, seen())
+    np.testing.assert_array_equal(together.position, inner.position)
+
+
+def test_spots_stand_for_equal_parts_of_the_drawing():
+    spot = spots_of("rectangle", 9)
+    assert np.abs(spot[:, 0]).max() < 0.5 and 0 < spot[:, 1].min() and spot[:, 1].max() < 1.0
+    apart = np.linalg.norm(spot[:, None] - spot, axis=2) + np.eye(9)
+    assert apart.min(axis=1).min() > 0.6 * apart.min(axis=1).max()
+
+
+def test_the_spots_of_a_leaf_have_its_area_as_it_is_seen():
+    flat = scattered(1, 0.2)
+    turned = replace(flat, normal=np.array([[0.0, 0.6, 0.8]]), direction=np.array([[1.0, 0.0, 0.0]]))
+    whole, less = (LeafSpots.of(one, seen(), 9).area.sum() for one in (flat, turned))
+    assert whole == pytest.approx(drawn_area(leaf_painting("oak")) * 20.0**2, rel=1e-5) and less == pytest.approx(0.8 * whole, rel=1e-5)
+
+
+def test_a_tuft_is_seen_from_the_side_of_each_of_its_planes():
+    tuft = replace(scattered(1, 0.2), model="spruce")
+    spots = LeafSpots.of(tuft, seen(), 9)
+    planes = leaf_model("spruce").planes
+    assert spots.right.shape == (1, 9 * planes)
+    expected = drawn_area(leaf_painting("spruce")) * 20.0**2 * np.abs(np.cos(np.pi * np.arange(planes) / planes)).sum()
+    assert spots.area.sum() == pytest.approx(expected, rel=1e-4)
+
+
+def test_wood_covers_the_foliage_it_is_seen_in_front_of():
+    tree = TreeSkeleton.from_columns(np.array([NULL, 0]), np.array([[1.0, 0.3, 0], [1.0, 1.7, 0]]), np.array([0.05, 0.05]), order=np.zeros(2, int), limb=np.zeros(2, int))
+    page = Page.of(seen(), wood_pieces(tree))
+    hidden = 1.0 - page.beside_wood.reshape(page.shape)
+    assert hidden[100, 97:104].min() > 0.9 and hidden[100, :93].max() == 0.0 and hidden[100, 109:].max() == 0.0
+    inside, outside = page.covered(np.zeros(len(page.mask), np.float32))
+    assert outside == 0.0 and inside == pytest.approx(1400, rel=0.1)
 
 
 def test_no_leaves_ask_for_nothing():
-    assert best_size(Leaves.none("oak"), seen()) == (1.0, 0.0, 1.0) and len(mostly_inside(Leaves.none("oak"), seen())) == 0
+    none = Leaves.none("oak")
+    assert size_of(none) == 1.0 and len(worthwhile(none, bare_page(seen()), seen())) == 0
 
 
 def test_shadows_are_halved_and_shaded_leaves_are_no_bluer_than_lit_ones():
