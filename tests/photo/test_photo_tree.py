@@ -115,7 +115,7 @@ def test_a_mask_says_where_leaves_are():
 
 def test_a_grey_photo_gets_the_seasons_colours_and_the_papers_leaves_are_rectangles():
     grey = Photo(np.repeat(np.asarray(leafy.leafy_photo().rgb[..., 1:2]), 3, axis=2), name="grey")
-    model = grown(grey, [leafy.leafy_marks()], tree=TreeOptions(leaf="rectangle"), replacements=2)
+    model = grown(grey, [leafy.leafy_marks()], tree=TreeOptions(leaf="rectangle"), replacements=2, fit_leaves=False)
     leaves, tree = model.model.leaves, model.trees[0]
     assert leaves.model == "rectangle" and leaves.seen is None and len(leaves) > 500
     trunk = tree.model.skeleton.radius[tree.model.skeleton.is_base].max()
