@@ -268,6 +268,7 @@ def photo(out: Path) -> None:
                 page.mouse.move(x, y)
             page.mouse.up(button=button)
         page.get_by_test_id("photo-tint").wait_for(timeout=1000 * PATIENCE)
+        page.locator("[data-testid=photo-card][data-grown=ready]").wait_for(timeout=1000 * PATIENCE)
         page.locator(".template:nth-child(-n + 10) .thumbnail:not([data-picture])").first.wait_for(state="detached", timeout=1000 * PATIENCE)
         settle(page)
         still(page, out / "studio_photo.png")

@@ -199,6 +199,10 @@ class Crew:
         """As `Engine.with_traced`."""
         return await self._tracer.taken_over(document)
 
+    async def proposed(self, document: Document) -> tuple[Document, str]:
+        """As `Engine.proposed`."""
+        return await self._tracer.proposed(document)
+
     def grow(self, revision: int, document: Document, *, at_once: bool = False) -> None:
         """As `Engine.grow`."""
         if at_once:

@@ -192,7 +192,7 @@ async def _redo(desk: Desk, page: Page, request: messages.Redo) -> None:
 async def _cancel(desk: Desk, page: Page, request: messages.Cancel) -> None:
     desk.engine.cancel()
     for task in desk.tasks:
-        if task.get_name() in ("readings", "traced"):
+        if task.get_name() in ("readings", "traced", "propose"):
             task.cancel()
 
 
@@ -248,6 +248,22 @@ async def _take_over(desk: Desk) -> None:
     raise OptionError("The drawing was another each time its limbs were traced.", remedy="Lift the pen for a moment, then use them.")
 
 
+async def _propose(desk: Desk, page: Page, request: messages.Propose) -> None:
+    task = _aside(desk, page, lambda: _mark(desk), only="propose")
+    desk.pending[task] = desk.revision  # undo takes it back before it is done
+    task.add_done_callback(desk.pending.pop)
+
+
+async def _mark(desk: Desk) -> None:
+    """The photo's main tree is marked, unless somebody drew meanwhile."""
+    document = desk.document
+    made, why = await desk.engine.proposed(document)
+    async with desk.turn:
+        if desk.document.strokes is document.strokes and desk.document.underlay is document.underlay:
+            desk.step(desk.document.replace(strokes=made.strokes), "proposed strokes")
+            desk.scribe.after(lambda revision=desk.revision: desk.tell(messages.Proposed(revision=revision, why=why)))  # after the strokes
+
+
 async def _grow(desk: Desk, page: Page, request: messages.Grow) -> None:
     if request.on:
         desk.engine.grow(desk.revision, desk.document, at_once=True)
@@ -283,5 +299,5 @@ _DOING: dict[type, Callable[[Desk, Page, Any], Awaitable[None]]] = {
     messages.Hold: _hold, messages.Flip: _flip, messages.Mirror: _mirror, messages.Lock: _lock, messages.Delete: _delete, messages.Settle: _settle,
     messages.Readings: _readings, messages.Pick: _pick, messages.Undo: _undo, messages.Redo: _redo, messages.Cancel: _cancel, messages.New: _new,
     messages.Open: _open, messages.Save: _save, messages.SetUnderlay: _set_underlay,
-    messages.UseTraced: _use_traced, messages.Grow: _grow,
+    messages.UseTraced: _use_traced, messages.Grow: _grow, messages.Propose: _propose,
 }  # fmt: skip

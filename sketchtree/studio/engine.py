@@ -60,6 +60,9 @@ class Engine(Protocol):
     async def with_traced(self, document: Document) -> Document:
         """The drawing in which those limbs stand for the strokes that mark them. Raises SketchTreeError where there are none."""
 
+    async def proposed(self, document: Document) -> tuple[Document, str]:
+        """(the drawing in which strokes mark the main tree of the photo, what speaks against them). Raises SketchTreeError where no tree stands out."""
+
     def grow(self, revision: int, document: Document, *, at_once: bool = False) -> None:
         """`Growing`, and a `Tree` of phase "photo": the tree that the strokes mark in the photo under the page, once it is known what shows of it and nothing was changed for a
         moment; `at_once`: without that pause, and though it was stopped."""

@@ -228,13 +228,17 @@ class Grow(_Said):
     on: bool = True
 
 
+class Propose(_Said):
+    """Mark the main tree of the photo under the page, as a step: one stroke round its crown, one along its trunk, in place of those that mark it. A `Proposed` comes."""
+
+
 class UseTraced(_Said):
     """The limbs that were traced in the photo become the drawing, in place of the strokes that mark them; the photo is a picture to trace over again."""
 
 
 Request = (
     Hello | Strokes | Sketching | Choose | Glance | Hold | Flip | Mirror | Lock | Delete | Settle | Readings | Pick | Undo | Redo | Cancel | New
-    | Open | Save | SetUnderlay | UseTraced | Grow
+    | Open | Save | SetUnderlay | UseTraced | Grow | Propose
 )  # fmt: skip
 
 
@@ -385,6 +389,13 @@ class Foliage(_Said):
     png: str  # base64; as large as the picture, or smaller; opaque where foliage is. Empty: not known
 
 
+class Proposed(_Said):
+    """Strokes were proposed; they are in the drawing as it is at that revision."""
+
+    revision: int
+    why: str  # what speaks against them; empty: nothing
+
+
 class Growing(_Said):
     """How far the tree of the photo is, which grows towards its foliage. It comes as a `Tree` of phase "photo", and stays until another does, or until there is `none`."""
 
@@ -500,4 +511,4 @@ class Ghost(_Said):
     arrays: list[Array]
 
 
-Event = Welcome | Changed | Working | Trouble | Matches | Alternatives | Saved | Read | Traced | Foliage | Growing | Tree | Ghost
+Event = Welcome | Changed | Working | Trouble | Matches | Alternatives | Saved | Read | Traced | Foliage | Proposed | Growing | Tree | Ghost

@@ -6,7 +6,7 @@
 The processes begin when a photo is first there. They keep it; should the first end, it is begun again and told what it knew.
 """
 
-from collections.abc import Callable, Coroutine
+from collections.abc import Callable, Coroutine, Mapping
 from dataclasses import replace
 
 from sketchtree.editing.document import Document
@@ -55,11 +55,7 @@ class Tracer:
 
     async def taken_over(self, document: Document) -> Document:
         """The drawing in which the traced limbs stand for the strokes that mark them. Raises SketchTreeError."""
-        if not is_photo(document.underlay):
-            raise SketchError("The picture under the page is only one to trace over.", remedy="Switch 'From photo' on first.")
-        asked = self._lay(document)
-        self._show(self._hand, asked)
-        limbs = await self._hand.ask("limbs", asked)[1]
+        limbs = await self._answer("limbs", document)
         if not limbs:
             raise SketchError(_NOTHING, remedy="Draw along the trunk, from its foot.")
         rest = {name: stroke for name, stroke in document.strokes.items() if not (is_mark(stroke) and stroke.kind == StrokeKind.BRANCH)}
@@ -70,11 +66,21 @@ class Tracer:
 
     async def as_svg(self, document: Document) -> bytes:
         """The strokes that mark the photo, in its pixels. Raises SketchTreeError."""
+        return await self._answer("svg", document)
+
+    async def proposed(self, document: Document) -> tuple[Document, str]:
+        """(the drawing with strokes that mark its photo's main tree, in place of those that do; what speaks against them). Raises SketchTreeError."""
+        strokes, why = await self._answer("propose", document)
+        rest = {name: stroke for name, stroke in document.strokes.items() if not is_mark(stroke)}
+        return fitting(document.replace(strokes=rest | {one.id: one for one in (replace(stroke, id=_free(stroke.id, rest)) for stroke in strokes)})), why
+
+    async def _answer(self, kind: str, document: Document):
+        """What the process that has the photo says of a drawing. Raises SketchTreeError where there is no photo."""
         if not is_photo(document.underlay):
             raise SketchError("The picture under the page is only one to trace over.", remedy="Switch 'From photo' on first.")
         asked = self._lay(document)
         self._show(self._hand, asked)
-        return await self._hand.ask("svg", asked)[1]
+        return await self._hand.ask(kind, asked)[1]
 
     def end(self) -> None:
         """End the processes."""
@@ -159,3 +165,9 @@ class Tracer:
         if self._asked is not None:
             await self._trace(self._asked[0])
 
+
+def _free(name: str, taken: Mapping[str, object]) -> str:
+    """A name that is not taken."""
+    while name in taken:
+        name += "'"
+    return name

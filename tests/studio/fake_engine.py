@@ -9,7 +9,7 @@ from sketchtree.editing.document import Document
 from sketchtree.editing.edits import Adopted
 from sketchtree.editing.settled import COURSE, Depths, Settled
 from sketchtree.errors import OptionError, SketchError
-from sketchtree.sketch.strokes import Stroke
+from sketchtree.sketch.strokes import Stroke, StrokeKind
 from sketchtree.studio import messages
 from sketchtree.studio.engine import Outcome
 
@@ -70,6 +70,9 @@ class FakeEngine:
 
     async def grown(self, document, name, options):
         return {name: b"of the photo"}
+
+    async def proposed(self, document):
+        return document.replace(strokes={"crown": Stroke("crown", [[0, 0], [9, 0], [9, 9]], StrokeKind.CROWN), "trunk": Stroke("trunk", [[0, 0], [0, 10]])}), "the trunk is hardly seen"
 
     async def marks(self, document):
         return b"<svg/>"

@@ -129,6 +129,18 @@ def test_the_tree_grows_anew_with_every_choice_and_a_page_that_joins_later_has_i
     asyncio.run(test())
 
 
+def test_strokes_are_proposed_as_one_step_and_what_speaks_against_them_is_told():
+    async def test():
+        async with talking(page_with(TRUNK)) as talk:
+            await talk.say(messages.Propose())
+            assert talk.strokes() == ["crown", "trunk"] and talk.last("changed")["undo"] == "proposed strokes"
+            assert talk.last("proposed") == {"type": "proposed", "revision": talk.session.revision, "why": "the trunk is hardly seen"}
+            await talk.say(messages.Undo())
+            assert talk.strokes() == ["trunk"]
+
+    asyncio.run(test())
+
+
 def test_a_library_of_nothing_is_refused():
     async def test():
         async with talking(page_with(TRUNK)) as talk:

@@ -47,7 +47,7 @@ class FakeCrew:
     def __init__(self, digests=None):
         self.on_outcome = lambda outcome: None
         self.shown, self.digests, self.asked, self.had = ({}, None), digests or {}, [], []
-        for name in ("cancel", "refresh", "ghost", "glance", "alternatives", "read", "export", "project", "trace", "with_traced", "grow", "stop_growing", "grown", "marks"):
+        for name in ("cancel", "refresh", "ghost", "glance", "alternatives", "read", "export", "project", "trace", "with_traced", "grow", "stop_growing", "grown", "marks", "proposed"):
             setattr(self, name, None)
 
     def make(self, revision, document):

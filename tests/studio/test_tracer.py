@@ -76,6 +76,30 @@ def test_the_process_begins_again_with_all_that_it_knew(traces):
     assert traces.limbs(CROWN, TRUNK).trees == before.trees
 
 
+def test_looking_for_foliage_can_be_stopped_and_the_next_stroke_looks_again(traces):
+    other = painted.mark("crown", [(x + 3, y + 3) for x, y in painted.CROWN], crown=True)
+    traces.trace(other, TRUNK, until=lambda event: isinstance(event, messages.Traced) and event.waits)
+    begun = len(traces.told)
+    traces.crew.cancel()
+
+    async def stopped():
+        while not any(isinstance(event, messages.Traced) for event in traces.told[begun:]):
+            await asyncio.sleep(0.01)
+
+    traces.run(stopped())
+    told = next(event for event in traces.told[begun:] if isinstance(event, messages.Traced))
+    assert not told.waits and told.trees and told.remark == "Stopped looking for the foliage. The next stroke looks again."
+    assert traces.trace(other, TRUNK, LEFT, until=lambda event: isinstance(event, messages.Foliage) and event.png != "")
+
+
+def test_strokes_are_proposed_where_a_tree_stands_out(traces):
+    made, why = traces.run(traces.crew.proposed(traces.document(LEFT)))
+    assert sorted(stroke.kind.value for stroke in made.strokes.values()) == ["branch", "crown"] and isinstance(why, str)
+    box = made.strokes["crown"].points
+    left, top, width = painted.AT
+    assert (box.min(axis=0) > (left - 1, top - width - 1)).all() and (box.max(axis=0) < (left + width + 1, top + 1)).all()
+
+
 def test_without_the_photo_nothing_shows(traces):
     told = traces.trace(CROWN, TRUNK, is_photo=False, until=lambda event: isinstance(event, messages.Foliage))
     assert [type(event) for event in told] == [messages.Traced, messages.Foliage]

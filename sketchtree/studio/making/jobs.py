@@ -152,6 +152,9 @@ class Jobs:
     def _tint(self, number, watch, revision: int, names: tuple[str, ...]):
         return self.photo_answers.tinted(self.photo_bench, revision, names)
 
+    def _propose(self, number, watch, asked):
+        return self.photo_answers.proposed(self.photo_bench, asked)
+
     def _svg(self, number, watch, asked):
         return self.photo_answers.marks_as_svg(self.photo_bench, asked)
 

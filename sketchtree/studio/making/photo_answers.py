@@ -7,8 +7,9 @@ from dataclasses import replace
 
 import numpy as np
 
-from sketchtree.errors import SketchTreeError
-from sketchtree.photo.photo import Photo
+from sketchtree.errors import SketchError, SketchTreeError
+from sketchtree.keys import root_key
+from sketchtree.photo.photo import Photo, turned_over
 from sketchtree.sketch.strokes import Stroke, StrokeKind
 from sketchtree.studio import messages
 from sketchtree.studio.making.photo_asked import Asked, Place
@@ -30,6 +31,21 @@ def limbs(bench: PhotoBench, asked: Asked) -> list[Stroke]:
     """The traced limbs as strokes on the page; none where nothing is marked. Raises SketchError."""
     shown = bench.trace(asked)
     return limbs_as_strokes(shown.marks, shown.limbs, asked.place, bench.photo)
+
+
+def proposed(bench: PhotoBench, asked: Asked) -> tuple[list[Stroke], str]:
+    """(strokes on the page that mark the photo's main tree, what speaks against them). Raises SketchTreeError where none stands out."""
+    from sketchtree.photo.auto.propose import SURE, propose
+
+    bench.marks(replace(asked, strokes=()))
+    try:
+        found = propose(bench.photo, key=root_key(asked.seed))
+    except SketchError as error:
+        raise SketchError("No tree stands out in the photo.", remedy="Outline its crown, and draw along its trunk.") from error
+    (tree,) = found.trees
+    crown = Stroke("crown", asked.place.to_page(turned_over(tree.crown), bench.photo), StrokeKind.CROWN, labelled=True, closed=True)
+    limbs = [Stroke(name, asked.place.to_page(turned_over(line), bench.photo), labelled=True) for name, line in zip(tree.names, tree.branches, strict=True)]
+    return [crown, *limbs], "" if found.confidence >= SURE else found.why or "several things are in doubt"
 
 
 def marks_as_svg(bench: PhotoBench, asked: Asked) -> bytes:

@@ -202,6 +202,13 @@ export interface Foliage {
   png: string; // base64; as large as the picture, or smaller; opaque where foliage is. Empty: not known
 }
 
+/** Strokes were proposed; they are in the drawing as it is at that revision. */
+export interface Proposed {
+  type: "proposed";
+  revision: number;
+  why: string; // what speaks against them; empty: nothing
+}
+
 /** How far the tree of the photo is, which grows towards its foliage. It comes as a `Tree` of phase "photo", and stays until another does, or until there is `none`. */
 export interface Growing {
   type: "growing";
@@ -464,5 +471,10 @@ export interface Grow {
   on?: boolean;
 }
 
-export type Request = Hello | Strokes | Sketching | Choose | Glance | Hold | Flip | Mirror | Lock | Delete | Settle | Readings | Pick | Undo | Redo | Cancel | New | Open | Save | SetUnderlay | UseTraced | Grow;
-export type Event = Welcome | Changed | Working | Trouble | Matches | Alternatives | Saved | Read | Traced | Foliage | Growing | Tree | Ghost;
+/** Mark the main tree of the photo under the page, as a step: one stroke round its crown, one along its trunk, in place of those that mark it. A `Proposed` comes. */
+export interface Propose {
+  type: "propose";
+}
+
+export type Request = Hello | Strokes | Sketching | Choose | Glance | Hold | Flip | Mirror | Lock | Delete | Settle | Readings | Pick | Undo | Redo | Cancel | New | Open | Save | SetUnderlay | UseTraced | Grow | Propose;
+export type Event = Welcome | Changed | Working | Trouble | Matches | Alternatives | Saved | Read | Traced | Foliage | Proposed | Growing | Tree | Ghost;

@@ -5,7 +5,7 @@
 // `known` mirrors what the program said last; `ui` is this page's own and is never sent.
 
 import type {
-  Alternatives, Changed, Edit, Event, Foliage, Ghost, Growing, Limb, Matches, Options, Read, Request, Stroke, Strokes, Traced, Tree, Trouble, Underlay, Welcome, Working,
+  Alternatives, Changed, Edit, Event, Foliage, Ghost, Growing, Limb, Matches, Options, Proposed, Read, Request, Stroke, Strokes, Traced, Tree, Trouble, Underlay, Welcome, Working,
 } from "./messages";
 import { Echo } from "./link/echo";
 
@@ -33,6 +33,7 @@ export interface Known {
   read: Read | null;
   traced: Traced | null; // in the photo under the page
   foliage: Foliage | null;
+  proposed: Proposed | null; // strokes that nobody drew
   growing: Growing | null; // how far the photo's tree is
   tree: Tree | null; // head of the frame that is shown; its meshes are tree/'s
   drawnTree: Tree | null; // of the last frame of the drawing's tree; a photo's tree stands in its place
@@ -64,7 +65,7 @@ type Listener = () => void;
 export class Store {
   readonly known: Known = {
     welcome: null, connected: false, strokes: new Map(), options: null, edits: [], underlay: null, name: null, revision: 0, undo: null, redo: null,
-    saved: true, file: null, working: null, matches: null, alternatives: null, read: null, traced: null, foliage: null, growing: null,
+    saved: true, file: null, working: null, matches: null, alternatives: null, read: null, traced: null, foliage: null, proposed: null, growing: null,
     tree: null, drawnTree: null, photoTree: null, limbs: [], trouble: null,
   };
   readonly ui: Ui = {
@@ -146,6 +147,7 @@ export class Store {
         known.file = event.name;
         this.tell("saved", "name", "welcome", "file");
         break;
+      case "proposed": known.proposed = event; this.tell("proposed"); break;
       case "growing":
         known.growing = event;
         if (event.state === "none") this.leavePhoto();

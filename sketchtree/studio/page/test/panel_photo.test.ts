@@ -15,6 +15,10 @@ test("what is missing is said first, then what is being done", () => {
   expect(said(traced(), growing("failed", "There is no foliage."))).toBe("There is no foliage.");
 });
 
+test("strokes that nobody drew, and that may be wrong, are to be looked at", () => {
+  expect(said(traced(), growing("grows"), HOW, "the trunk is hardly seen")).toBe("Look at these lines: the trunk is hardly seen.");
+});
+
 test("the button grows the tree, stops what is being done, or is not there", () => {
   expect(pressed(null, null)).toBe("nothing");
   expect(pressed(traced(), growing("ready"))).toBe("nothing");

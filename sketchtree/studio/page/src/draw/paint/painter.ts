@@ -12,6 +12,7 @@ import { paintGrid, paintGround, paintUnderlay } from "./paper";
 import { type Look, paintStroke, smooth, type State } from "./strokes";
 import { paintTint, paintTraced } from "./traced";
 
+const BEHIND = 0.45; // how strong a photo is, at most, over its tree
 const DEFAULT_WIDTH = 0.006; // of the drawing's height: strokes that have no width of their own
 
 /** Everything that stays when the pen is lifted. */
@@ -24,7 +25,8 @@ export function paintDrawing(
   if (!over) paintGrid(on, camera, palette);
   const underlay = desk.underlay ?? store.known.underlay;
   const under = underlay !== null && picture !== null && isSamePage(store.ui.turn, 0);
-  if (under) paintUnderlay(on, camera, palette, underlay, picture, desk.movesUnderlay);
+  const seen = under && over && store.known.photoTree ? { ...underlay, opacity: Math.min(underlay.opacity, BEHIND) } : underlay; // the tree is below it
+  if (under && seen) paintUnderlay(on, camera, palette, seen, picture, desk.movesUnderlay);
   const photo = photoHere(store);
   if (photo && tint && store.ui.tint) paintTint(on, camera, underlay ?? photo, tint);
   if (!photo) paintGround(on, camera, palette, groundLevel(desk)); // it has ground of its own

@@ -8,7 +8,7 @@ const LINE = 1.75; // CSS pixels: of what lies on a stroke
 const FOUND = 1.25; // of what was found in the photo
 const CASING = 1.5; // CSS pixels, each side
 const BODY = 0.5; // how strong a limb's thickness is
-const TINT = 0.3; // and the foliage
+const TINT = 0.24; // and the foliage
 
 interface Shapes {
   body: Path2D;

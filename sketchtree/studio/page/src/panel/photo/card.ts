@@ -7,6 +7,7 @@ import { toggle } from "../../parts/toggle";
 import type { Store } from "../../store";
 import { icon } from "../../style/icons";
 import { growButton } from "./grow_button";
+import { proposeButton } from "./propose_button";
 import { HOW, HOW_BY_HAND, said } from "./words";
 
 const NONE = "mark the crown and the trunk first";
@@ -26,11 +27,12 @@ export function photoCard(store: Store): HTMLElement {
     onPress: () => setPhoto(store, false),
   });
   const root = element("div", { class: "hint-card photo-card", role: "group", aria: { label: "Marking a photo" }, testId: "photo-card" },
-    icon("picture"), element("div", { class: "photo-said" }, words, bar), tint.root, growButton(store), use, close);
+    icon("picture"), element("div", { class: "photo-said" }, words, bar), tint.root, proposeButton(store), growButton(store), use, close);
   const show = (): void => {
-    const { underlay, traced, foliage, growing } = store.known;
+    const { underlay, traced, foliage, growing, proposed, revision } = store.known;
     root.hidden = !underlay?.photo;
-    const now = said(traced, growing, byHand() ? HOW_BY_HAND : HOW);
+    const doubt = proposed?.revision === revision ? proposed.why : "";
+    const now = said(traced, growing, byHand() ? HOW_BY_HAND : HOW, doubt);
     if (words.textContent !== now) words.textContent = now; // said aloud once
     bar.hidden = growing?.state !== "grows";
     bar.value = growing?.done ?? 0;
@@ -40,7 +42,7 @@ export function photoCard(store: Store): HTMLElement {
     root.dataset["limbs"] = String(traced?.trees.reduce((sum, tree) => sum + tree.parent.length, 0) ?? 0);
     root.dataset["grown"] = growing?.state ?? "none";
   };
-  store.on(["underlay", "traced", "foliage", "growing"], show);
+  store.on(["underlay", "traced", "foliage", "growing", "proposed", "revision"], show);
   show();
   return root;
 }

@@ -12,8 +12,8 @@ export function morePhoto(store: Store): HTMLElement {
   const rule = choice<"contrast" | "paper">({
     label: "Foliage is", showLabel: true, value: "contrast", testId: "photo-rule",
     options: [
-      { value: "contrast", label: "What stands out", title: "What differs from round the crown: blossom, autumn and grey photos too" },
-      { value: "paper", label: "Green or red", title: "The most green or red of ten colours, as Tan et al. have it" },
+      { value: "contrast", label: "Contrast", title: "What differs from round the crown: blossom, autumn and grey photos too" },
+      { value: "paper", label: "Green, red", title: "The most green or red of ten colours, as Tan et al. have it" },
     ],
     onPick: (foliage) => store.send({ type: "choose", options: { foliage } }),
   });

@@ -10,8 +10,9 @@ const SOON = "It grows in a moment.";
 const READY = "Grown from the photo.";
 const STOPPED = "Stopped.";
 
-/** One sentence; `how` says what to do. */
-export function said(traced: Traced | null, growing: Growing | null, how: string = HOW): string {
+/** One sentence; `how` says what to do, `doubt` what speaks against strokes that were proposed. */
+export function said(traced: Traced | null, growing: Growing | null, how: string = HOW, doubt = ""): string {
+  if (doubt) return `Look at these lines: ${doubt}.`;
   if (traced?.remark) return traced.remark;
   if (traced?.waits) return LOOKING;
   switch (growing?.state) {

@@ -3,7 +3,7 @@
 import type { Request, Tree } from "../../messages";
 
 const CHANGES: ReadonlySet<Request["type"]> = new Set([
-  "strokes", "choose", "hold", "flip", "mirror", "lock", "delete", "settle", "pick", "undo", "redo", "new", "open", "usetraced",
+  "strokes", "choose", "hold", "flip", "mirror", "lock", "delete", "settle", "pick", "undo", "redo", "new", "open", "usetraced", "propose",
 ]);
 
 export class RoundTrip {
