@@ -70,7 +70,7 @@ class Attractors:
             return
         attractor, piece = _within(self.place[near], middle, self.distance[near], half)
         attractor = near[attractor]
-        new = np.sqrt(_squared_each(self.place[attractor], start[piece], end[piece]))
+        new = np.sqrt(squared_each(self.place[attractor], start[piece], end[piece]))
         order = np.lexsort((piece, new, attractor))
         attractor, new, piece = attractor[order], new[order], piece[order]
         first = np.flatnonzero(np.diff(attractor, prepend=NULL) != 0)
@@ -122,7 +122,7 @@ def distances(
     found, which = np.full(len(place), np.inf), np.full(len(place), NULL)
     step = max(_BLOCK // max(len(place), 1), 1)
     for k in range(0, len(start), step):
-        square = _squared_each(place[:, None], start[k : k + step], end[k : k + step])
+        square = squared_each(place[:, None], start[k : k + step], end[k : k + step])
         piece = square.argmin(axis=1)
         new = np.sqrt(square[np.arange(len(place)), piece])
         found, which = np.where(new < found, new, found), np.where(new < found, piece + k, which)
@@ -140,7 +140,7 @@ def _within(place, middle, distance, half):
     return attractor, piece
 
 
-def _squared_each(place, start, end):
+def squared_each(place, start, end):
     """Squares of the distances from places to straight pieces, each to its own."""
     vector = end - start
     from_start = place - start

@@ -19,7 +19,8 @@ ROUNDS = 9
 _LONGEST = 6.0  # leaf lengths, of a twig
 _SHORTEST = 0.6
 CELL = 1.8  # leaf lengths: one twig in such a cell and round
-_BACK = 0.7  # of the way to the attractor: how far towards its foot on the limb a twig starts
+BACK = 0.7  # of the way to the attractor: how far towards its foot on the limb a twig starts
+ALONG = 1.6  # the same where the limb itself is as near: a twig goes along it for a while
 _BENDS = 0.5  # of its length: how far a twig follows its limb's direction
 PIECES = 3
 _CHOICES = 6  # places along the wood, of which each takes the one it comes from best
@@ -36,7 +37,7 @@ def farthest(place: Float[np.ndarray, "attractor axis"], distance: Float[np.ndar
 
 def ways(
     place: Float[np.ndarray, "far axis"], samples: Float[np.ndarray, "sample 3"], limb: Int[np.ndarray, " sample"], arc: Float[np.ndarray, " sample"],
-    wood: Wood, leaf: float, key: np.uint64, round_: int,
+    wood: Wood, leaf: float, key: np.uint64, round_: int, back: float = BACK,
 ) -> tuple[Int[np.ndarray, " twig"], Float[np.ndarray, " twig"], Float[np.ndarray, "twig point 3"]]:  # fmt: skip
     """(the limb that each twig grows on, metres along it, its points from its foot), shortest first; one for each place, as far as any wood serves, and one from each leaf length of wood."""
     axes, many = place.shape[1], min(_CHOICES, len(samples))
@@ -47,7 +48,7 @@ def ways(
         seed = np.array([one.identity for one in wood.limbs], np.int64)[limb[which]] ^ np.arange(len(place))[:, None]
         lean = 2.0 * keys.uniform(key, seed.ravel(), round_).reshape(which.shape) - 1.0
         target = np.concatenate([target, (samples[which, 2] + _DEEP * lean * away)[..., None]], axis=-1)
-    foot, heading, at = _feet(wood, limb[which], np.maximum(arc[which] - _BACK * away, 0.35 * arc[which]))
+    foot, heading, at = feet(wood, limb[which], np.maximum(arc[which] - back * away, 0.35 * arc[which]))
     vector = target - foot
     length = np.linalg.norm(vector, axis=-1)
     along = (vector * heading).sum(axis=-1) / np.maximum(length, 1e-300)
@@ -66,7 +67,7 @@ def ways(
     return bearer[keep], at[keep], point[keep]
 
 
-def _feet(wood: Wood, limb, arc):
+def feet(wood: Wood, limb, arc):
     """(place, direction, metres along) of these limbs, where a twig may start."""
     starts = np.cumsum([0] + [len(one.arc) for one in wood.limbs])
     point = np.concatenate([one.point for one in wood.limbs])

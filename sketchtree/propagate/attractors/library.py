@@ -59,6 +59,11 @@ class Library:
     def __len__(self) -> int:
         return len(self.subtrees)
 
+    def only(self, subtree: int) -> "Library":
+        """One subtree of it, in a block as large."""
+        blocks = (block[[subtree]] for block in (self.vector, self.share, self.along, self.there, self.below, self.with_next))
+        return Library((self.subtrees[subtree],), *blocks)
+
     @cached_property
     def is_type_one(self) -> Bool[np.ndarray, " subtree"]:
         """Which grow at the end of the branch alone."""

@@ -22,12 +22,12 @@ DEEP = 1.1  # times as far out as the foliage revolved, at most
 BACK = -0.3  # cosine between a piece and the light, at least
 
 
-def within_foliage(at: Placed, library: Library, target: Target, axes: Axes, light: Float[np.ndarray, " 3"], shortest: float) -> Placed:
+def within_foliage(at: Placed, library: Library, target: Target, home: Target, axes: Axes, light: Float[np.ndarray, " 3"], shortest: float) -> Placed:
     """The same without what leaves the foliage on the page or in depth or grows back, and without stumps and pieces shorter than `shortest` (metres)."""
     vector = at.end - at.start
     length = np.linalg.norm(vector, axis=-1)
     middle = 0.5 * (at.start + at.end)
-    there = at.there & target.inside(at.end[..., :2]) & target.inside(middle[..., :2]) & (vector @ light >= BACK * length) & (length >= shortest)
+    there = at.there & home.inside(at.end[..., :2]) & target.inside(middle[..., :2]) & (vector @ light >= BACK * length) & (length >= shortest)
     there &= axes.out(at.end) <= np.maximum(DEEP, axes.out(at.start))
     return replace(at, there=whole_branches(there, library))
 

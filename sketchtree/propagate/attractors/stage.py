@@ -13,8 +13,9 @@ from jaxtyping import Array, Key
 from sketchtree.errors import OptionError
 from sketchtree.propagate.attractors.assemble import assembled
 from sketchtree.propagate.attractors.attractors import Attractors
-from sketchtree.propagate.attractors.engine import Course, Engine
+from sketchtree.propagate.attractors.engine import Engine
 from sketchtree.propagate.attractors.library import library_of
+from sketchtree.propagate.attractors.state import Course, State
 from sketchtree.propagate.attractors.target import Target
 from sketchtree.propagate.attractors.wanted import Wanted
 from sketchtree.propagate.attractors.wood import Wood
@@ -95,9 +96,9 @@ class Attract(Wanted):
         height = max(tree.height, target.highest - float(tree.tip[tree.is_base, 1].min()))
         leaf = self.leaf_length or LEAF * height
         library = library_of(wood, self.library)
-        engine = Engine(wood, target, library, self, leaf, key)
-        ended = engine.run(pulse)
-        return Grown(engine.image, engine.space, engine.course, leaf, ended, tuple(one.name for one in library.subtrees))
+        state = State(wood, target, self, leaf, key)
+        ended = Engine(state, library).run(pulse)
+        return Grown(state.image, state.space, state.course, leaf, ended, tuple(one.name for one in library.subtrees))
 
 
 def attract(tree: TreeSkeleton, targets, *, key: Key[Array, ""], **wanted) -> Attraction:

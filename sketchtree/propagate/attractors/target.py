@@ -4,7 +4,8 @@ The camera is orthographic and looks along −z (Tan et al. 2008, §3.1): a poin
 
     x = left + c · pixel,   y = top − r · pixel        of the upper left corner of the pixel in row r and column c
 
-Foliage has gaps smaller than a leaf is long, and wood goes through them: growth is kept to the mask with those closed (`closed`).
+Foliage has gaps smaller than a leaf is long, and wood goes through them: growth is kept to the mask with those closed (`closed`). It ends where foliage is dense (`dense`): leaves that hang elsewhere would
+fill the gaps.
 """
 
 from dataclasses import dataclass
@@ -13,11 +14,13 @@ from functools import cached_property
 import numpy as np
 import shapely
 from jaxtyping import Bool, Float
-from scipy import ndimage
+from scipy import ndimage, signal
 
 from sketchtree.errors import OptionError
 
 _FINEST = 600  # pixels, the longer side of the mask at most that growth looks at: an eighth of a leaf
+_DENSE = (0.6, 0.5, 0.4, 0.3)  # of a disc as large as a leaf is long, is foliage where leaves are dense
+_KEPT = 0.98  # of the foliage, within a leaf of it
 _STEPS = 4  # places looked at along a piece of wood
 
 
@@ -81,6 +84,20 @@ class Target:
         near = ndimage.distance_transform_edt(~mask) * self.pixel <= gap
         kept = ndimage.distance_transform_edt(near) * self.pixel > gap
         return Target(mask | kept, self.left - steps * self.pixel, self.top + steps * self.pixel, self.pixel)
+
+    def dense(self, leaf: float) -> "Target":
+        """Where leaves of this length are at home: what is foliage for the most part for a leaf's length round it. The share asked for is the highest of `_DENSE` at which `_KEPT` of the foliage lies
+        within a leaf of what is left, so that branchlets that stand by themselves stay."""
+        steps = int(np.ceil(leaf / self.pixel)) + 1
+        mask = np.pad(self.mask, steps)
+        offset = np.arange(-steps, steps + 1) * self.pixel
+        disc = np.hypot(offset[:, None], offset) <= leaf
+        share = signal.fftconvolve(mask, disc / disc.sum(), mode="same")
+        for least in _DENSE:
+            dense = share >= least
+            if dense.any() and np.mean(ndimage.distance_transform_edt(~dense)[mask] * self.pixel <= leaf) >= _KEPT:
+                return Target(dense, self.left - steps * self.pixel, self.top + steps * self.pixel, self.pixel)
+        return self
 
     def inside(self, point: Float[np.ndarray, "*point axis"]) -> Bool[np.ndarray, "*point"]:
         """Which points (metres; x, y and perhaps z) are seen where foliage is."""

@@ -26,6 +26,7 @@ class Wanted:
     candidates: str = "need"  # which branches may be replaced next: where attractors are far (need) or thick ones (radius, the paper's)
     rise: float = 0.15  # how much new branches bow to the light, ≥ 0; 0: not at all (the paper's)
     apart: float = 0.15  # of its length: a new branch keeps so far from others, beyond its foot
+    boughs: bool = True  # to parts of the crown that are far from all wood a bough grows first; with attractors in 3D that fill the foliage, and only where these drive
     twigs: bool = True  # what is still farther than a leaf is long grows twigs in the end
     in_space: int = 2500  # attractors in 3D, about, of `volume`
     max_segments: int = 60_000  # straight pieces grown, at most
@@ -45,4 +46,4 @@ class Wanted:
             raise OptionError(f"rise is {self.rise:g} and apart {self.apart:g}, but neither may be below zero.", remedy="0 switches either off.")
 
 
-PAPER = {"candidates": "radius", "replacements": 1, "depth": "joints", "axis": "trunk", "rise": 0.0, "twigs": False}
+PAPER = {"candidates": "radius", "replacements": 1, "depth": "joints", "axis": "trunk", "rise": 0.0, "boughs": False, "twigs": False}

@@ -36,6 +36,7 @@ class Limb:
     order: int
     rows: tuple[int, ...] = ()  # of the tree given; () for a new one
     row_end: Float[np.ndarray, " row"] = field(default_factory=lambda: np.zeros(0))  # metres along the limb, of the tip of each of those
+    row_radius: Float[np.ndarray, " row"] = field(default_factory=lambda: np.zeros(0))  # metres, there
     sprouted: int = 0  # new branches it bears
 
     def __post_init__(self):
@@ -55,6 +56,10 @@ class Limb:
     def place(self, arc) -> Float[np.ndarray, "place 3"]:
         """Points so many metres along it."""
         return np.stack([np.interp(arc, self.arc, self.point[:, axis]) for axis in range(3)], axis=-1)
+
+    def radius_at(self, arc) -> Float[np.ndarray, " place"]:
+        """Its radius so many metres along it."""
+        return np.interp(arc, self.row_end, self.row_radius) if len(self.row_radius) else np.full(np.shape(arc), self.radius)
 
     def samples(self, spacing: float) -> Float[np.ndarray, "sample 3"]:
         """Points about `spacing` apart, its foot left out."""
@@ -96,7 +101,7 @@ class Wood:
             count = np.diff(tree.curve_start)[rows] + 1
             parent, at = (NULL, 0.0) if above == NULL else (int(row_limb[above]), float(row_end[above]))
             limb = Limb(int(tree.limb[first]), parent, at, point, 1, float(tree.radius[rows].max()), int(tree.order[first]), tuple(rows.tolist()))
-            limb.row_end = limb.arc[np.cumsum(count)]
+            limb.row_end, limb.row_radius = limb.arc[np.cumsum(count)], tree.radius[rows]
             row_limb[rows], row_end[rows] = len(limbs), limb.row_end
             limbs.append(limb)
         return cls(limbs)

@@ -86,11 +86,11 @@ def test_the_image_energy_never_rises_and_both_fall(found):
     course = found.grown[0].course
     assert (np.diff(course.image) <= 1e-9).all() and (np.diff(course.space) <= 1e-9).all()
     assert course.image[-1] < 0.5 * course.image[0] and course.space[-1] < 0.6 * course.space[0]
-    assert {"image", "space", "twigs"} == set(course.driver)
+    assert {"boughs", "image", "space", "twigs"} == set(course.driver) and course.driver[0] == "boughs"
 
 
 def test_image_and_space_drive_by_turns_unless_asked_not_to():
-    assert grown(iterations=4, twigs=False).grown[0].course.driver == ["image", "space", "image", "space"]
+    assert grown(iterations=4, boughs=False, twigs=False).grown[0].course.driver == ["image", "space", "image", "space"]
     assert grown(iterations=3, twigs=False, alternate=False).grown[0].course.driver == ["image"] * 3
 
 

@@ -83,7 +83,7 @@ def test_pruned_branches_stay_within_the_foliage_and_stand_on_what_is_left():
     library, wood = predefined(), straight(((0.2, 4.0, 0.0), (0.2, 7.6, 0.0)))
     axes = Axes.about_crown(TARGET, wood.trunk())
     at = placed(library, wood, Stretch(0, 0.0, 3.6, 7), UP, 0.2)
-    left = within_foliage(at, library, TARGET, axes, UP, 0.05)
+    left = within_foliage(at, library, TARGET, TARGET, axes, UP, 0.05)
     assert 0 < left.there.sum() < at.there.sum()
     assert TARGET.inside(left.end[left.there]).all()
     vector = (left.end - left.start)[left.there]
