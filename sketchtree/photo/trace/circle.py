@@ -7,7 +7,7 @@ from jaxtyping import Bool, Float
 
 from sketchtree.photo.trace.wood_likeness import WoodLikeness
 
-SIGHT = 0.8  # of a line of sight must be wood
+SIGHT = 0.7  # of a line of sight must be wood; what is no limb after all is too faint (`clear`)
 _GAP = 0.03  # radians: clusters nearer than this are one
 
 

@@ -7,6 +7,7 @@ from scipy import ndimage
 from sketchtree.photo.trace.wood_likeness import WoodLikeness
 
 TAPER = 0.75  # radius of a branch / radius of its parent (§2)
+BLUR = 1.0  # pixels by which a half width of wood is too great: colours of three pixels a side vote, smoothed over three
 _STEPS = 64
 
 

@@ -14,10 +14,13 @@ from sketchtree.errors import OptionError, SketchError
 from sketchtree.photo.foliage import Foliage
 from sketchtree.photo.marked import Marked
 from sketchtree.photo.photo import Photo
-from sketchtree.photo.trace.follow import Walk, angle, follow, reseated, smoothest_foot, without_bumps
+from sketchtree.photo.trace.clear import NEAR_BY, plainly_seen
+from sketchtree.photo.trace.edges import edges_at, roughness, tapered
+from sketchtree.photo.trace.follow import Walk, follow, reseated, smoothest_foot, without_bumps
+from sketchtree.photo.trace.limbs import carried_on
 from sketchtree.photo.trace.lines import evenly
 from sketchtree.photo.trace.palette import Palette
-from sketchtree.photo.trace.thickness import TAPER, half_widths, largest_circle
+from sketchtree.photo.trace.thickness import BLUR, TAPER, half_widths, largest_circle
 from sketchtree.photo.trace.traced import Traced
 from sketchtree.photo.trace.wood_likeness import WoodLikeness, learn_wood
 
@@ -25,6 +28,9 @@ WIDTHS = ("measured", "paper")
 CIRCLE = 50.0 / 1500.0  # radius of the circle / longer side of the photo (§2)
 _UNDER = 3.0 / 1500.0  # width of a stroke
 _THICKEST = 0.12  # half a trunk / longer side of the photo
+_ALL = 0.6  # of how far a limb's edges are looked for (NEAR_BY circles): a limb so thick leaves too little beside it
+_ENOUGH = 0.6  # share of a stroke's places where a run of wood must be seen
+_WALL = 3.0  # a run of wood so many times as wide as the edges say is a wall or a tree behind
 _FLARE = 1.6  # a root's thickness / that of the thinner parts of the trunk above it, at most
 _STEEPEST = 4.0  # of a stroke's distance from the limb it hangs on: so far below its nearest place its foot may lie, where a pen began beside the limb
 _ONE_PLACE = 0.25  # of the circle's radius: a stroke that starts so near to another starts on it
@@ -50,10 +56,12 @@ class Tracing:
         longer = max(photo.width, photo.height)
         radius = max(self.circle * longer, 4.0)
         likeness = learn_wood(Palette.of(photo) if palette is None else palette, marked, foliage, width=max(round(_UNDER * longer), 1), key=key)
-        walk, points = places_on(likeness, marked, radius, _THICKEST * longer)
+        walk, points = places_on(photo, likeness, marked, radius, _THICKEST * longer)
         walk = follow(likeness, walk, radius, on_strokes=points, within=room_for(marked, radius), most=self.most, strict=self.strict)
         walk = reseated(without_bumps(walk, radius), likeness, radius)
-        return _table(walk, self.widths)
+        if self.widths == "paper":
+            return _table(walk, root_radius(likeness, marked.branches[0], radius, _THICKEST * longer))
+        return _table(plainly_seen(walk, photo, radius), None)
 
 
 def room_for(marked: Marked, radius: float) -> shapely.Geometry:
@@ -65,15 +73,14 @@ def room_for(marked: Marked, radius: float) -> shapely.Geometry:
     return room.intersection(shapely.box(left, min(top, lowest), right, lowest))
 
 
-def places_on(likeness: WoodLikeness, marked: Marked, radius: float, most: float) -> tuple[Walk, Float[np.ndarray, "point 2"]]:
+def places_on(photo: Photo, likeness: WoodLikeness, marked: Marked, radius: float, most: float) -> tuple[Walk, Float[np.ndarray, "point 2"]]:
     """(places half a circle apart on every stroke, points along all strokes a pixel or so apart). Each stroke but the first hangs on those before it, at the nearest
     place, or below it where it leaves more smoothly."""
     walk, points = Walk(), []
-    trunk = root_radius(likeness, marked.branches[0], radius, most)
     for k, stroke in enumerate(marked.branches):
         fine, _ = evenly(stroke, 1.0)
         place, along = evenly(stroke, 0.5 * radius)
-        half = half_widths(likeness, place, along, most)
+        half = half_along(photo, likeness, place, along, radius, most)
         above = NULL
         if k:
             known = np.array(walk.xy)
@@ -83,8 +90,7 @@ def places_on(likeness: WoodLikeness, marked: Marked, radius: float, most: float
                 place, half = place[1:], half[1:]
             else:
                 above = smoothest_foot(known, walk.parent, walk.drawn, above, place[0], along[0], radius, _STEEPEST * gap)
-        limit = trunk if above == NULL else walk.half[above]
-        for spot, width in zip(place, _falling(half, limit), strict=True):
+        for spot, width in zip(place, np.minimum(half, np.inf if above == NULL else walk.half[above]), strict=True):
             above = walk.add(above, spot, float(width), k, True, 0)
         points.append(fine)
     return walk, np.concatenate(points)
@@ -99,48 +105,36 @@ def root_radius(likeness: WoodLikeness, stroke: Float[np.ndarray, "point 2"], ra
     return min(largest_circle(likeness, place[0], most, enough=flare), flare)
 
 
-def _falling(half: Float[np.ndarray, " place"], first: float) -> Float[np.ndarray, " place"]:
-    """Half widths along a limb from what could be measured: none thicker than the limb it grows from, thinner towards the tip, gaps bridged."""
-    known = np.flatnonzero(np.isfinite(half))
-    if len(known) == 0:
-        return np.linspace(TAPER * first, 0.4 * TAPER * first, len(half))
-    bridged = np.interp(np.arange(len(half)), known, half[known])
-    window = 5
-    middle = np.array([np.median(bridged[max(0, k - window) : k + window + 1]) for k in range(len(half))])
-    return np.minimum.accumulate(np.minimum(middle, first))
+def half_along(
+    photo: Photo, likeness: WoodLikeness, place: Float[np.ndarray, "place 2"], along: Float[np.ndarray, "place 2"], radius: float, most: float
+) -> Float[np.ndarray, " place"]:
+    """Half widths along a stroke whose places are half a circle apart: by the limb's edges, looked for near by at first and farther where it is thicker, and by the run of wood across it;
+    the one that changes less from place to place counts for more (furrowed bark has many edges, a hedge behind a trunk is wood)."""
+    reach = NEAR_BY * radius
+    while True:
+        half = edges_at(photo.rgb, place, along, reach=reach, step=0.5 * radius).half
+        if np.median(half[: len(half) // 2 + 1]) < _ALL * reach or reach > most:
+            break
+        reach *= 2
+    run = half_widths(likeness, place, along, most) - BLUR
+    known = np.flatnonzero(run > 0)
+    if len(known) < _ENOUGH * len(run) or np.median(run[known]) > _WALL * np.median(half[known]):
+        return tapered(half, most)
+    share = roughness(half) ** 2 / (roughness(half) ** 2 + roughness(run[known]) ** 2)
+    half[known] = half[known] ** (1 - share) * run[known] ** share
+    return tapered(half, most)
 
 
-def _table(walk: Walk, widths: str) -> Traced:
-    """The joints that say something, with generations and radii."""
+def _table(walk: Walk, root: float | None) -> Traced:
+    """The joints that say something, with generations and radii: those seen, or `root` × TAPER a generation."""
     parent, xy, half = np.array(walk.parent), np.array(walk.xy), np.array(walk.half)
     carries = carried_on(parent, xy, half, np.array(walk.stroke), np.array(walk.drawn))
     generation = np.zeros(len(parent), np.int64)
     for row in range(1, len(parent)):
         if parent[row] != NULL:
             generation[row] = generation[parent[row]] + (carries[parent[row]] != row)
-    radius = half[0] * TAPER**generation if widths == "paper" else _narrowing(parent, carries, half)
-    return Traced(parent, xy, radius, generation, np.array(walk.stroke), np.array(walk.drawn))
-
-
-def carried_on(
-    parent: Int[np.ndarray, " joint"], xy: Float[np.ndarray, "joint 2"], half: Float[np.ndarray, " joint"], stroke: Int[np.ndarray, " joint"], drawn: Bool[np.ndarray, " joint"]
-) -> Int[np.ndarray, " joint"]:
-    """Which child carries each joint's limb on: its own stroke's next place, else the one that bends least for its thickness; NULL at a tip."""
-    carries = np.full(len(parent), NULL)
-    children: dict[int, list[int]] = {}
-    for row, up in enumerate(parent):
-        if up != NULL:
-            children.setdefault(int(up), []).append(row)
-    for up, rows in children.items():
-        own = [k for k in rows if drawn[k] and drawn[up] and stroke[k] == stroke[up]]
-        if own:
-            carries[up] = own[0]
-            continue
-        before = xy[up] - xy[parent[up]] if parent[up] != NULL else np.array([0.0, -1.0])
-        bend = [angle(before, xy[k] - xy[up]) for k in rows]
-        best = int(np.argmin([b - 0.5 * half[k] / half[up] for b, k in zip(bend, rows, strict=True)]))
-        carries[up] = rows[best]
-    return carries
+    thick = _narrowing(parent, carries, half) if root is None else root * TAPER**generation
+    return Traced(parent, xy, thick, generation, np.array(walk.stroke), np.array(walk.drawn))
 
 
 def _narrowing(parent, carries, half) -> Float[np.ndarray, " joint"]:
