@@ -19,12 +19,16 @@ from sketchtree.sketch.files.recognise import Unreadable, recognise
 from sketchtree.sketch.raster.opening import EXPORT, check_size, decoding, opened
 
 MAX_MEGAPIXELS = 64.0  # 10⁶ pixels: a photo is worked on as a whole, some thirty bytes a pixel
+_RAW = (".arw", ".cr2", ".dng", ".nef", ".nrw", ".orf", ".pef", ".raf", ".rw2", ".sr2", ".srw")
+_DNG = 50706  # TIFF tag DNGVersion
 NARROWEST = 16  # pixels: the shorter side of a photo
 
 
 def read_photo(path: str | os.PathLike, *, max_mb: float = MAX_MB, max_megapixels: float = MAX_MEGAPIXELS) -> Photo:
     """The photo in a file. Raises SketchError, naming the file, for what is no picture, is damaged, or is larger than `max_mb` (10⁶ bytes) or `max_megapixels`."""
     path = Path(path)
+    if path.is_dir():
+        raise SketchError(f"{path} is a folder, not a photo.", remedy="Give the photo inside it.")
     return photo_in(read_bytes(path, max_mb=max_mb), path.name, max_megapixels=max_megapixels)
 
 
@@ -38,6 +42,8 @@ def photo_in(data: bytes, name: str, *, max_megapixels: float = MAX_MEGAPIXELS) 
 
 def _decoded(data: bytes, name: str, max_megapixels: float) -> Photo:
     image = opened(data)
+    if image is not None and image.format == "TIFF" and _is_raw(image, name):
+        raise SketchError(f"{name} is a camera's raw file, of which only a preview could be read.", remedy="Develop it in a photo program, and export it as PNG or JPEG.")
     if image is None:
         what = recognise(data)
         says = f"{what.what}, which can't be read" if isinstance(what, Unreadable) else "no picture that can be read"
@@ -54,6 +60,11 @@ def _decoded(data: bytes, name: str, max_megapixels: float) -> Photo:
     if alpha is not None and not alpha.any():
         raise SketchError(f"{name} is transparent everywhere.", remedy=EXPORT)
     return Photo(rgb, alpha, name, tuple(notes))
+
+
+def _is_raw(image: Image.Image, name: str) -> bool:
+    """Is it one of the raw formats that begin as a TIFF does? Then its first picture is a thumbnail."""
+    return Path(name).suffix.lower() in _RAW or _DNG in getattr(image, "tag_v2", {})
 
 
 def as_photo(picture: np.ndarray | Image.Image, *, name: str = "photo") -> Photo:

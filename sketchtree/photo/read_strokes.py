@@ -27,6 +27,8 @@ _ROUND = 0.25  # area of what it surrounds, of its bounding rectangle's, from wh
 _HARDLY = 0.05  # of the photo's height: the first stroke may end so much higher than the lowest, and be the trunk
 _SLACK = 1.0  # pixels a stroke may lie outside unremarked
 _LEAST = 16.0  # pixels² that a crown holds
+_MOST = 20_000  # points of a stroke: a hand's has some thousands, and lines that cross themselves more often take minutes
+_SHARE = 200  # places on a limb that are asked which crown they lie in
 _TREE = re.compile(r"(?<![a-z])tree[\W_]*(\d+)(?!\d)|(?<![a-z])tree[\W_]+([a-z])(?![a-z])", re.IGNORECASE)
 _TRUNK = re.compile(r"trunk|stem", re.IGNORECASE)
 
@@ -40,6 +42,9 @@ def marked_trees(sketch: Sketch, photo: Photo) -> tuple[Marked, ...]:
     """The trees that a drawing over the photo marks, in the order of their crowns."""
     scale, shift, warnings = _placed(sketch, photo)
     crowns, limbs = _sorted(sketch)
+    for stroke in (*crowns, *limbs):
+        if len(stroke.points) > _MOST:
+            raise SketchError(f"it has {len(stroke.points):,} points; {_MOST:,} are the most.", stroke=stroke.id, remedy="Simplify the path, or draw it again.")
     box = shapely.box(0, 0, photo.width, photo.height)
     at = {stroke.id: turned_over(stroke.points) * scale + shift for stroke in (*crowns, *limbs)}
     outlines = [_outline(stroke, at[stroke.id], box, warnings) for stroke in crowns]
@@ -143,9 +148,10 @@ def _owner(stroke: Stroke, line, crowns: list[Stroke], outlines: list[shapely.Po
         if alike:
             return alike[0]
     path = shapely.LineString(line)
+    places = shapely.get_coordinates(shapely.line_interpolate_point(path, np.linspace(0.0, 1.0, _SHARE), normalized=True))
 
     def far(k: int) -> tuple[float, float, float]:
-        inside = path.intersection(outlines[k]).length / path.length
+        inside = float(shapely.contains_xy(outlines[k], places).mean())
         return (-round(inside, 1), path.distance(outlines[k]), abs(outlines[k].centroid.x - line[line[:, 1].argmax(), 0]))
 
     return min(range(len(crowns)), key=far)

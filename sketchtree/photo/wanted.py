@@ -23,7 +23,7 @@ class PhotoOptions:
     trace: bool = True  # follow the wood on from the strokes; False: the strokes alone
     library: tuple[str, ...] = LIBRARIES  # subtrees that grow: of the visible branches, predefined of type I, of type II (§3.1)
     libraries: tuple[tuple[str, ...], ...] = ()  # of the second, third … tree of a photo, where they have others than the first (Figures 8-9)
-    replacements: int = 100  # rounds of them at most, 0-10000 (§3.1: “about 100 times”)
+    replacements: int = 100  # rounds of them at most, each of up to three, 0-10000 (§3.1: “about 100 times”, one by one)
     alternate: bool = True  # image and 3D attractors by turns; False: image attractors alone (Figure 6a)
     colours: str = COLOURS[0]  # photo: leaves in the colours they are seen in (§4); season: the species'
     fit_leaves: bool = True  # as large and dense as it takes to cover the foliage; False: as the species has them
@@ -45,7 +45,7 @@ class PhotoOptions:
             if not names or any(name not in LIBRARIES for name in names):
                 raise OptionError(f"`--library {','.join(names)}` names no library of subtrees.", remedy=f"Choose all, or some of: {', '.join(LIBRARIES)}.")
         if not 0 <= self.replacements <= 10_000:
-            raise OptionError(f"`--replacements {self.replacements}` is out of range.", remedy="Give 0 to 10000; about 100 fill a crown.")
+            raise OptionError(f"`--rounds {self.replacements}` is out of range.", remedy="Give 0 to 10000; about 100 fill a crown.")
         for name in ("leaf_size", "leaf_density"):
             if not 0.1 <= getattr(self, name) <= 10:
                 raise OptionError(f"`--{name.replace('_', '-')} {getattr(self, name):g}` is out of range.", remedy="Give 0.1 to 10; 1 is as the photo's foliage asks for.")

@@ -218,3 +218,16 @@ def test_a_project_of_two_trees_is_refused_before_the_work(capsys, folder):
     second = '<g id="crown 2"><polygon points="10,150 10,200 40,200 40,150"/></g><g id="branches 2"><polyline points="25,225 25,170"/></g></svg>'
     (folder / "strokes.svg").write_text(both.replace("</svg>", second))
     refused(capsys, folder, output="tree.sketchtree", says="A project holds one tree, and 2 are marked in tree.png.")
+
+
+def test_without_drawing_off_the_screen_the_tree_is_written_and_the_picture_told_missing(capsys, folder, monkeypatch):
+    monkeypatch.setattr("sketchtree.view.beside.draw_in_child", lambda *_: (False, "no OpenGL here; install libgl1"))
+    assert photo(folder, "--compare", str(folder / "c.png"), "--leaf", "none", "--report", str(folder / "r.json")) == 0
+    assert any("c.png was not drawn: no OpenGL here" in told for told in json.loads((folder / "r.json").read_text())["warnings"])
+    assert (folder / "out.glb").exists() and not (folder / "c.png").exists()
+
+
+def test_rounds_and_replacements_are_one_option(folder):
+    for name in ("--rounds", "--replacements"):
+        assert run(["photo", str(folder / "tree.png"), "--strokes", str(folder / "strokes.svg"), "-o", str(folder / f"{name}.swc"), *FAST[2:], "--leaf", "none", name, "0"]) == 0
+    assert (folder / "--rounds.swc").read_bytes() == (folder / "--replacements.swc").read_bytes()

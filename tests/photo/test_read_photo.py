@@ -5,7 +5,7 @@ import zlib
 
 import numpy as np
 import pytest
-from PIL import Image, ImageCms
+from PIL import Image, ImageCms, TiffImagePlugin
 
 from sketchtree.errors import SketchError
 from sketchtree.photo.read_photo import as_photo, read_photo
@@ -196,3 +196,18 @@ def test_a_transparent_picture_is_refused(tmp_path):
 def test_pixels_in_memory_are_a_photo(scene):
     assert (as_photo(scene).rgb == scene).all()
     assert as_photo(scene[..., 0]).is_grey
+
+
+@pytest.mark.parametrize(("name", "dng"), [("p.nef", False), ("p.dng", True), ("p.tif", True)])
+def test_a_raw_file_is_refused_instead_of_its_thumbnail(scene, tmp_path, name, dng):
+    tags = TiffImagePlugin.ImageFileDirectory_v2()
+    if dng:
+        tags[50706], tags.tagtype[50706] = b"\x01\x04\x00\x00", 1
+    Image.fromarray(scene).save(tmp_path / name, "TIFF", tiffinfo=tags)
+    with pytest.raises(SketchError, match="is a camera's raw file"):
+        read_photo(tmp_path / name)
+
+
+def test_a_folder_is_no_photo(tmp_path):
+    with pytest.raises(SketchError, match="is a folder, not a photo"):
+        read_photo(tmp_path)

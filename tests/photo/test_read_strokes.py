@@ -164,3 +164,8 @@ def test_a_file_without_a_crown_or_without_a_limb_is_refused(tmp_path):
     )
     assert refused(svg(tmp_path, ("crown", CROWN))).startswith("s.svg has no branch strokes")
     assert refused(svg(tmp_path, ("all", CROWN))) == "s.svg has no stroke along a limb inside the photo. Draw one along the trunk, from its foot."
+
+
+def test_a_stroke_of_more_points_than_a_hand_draws_is_refused_by_name(tmp_path):
+    scribble = "M 0,0 " + " ".join(f"L {k % 199},{k * 7 % 293}" for k in range(20_001))
+    assert "20,000 are the most" in refused(svg(tmp_path, ("crown", ("c", CROWN)), ("branches", ("b", TRUNK), ("scribble", scribble))))

@@ -53,7 +53,6 @@ def bark_names() -> tuple[str, ...]:
     return tuple(_BARKS)
 
 
-@lru_cache(maxsize=32)
 def bark_material(name: str, pixels: int = 512, colour: Colour | None = None) -> Material:
     """The bark called `name`, as a material called `wood_<name>`; kept, so that it is drawn once. `colour`: its mean, if that is not its own; the material's name then ends in it.
 
@@ -63,17 +62,14 @@ def bark_material(name: str, pixels: int = 512, colour: Colour | None = None) ->
         raise OptionError(f"There is no bark called `{name}`.", remedy=f"Choose one of: {', '.join(_BARKS)}.")
     if not 64 <= pixels <= 4096:
         raise OptionError(f"`pixels` is {pixels}, outside 64 to 4096.", remedy="Choose a size in that range, such as 512.")
-    own = _material(f"wood_{name}", _BARKS[name](pixels)) if colour is None else bark_material(name, pixels)
-    return own if colour is None else _shifted(own, np.array(colour) / bark_colour(name), colour)
+    return _bark(name, pixels, colour)
 
 
-@lru_cache(maxsize=32)
 def twig_material(name: str, pixels: int = 256, colour: Colour | None = None) -> Material:
     """The smooth skin of young twigs under the bark called `name`, as a material called `wood_<name>_young`; `colour` is that of the bark, if that is not its own."""
     if name not in YOUNG:
         raise OptionError(f"There is no bark called `{name}`.", remedy=f"Choose one of: {', '.join(_BARKS)}.")
-    own = _material(f"wood_{name}_young", young(pixels, YOUNG[name])) if colour is None else twig_material(name, pixels)
-    return own if colour is None else _shifted(own, (np.array(colour) / bark_colour(name)) ** _TWIGS, colour)
+    return _twig(name, pixels, colour)
 
 
 @lru_cache(maxsize=32)
@@ -97,6 +93,20 @@ def _material(name: str, relief: Relief) -> Material:
     for texture in textures.values():
         texture.flags.writeable = False
     return Material(name, roughness=1.0, **textures)
+
+
+@lru_cache(maxsize=32)
+def _bark(name: str, pixels: int, colour: Colour | None) -> Material:
+    if colour is None:
+        return _material(f"wood_{name}", _BARKS[name](pixels))
+    return _shifted(_bark(name, pixels, None), np.array(colour) / bark_colour(name), colour)
+
+
+@lru_cache(maxsize=32)
+def _twig(name: str, pixels: int, colour: Colour | None) -> Material:
+    if colour is None:
+        return _material(f"wood_{name}_young", young(pixels, YOUNG[name]))
+    return _shifted(_twig(name, pixels, None), (np.array(colour) / bark_colour(name)) ** _TWIGS, colour)
 
 
 def _shifted(own: Material, by: np.ndarray, colour: Colour) -> Material:
