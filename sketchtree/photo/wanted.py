@@ -4,7 +4,6 @@ from dataclasses import dataclass, replace
 from typing import TYPE_CHECKING
 
 from sketchtree.errors import OptionError
-from sketchtree.foliage.wear import FREE
 
 if TYPE_CHECKING:
     from sketchtree.photo.trace.trace import Tracing
@@ -12,6 +11,7 @@ if TYPE_CHECKING:
 RULES = ("contrast", "paper")
 COLOURS = ("photo", "season")
 BARK_COLOURS = ("photo", "species")
+ARRANGEMENTS = ("alternate", "opposite", "decussate", "whorled", "spiral")  # as `foliage.wear.FREE`
 LIBRARIES = ("visible", "I", "II")  # as `propagate.attractors.library`
 
 
@@ -29,7 +29,7 @@ class PhotoOptions:
     fit_leaves: bool = True  # as large and dense as it takes to cover the foliage; False: as the species has them
     leaf_size: float = 1.0  # times that, 0.1-10
     leaf_density: float = 1.0  # times the leaves, 0.1-10
-    leaf_arrangement: str | None = None  # of the leaves about their twig (`foliage.wear.FREE`); None: the species'
+    leaf_arrangement: str | None = None  # of the leaves about their twig (ARRANGEMENTS); None: the species'
     bare_as_seen: bool = True  # a tree that stands bare in the photo has no leaves, unless a leaf model is asked for
     bark_colour: str = BARK_COLOURS[0]  # photo: bark in the colour that the trunk is seen in; species: in its own
 
@@ -39,8 +39,8 @@ class PhotoOptions:
         for name, known in (("foliage", RULES), ("colours", COLOURS), ("bark_colour", BARK_COLOURS)):
             if getattr(self, name) not in known:
                 raise OptionError(f"`{name}` is {getattr(self, name)!r}.", remedy=f"Choose one of: {', '.join(known)}.")
-        if self.leaf_arrangement not in (None, *FREE):
-            raise OptionError(f"`--leaf-arrangement {self.leaf_arrangement}` is none.", remedy=f"Choose one of: {', '.join(FREE)}; or leave it out.")
+        if self.leaf_arrangement not in (None, *ARRANGEMENTS):
+            raise OptionError(f"`--leaf-arrangement {self.leaf_arrangement}` is none.", remedy=f"Choose one of: {', '.join(ARRANGEMENTS)}; or leave it out.")
         for names in (self.library, *self.libraries):
             if not names or any(name not in LIBRARIES for name in names):
                 raise OptionError(f"`--library {','.join(names)}` names no library of subtrees.", remedy=f"Choose all, or some of: {', '.join(LIBRARIES)}.")

@@ -10,8 +10,9 @@ from click.testing import CliRunner
 from sketchtree.commands.photo import photo as photo_command
 from sketchtree.editing.document import Document
 from sketchtree.errors import SketchError
+from sketchtree.foliage.wear import FREE
 from sketchtree.photo.read_strokes import read_strokes
-from sketchtree.photo.wanted import LIBRARIES, PhotoOptions
+from sketchtree.photo.wanted import ARRANGEMENTS, LIBRARIES, PhotoOptions
 from sketchtree.propagate.attractors.library import NAMES
 from sketchtree.studio import exports
 from sketchtree.studio.making import photo_answers
@@ -118,5 +119,5 @@ def test_a_season_that_is_asked_for_counts_more_than_a_bare_photo():
     assert wish(wanted()).wanted.bare_as_seen and not wish(wanted(season="autumn")).wanted.bare_as_seen
 
 
-def test_libraries_are_called_alike():
-    assert LIBRARIES == NAMES
+def test_libraries_and_arrangements_are_called_alike():
+    assert LIBRARIES == NAMES and ARRANGEMENTS == FREE
