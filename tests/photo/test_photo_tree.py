@@ -5,12 +5,14 @@ import pytest
 
 import leafy
 import painted
+from sketchtree.errors import OptionError
 from sketchtree.keys import root_key
 from sketchtree.levels.raster import View, silhouette
 from sketchtree.options import ReadingOptions, TreeOptions
 from sketchtree.photo.photo import Photo
 from sketchtree.photo.wanted import PhotoOptions
 from sketchtree.photo_tree import PhotoModel, photo_to_tree
+from sketchtree.propagate.attractors.predefined import type_one
 
 READING = ReadingOptions(method="okabe", template="apple", height=6.0)
 
@@ -77,7 +79,7 @@ def test_the_same_seed_gives_the_same_tree_and_another_one_another(one):
 
 @pytest.fixture(scope="module")
 def autumn() -> PhotoModel:
-    return grown(leafy.leafy_photo(leafy.RUSTY, at=(0, 200)), [leafy.leafy_marks(), leafy.leafy_marks(200)], depths=[1.5], replacements=4)
+    return grown(leafy.leafy_photo(leafy.RUSTY, at=(0, 200)), [leafy.leafy_marks(), leafy.leafy_marks(200)], depths=[1.5], replacements=4, libraries=[["I"]])
 
 
 def test_autumn_leaves_are_rusty(autumn):
@@ -94,6 +96,24 @@ def test_two_trees_of_a_photo_stand_apart_as_it_shows_and_in_depth_as_asked(autu
         base = tree.model.skeleton.tip[tree.model.skeleton.is_base]
         np.testing.assert_allclose(base[0], place, atol=1e-9)
         assert abs(np.median(tree.model.leaves.position[:, 0]) - place[0]) < 1.0
+
+
+def test_each_tree_of_a_photo_grows_with_its_own_library(autumn):
+    first, second = (next(iter(tree.grown.grown.values())).library for tree in autumn.trees)
+    forks = {one.name for one in type_one()}
+    assert set(second) == forks < set(first)
+
+
+@pytest.mark.parametrize("more", [{"depths": [1.0]}, {"libraries": (("I",),)}])
+def test_what_is_given_for_more_trees_than_are_marked_is_refused(more):
+    with pytest.raises(OptionError, match="is given for 2 trees, and 1 is marked. Give it once for each tree."):
+        grown(leafy.leafy_photo(), [leafy.leafy_marks()], **more)
+
+
+def test_further_trees_stand_level_with_the_first_where_nothing_else_is_said():
+    trees = [leafy.leafy_marks(), leafy.leafy_marks(200)]
+    model = grown(leafy.leafy_photo(at=(0, 200)), trees, replacements=0, tree=TreeOptions(leaf="none"))
+    np.testing.assert_allclose(model.place[:, 2], 0.0)
 
 
 def test_skeletons_in_pixels_lie_on_the_photo(autumn):
