@@ -8,7 +8,7 @@ was traced: so no leaf is as blue as the sky, or as brown as the wood.
 A photo's colours have its light and shadows in them, and whoever draws the tree throws others. So half of the shadows are taken out, and leaves are as bright as in light of their own
 (ours; Y the lightness of a leaf, Ȳ that of the brighter ones, c and c̄ the colours at lightness 1, of the leaf and of the brighter ones):
 
-    Y' = BRIGHTER Y^(1 − SHADE) Ȳ^SHADE        c' = c̄ + min(Y / Ȳ, 1)^½ (c − c̄)
+    Y' = BRIGHTER Y^(1 − SHADE) Ȳ^SHADE        c' = 1 + VIVID (c̄ + min(Y / Ȳ, 1)^½ (c − c̄) − 1)
 
 What is darkest tells least of its colour. And where blue outweighs red, it does so hardly more than in the brighter ones: that is the sky's light, or the sky.
 """
@@ -30,7 +30,8 @@ from sketchtree.photo.trace.traced import Traced
 from sketchtree.similarity import Similarity
 
 SHADE = 0.5  # of the photo's shadows, in powers, is taken out
-BRIGHTER = 1.5  # times the photo's light
+BRIGHTER = 1.25  # times the photo's light: leaves shade each other, so a crown comes out darker than its leaves are (six colour photos: by as much, within 6 units of L*)
+VIVID = 1.15  # times as far from grey: they shine, too, so a crown comes out greyer (by a sixth)
 BLUER = 1.1  # times the blue of the brighter ones, where blue outweighs red
 _PERCENT = 75  # percent of the leaves that are darker than the brighter ones
 _LIGHTNESS = np.array([0.2126, 0.7152, 0.0722])  # of linear sRGB
@@ -107,7 +108,7 @@ def without_shadows(colour: Float[np.ndarray, "leaf 3"]) -> Float[np.ndarray, "l
     cold = (own[:, 2] > own[:, 0]) & (own[:, 2] > BLUER * usual[2])
     own[cold] = usual + ((BLUER - 1) * usual[2] / (own[cold, 2] - usual[2]))[:, None] * (own[cold] - usual)
     mixed = usual + np.sqrt(np.minimum(light / bright, 1.0))[:, None] * (own - usual)
-    return np.clip(mixed * (BRIGHTER * light ** (1 - SHADE) * bright**SHADE)[:, None], 0.0, 1.0)
+    return np.clip((1.0 + VIVID * (mixed - 1.0)) * (BRIGHTER * light ** (1 - SHADE) * bright**SHADE)[:, None], 0.0, 1.0)
 
 
 def leafy_pixels(photo: Photo, foliage: Foliage, traced: Traced | None = None) -> Bool[np.ndarray, "row column"]:

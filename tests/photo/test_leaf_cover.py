@@ -21,7 +21,7 @@ from sketchtree.photo.leaf_filling import followed
 from sketchtree.photo.leaf_spots import LeafSpots, spots_of
 from sketchtree.photo.paper_leaves import paper_leaves
 from sketchtree.photo.photo import Photo
-from sketchtree.photo.photo_leaves import SeenFoliage, without_shadows
+from sketchtree.photo.photo_leaves import VIVID, SeenFoliage, without_shadows
 from sketchtree.similarity import Similarity
 from sketchtree.skeleton import TreeSkeleton
 
@@ -127,7 +127,8 @@ def test_shadows_are_halved_and_shaded_leaves_are_no_bluer_than_lit_ones():
     shown = without_shadows(np.array([green] * 8 + [0.25 * green, sky]))
     light = shown.sum(axis=1)
     np.testing.assert_allclose(light[8] / light[0], 0.5, rtol=1e-6)
-    np.testing.assert_allclose(shown[0] / shown[0].sum(), green / green.sum(), atol=1e-9)
+    luminance = np.array([0.2126, 0.7152, 0.0722])
+    np.testing.assert_allclose(shown[0] / (shown[0] @ luminance) - 1, VIVID * (green / (green @ luminance) - 1), atol=1e-9)
     assert shown[9, 2] / shown[9].sum() <= 1.11 * shown[0, 2] / shown[0].sum()
 
 
