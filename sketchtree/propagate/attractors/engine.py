@@ -13,7 +13,7 @@ are replaced in one iteration, those near which attractors are far are candidate
 from dataclasses import dataclass, replace
 
 import numpy as np
-from jaxtyping import Float
+from jaxtyping import Bool
 
 from sketchtree.axes import NULL
 from sketchtree.propagate.attractors import ends
@@ -32,6 +32,7 @@ _BEST = 6  # placements of one branch that are looked at closely in one iteratio
 _IDLE = 8  # iterations in a row that nothing was found in, after which nothing is expected any more
 _LEAST = 0.5  # leaf lengths: a smaller gain is none
 _CLOSE = 0.6  # leaf lengths: branches nearer to one another are too near
+_AWAY = 0.4  # of its length: the first piece of a branch ends so far from all that stands; beside a branch that goes the same way it doesn't
 _PIECE = 0.35  # leaf lengths: a shorter piece isn't grown
 _WIDE = 0.9  # of the distance between attractors in 3D: what is farther from the tree is empty
 _FEW = 0.08  # of the attractors on the page still far: single twigs do the rest
@@ -160,14 +161,15 @@ class Engine:
         one = replace(one, there=whole_branches(one.there & clear, part))
         return float(gains(attractors, one, self.library.reach * stretch.length)[0, 0]), part.subtrees[0], one
 
-    def _is_clear(self, one: Placed, beyond: Subtree) -> Float[np.ndarray, " piece"]:
-        """Which pieces of the only subtree placed are far enough from other wood; the first of a branch need not be."""
-        outer = np.zeros(one.there.shape[-1], bool)
+    def _is_clear(self, one: Placed, beyond: Subtree) -> Bool[np.ndarray, " piece"]:
+        """Which pieces of the only subtree placed are far enough from other wood; the first of a branch need only lead away from it."""
+        start, end = one.start[0, 0], one.end[0, 0]
+        outer = np.zeros(len(end), bool)
         outer[: len(beyond)] = np.r_[False, beyond.branch[1:] == beyond.branch[:-1]]
         long = np.r_[_lengths(beyond), np.zeros(len(outer) - len(beyond))] * one.stretch.length
-        room = np.maximum(_CLOSE * self.leaf, self.wanted.apart * long)
-        away = self.state.places.distance(np.stack([0.5 * (one.start + one.end), one.end]).reshape(-1, 3), float(room.max()))
-        return (away.reshape(2, -1) > room).all(axis=0) | ~outer
+        room = np.where(outer, np.maximum(_CLOSE * self.leaf, self.wanted.apart * long), _AWAY * np.linalg.norm(end - start, axis=1))
+        away = self.state.places.distance(np.concatenate([0.5 * (start + end), end]), float(room.max())).reshape(2, -1) > room
+        return away[1] & (away[0] | ~outer)
 
     def _grow(self, subtree: Subtree, one: Placed) -> None:
         """The new branches become limbs."""

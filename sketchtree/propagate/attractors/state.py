@@ -8,10 +8,11 @@ from dataclasses import dataclass, field
 
 import numpy as np
 from jaxtyping import Array, Float, Key
+from scipy.spatial import cKDTree
 
 from sketchtree import keys
 from sketchtree.limb_ids import child_limb_id
-from sketchtree.propagate.attractors.attractors import Attractors, image_attractors, turned_joints, volume_attractors
+from sketchtree.propagate.attractors.attractors import Attractors, distances, image_attractors, turned_joints, volume_attractors
 from sketchtree.propagate.attractors.places import Places
 from sketchtree.propagate.attractors.revolved import Axes
 from sketchtree.propagate.attractors.subtree import RATIO
@@ -24,6 +25,7 @@ _SAMPLE = 0.5  # leaf lengths between places along the wood
 _SHORTEST = 1.6  # leaf lengths: a shorter branch isn't replaced
 _UNDER = 0.9  # leaf lengths: foliage so near to a drawn limb has no twig yet for its leaves
 _BARK = 1.0  # leaf lengths: a limb as thick hides the leaves that would hang before it, and bears none
+_LOOSE = 0.3  # of the distance between attractors in 3D: so far each is off the grid at most, along each axis, so that nothing grows along its lines
 _RANK = 1 << 20  # ranks of limbs grown here start there, so that other stages' are others
 
 
@@ -57,7 +59,7 @@ class State:
         self.parts: list[np.ndarray] = []  # places along each limb
         self.places, self.course, self.grown, self._taken = Places(), Course(), 0, 0
         self.take_up()
-        self.along = self._along_limbs()
+        self.along = self._along_limbs(seen)
 
     @property
     def is_full(self) -> bool:
@@ -118,13 +120,19 @@ class State:
         page = len(self.image.place) * self.leaf**2
         volume = page * 1.6 * float(self.axes.half.max())
         self.interval = max((volume / self.wanted.in_space) ** (1 / 3), self.leaf)
-        return volume_attractors(self.home, self.axes, self.interval)
+        place = volume_attractors(self.home, self.axes, self.interval)
+        number = np.arange(place.size).reshape(place.shape)
+        return place + _LOOSE * self.interval * (2.0 * keys.uniform(self.key, number.ravel(), 0).reshape(place.shape) - 1.0)
 
-    def _along_limbs(self) -> Attractors:
-        """Attractors on the page that only a drawn limb is near, and one on which leaves would show: no leaf has a twig there yet, so that they count as far until something grows (ours)."""
-        near = np.flatnonzero(self.image.distance <= _UNDER * self.leaf)
-        bark = np.array([limb.radius for limb in self.wood.limbs]) > _BARK * self.leaf
-        return Attractors.at(self.image.place[near[~bark[self.image.nearest[near]]]])
+    def _along_limbs(self, seen: Target) -> Attractors:
+        """Attractors on the page, of all foliage, that a drawn limb is near, though none whose bark would show: no leaf has a twig there yet, so that they count as far until something grows (ours)."""
+        place, thick = image_attractors(seen, self.leaf), self.thick
+        near = distances(place, *(ends[:, :2] for ends in self.wood.pieces()[:2]))[0] <= _UNDER * self.leaf
+        bark = thick.radius > _BARK * self.leaf
+        if bark.any():
+            away, ball = cKDTree(thick.place[bark, :2]).query(place)
+            near &= away > thick.radius[bark][ball] + _UNDER * self.leaf
+        return Attractors.at(place[near])
 
 
 def _unit(vector):
