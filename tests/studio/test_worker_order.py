@@ -27,8 +27,8 @@ def test_what_the_tree_wears_goes_before_pictures_of_what_it_might_wear():
 
 
 def test_what_the_server_keeps_between_two_jobs_imports_nothing_of_what_makes_trees():
-    said = "import sys, sketchtree.studio.making.basis, sketchtree.studio.crew; print('jax' in sys.modules)"
-    assert subprocess.run([sys.executable, "-c", said], capture_output=True, text=True, check=True).stdout == "False\n"
+    said = "import sys, sketchtree.studio.making.basis, sketchtree.studio.crew; print('jax' in sys.modules, 'scipy' in sys.modules)"
+    assert subprocess.run([sys.executable, "-c", said], capture_output=True, text=True, check=True).stdout == "False False\n"
 
 
 def test_the_thread_that_listens_unpickles_no_argument():
