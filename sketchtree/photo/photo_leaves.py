@@ -1,7 +1,7 @@
 """Which leaves of a grown tree does the photo confirm, and in which colours does it show them (§4)?
 
 "We keep only those leaves that are projected inside the foliage region in the input image. Leaves are textured according to their projected position." A leaf
-looks through the page at its middle. Its colour is the mean of the pixels within half a leaf of there that show a leaf, or of the nearest such pixels (ours). A pixel shows a leaf where
+looks through the page at its middle. Its colour is the mean of the pixels within REACH of a leaf from there that show a leaf, or of the nearest such pixels (ours). A pixel shows a leaf where
 its colour is likelier a leaf's than that of what is between the leaves, is not most of the way to the latter (a blossom no broader than a pixel is half sky), and is not on a limb that
 was traced: so no leaf is as blue as the sky, or as brown as the wood.
 
@@ -29,6 +29,7 @@ from sketchtree.photo.photo import Photo, at_pixels, turned_over
 from sketchtree.photo.trace.traced import Traced
 from sketchtree.similarity import Similarity
 
+REACH = 0.2  # leaf lengths: pixels so far from where it is seen count for its colour; farther, and all leaves become alike
 SHADE = 0.5  # of the photo's shadows, in powers, is taken out
 BRIGHTER = 1.25  # times the photo's light: leaves shade each other, so a crown comes out darker than its leaves are (six colour photos: by as much, within 6 units of L*)
 VIVID = 1.15  # times as far from grey: they shine, too, so a crown comes out greyer (by a sixth)
@@ -73,7 +74,7 @@ class SeenFoliage:
         """The same leaves in the colours of the photo."""
         if len(leaves) == 0:
             return leaves
-        reach = max(int(round(0.5 * float(np.median(leaves.size)) / self.similarity.scale)), 1)
+        reach = max(int(round(REACH * float(np.median(leaves.size)) / self.similarity.scale)), 1)
         leafy = self.mask if self.leafy is None else self.leafy
         box = box_of(leafy)
         place = np.floor(self.pixels(middles(leaves))).astype(np.int64) - [box[1].start, box[0].start]
