@@ -5,7 +5,7 @@ has been. Ours: a cluster wider than the limb it would grow from is no branch bu
 and what lies within a limb's thickness of its stroke is that limb.
 """
 
-from collections import deque
+import math
 from dataclasses import dataclass, field
 
 import numpy as np
@@ -14,7 +14,7 @@ from jaxtyping import Float
 from scipy.spatial import cKDTree
 
 from sketchtree.axes import NULL
-from sketchtree.photo.trace.circle import SIGHT, clusters_on
+from sketchtree.photo.trace.circle import SIGHT, clusters_on_all
 from sketchtree.photo.trace.wood_likeness import WoodLikeness
 
 _BACK = np.cos(np.radians(40.0))  # a cluster within 40° of the way back is where the circle came from
@@ -26,6 +26,7 @@ _WITHIN = 1.25  # the same of that limb's half width: its own edge, or moss on i
 _LEAST = 0.25  # of the circle's radius: half a limb counts as that at least
 _PAST = 1.5  # of the limb's half width: the circle that sees past it
 _TEXTURE = 8  # clusters on one circle: more of them are leaves or grass
+_MOST_ARMS = 512  # clusters on one circle, at most
 _DEEPEST = 6  # branchings away from a stroke
 _DOWN = 3.0  # circles' radii that the foot of a branch may lie below the place it was seen from
 _FARTHER = 0.15  # radians that each circle's radius further down must gain
@@ -58,46 +59,46 @@ def follow(
     drawn = np.flatnonzero(walk.drawn)
     strokes, half = cKDTree(on_strokes), np.array(walk.half)[drawn]
     within_wood = _WITHIN * half[cKDTree(np.array(walk.xy)[drawn]).query(on_strokes)[1]]  # of each point on a stroke: what is nearer is the same limb
-    queue = deque(range(len(walk.parent)))
-    while queue and len(walk.parent) < most:
-        row = queue.popleft()
-        for place, half in _onward(likeness, walk, row, radius, strokes, within_wood, strict):
-            known = np.array(walk.xy)
-            near = np.hypot(known[:, 0] - place[0], known[:, 1] - place[1]) < _BEEN * radius
-            near[row] = False
-            if near.any() or not shapely.contains_xy(within, *place):
-                continue
-            depth = walk.depth[row] + (walk.drawn[row] or _forks(walk, row))
-            if depth <= _DEEPEST:
-                queue.append(walk.add(row, place, half, walk.stroke[row], False, depth))
+    shapely.prepare(within)
+    known = np.zeros((max(most, len(walk.parent)) + _MOST_ARMS, 2))
+    known[: len(walk.parent)] = walk.xy
+    bearing: set[int] = set()  # places that something found grows from
+    level = list(range(len(walk.parent)))
+    while level and len(walk.parent) < most:
+        found = []
+        for row, onward in zip(level, _onward(likeness, walk, level, radius, strokes, within_wood, strict), strict=True):
+            for place, half in onward if len(walk.parent) < most else ():
+                near = np.hypot(*(known[: len(walk.parent)] - place).T) < _BEEN * radius
+                near[row] = False
+                depth = walk.depth[row] + (walk.drawn[row] or row in bearing)
+                if near.any() or depth > _DEEPEST or not shapely.contains_xy(within, *place):
+                    continue
+                known[len(walk.parent)] = place
+                found.append(walk.add(row, place, half, walk.stroke[row], False, depth))
+                bearing.add(row)
+        level = found
     return walk
 
 
-def _onward(likeness: WoodLikeness, walk: Walk, row: int, radius: float, strokes: cKDTree, within_wood: Float[np.ndarray, " point"], strict: bool) -> list[tuple[np.ndarray, float]]:
-    """(place, half width) of every cluster that leads somewhere new from a place."""
-    here, half = walk.xy[row], walk.half[row]
-    reach = max(radius, _PAST * half)
-    found = clusters_on(likeness, here, reach, strict=strict)
-    if not strict and len(found.width) > _TEXTURE:
-        return []
-    onward = []
-    for place, width, seen in zip(*found, strict=True):
-        if not seen or width > (_WIDEST if walk.drawn[row] else _WIDER) * 2 * max(half, _LEAST * radius):
-            continue
+def _onward(
+    likeness: WoodLikeness, walk: Walk, rows: list[int], radius: float, strokes: cKDTree, within_wood: Float[np.ndarray, " point"], strict: bool
+) -> list[list[tuple[np.ndarray, float]]]:
+    """(place, half width) of every cluster that leads somewhere new, for each of some places."""
+    reach = [max(radius, _PAST * walk.half[row]) for row in rows]
+    circles = clusters_on_all(likeness, [walk.xy[row] for row in rows], reach, strict=strict)
+    away, point = strokes.query(np.concatenate([found.centre for found in circles]))
+    ends = np.cumsum([len(found.width) for found in circles])[:-1]
+    onward: list[list[tuple[np.ndarray, float]]] = []
+    for row, far, found, aside, beside in zip(rows, reach, circles, np.split(away, ends), np.split(within_wood[point], ends), strict=True):
+        widest = (_WIDEST if walk.drawn[row] else _WIDER) * 2 * max(walk.half[row], _LEAST * radius)
+        new = found.seen & (found.width <= widest) & (aside >= np.maximum(np.maximum(_ASIDE * far, found.width / 2), beside))
         if walk.parent[row] != NULL and not walk.drawn[row]:
-            back = walk.xy[walk.parent[row]] - here
-            if float((place - here) @ back) > _BACK * reach * np.hypot(*back):
-                continue
-        away, point = strokes.query(place)
-        if away < max(_ASIDE * reach, width / 2, within_wood[point]):
-            continue
-        onward.append((place, max(width / 2, 0.5)))
+            back = walk.xy[walk.parent[row]] - walk.xy[row]
+            new &= (found.centre - walk.xy[row]) @ back <= _BACK * far * np.hypot(*back)
+        if not strict and len(found.width) > _TEXTURE:
+            new[:] = False
+        onward.append([(found.centre[k], max(float(found.width[k]) / 2, 0.5)) for k in np.flatnonzero(new)])
     return onward
-
-
-def _forks(walk: Walk, row: int) -> bool:
-    """Whether something found grows from this place already."""
-    return any(walk.parent[k] == row and not walk.drawn[k] for k in range(row + 1, len(walk.parent)))
 
 
 def without_bumps(walk: Walk, radius: float) -> Walk:
@@ -159,5 +160,5 @@ def _in_sight(likeness: WoodLikeness, a, b) -> bool:
 
 def angle(a, b) -> float:
     """Angle between two directions, radians."""
-    size = np.hypot(*a) * np.hypot(*b)
-    return float(np.arccos(np.clip(a @ b / size, -1.0, 1.0))) if size > 0 else 0.0
+    (ax, ay), (bx, by) = a, b
+    return abs(math.atan2(ax * by - ay * bx, ax * bx + ay * by))

@@ -10,7 +10,6 @@ from dataclasses import dataclass
 
 import numpy as np
 from jaxtyping import Array, Bool, Float, Int, Key
-from scipy import ndimage
 
 from sketchtree.keys import numpy_generator, stage_key
 from sketchtree.photo.appearance import Mixture, fit_mixture
@@ -25,8 +24,8 @@ _CLOSE = 0.4  # Bhattacharyya distance below which a component of wood counts as
 _FOOT = 0.25  # of the trunk's stroke, from its root: wood for certain
 _SURE = 0.3  # share of the foot's pixels that a component must explain to be the trunk's own
 _LOUDEST = 4.0  # a pixel's log ratio counts for no more than that
-_TOGETHER = 3  # pixels a side that vote together
-_OTHERS = 4_000  # pixels that stand for all that is no wood
+_VOTES = 800  # votes in one unit of the log ratio: nine of the loudest are a number of two bytes
+_OTHERS = 2_000  # pixels that stand for all that is no wood, and for all that is under strokes
 
 
 @dataclass(frozen=True, eq=False)
@@ -35,7 +34,7 @@ class WoodLikeness:
 
     wood: Mixture  # θ^T
     other: Mixture  # θ^N
-    log_ratio: Float[np.ndarray, "row column"]  # log G(I, θ^T) − log G(I, θ^N)
+    votes: Int[np.ndarray, "row column"]  # log G(I, θ^T) − log G(I, θ^N) in 1/_VOTES, summed over nine pixels
     mask: Bool[np.ndarray, "row column"]  # α = 0: wood is the likelier
 
     def is_wood(self, points: Float[np.ndarray, "point 2"]) -> Bool[np.ndarray, " point"]:
@@ -46,13 +45,24 @@ class WoodLikeness:
 def learn_wood(palette: Palette, marked: Marked, foliage: Foliage | None, *, width: float, key: Key[Array, ""]) -> WoodLikeness:
     """The two mixtures from the strokes of one tree; `width` of a stroke, pixels. Needs a branch stroke at least."""
     under = [palette.colour[_under(palette.number, stroke, width)] for stroke in marked.branches]
-    wood = fit_mixture(np.concatenate(under), COMPONENTS, key=stage_key(key, "wood"))
+    every = np.concatenate(under)
+    wood = fit_mixture(every[:: max(len(every) // _OTHERS, 1)], COMPONENTS, key=stage_key(key, "wood"))
     if foliage is not None and not foliage.bare:  # the twigs of a bare tree are wood
         wood = apart_from_leaves(wood, foliage.leaf, under[0][: max(int(_FOOT * len(under[0])), 8)])
     other = fit_mixture(palette.colour[_others(palette.number, marked, width, key)], COMPONENTS, key=stage_key(key, "other"))
     ratio = (wood.log_density(palette.colour) - other.log_density(palette.colour)).astype(np.float32)
-    ratio = ndimage.uniform_filter(np.clip(ratio, -_LOUDEST, _LOUDEST)[palette.number], size=_TOGETHER)
-    return WoodLikeness(wood, other, ratio, ratio > 0)
+    votes = together(np.rint(_VOTES * np.clip(ratio, -_LOUDEST, _LOUDEST)).astype(np.int16)[palette.number])
+    return WoodLikeness(wood, other, votes, votes > 0)
+
+
+def together(votes: Int[np.ndarray, "row column"]) -> Int[np.ndarray, "row column"]:
+    """The sum of the votes of every pixel and its eight neighbours; beyond the picture it goes on as at its border. In place of a filter: whole numbers of two bytes, a fifth of the time."""
+    for axis in (0, 1):
+        wide = np.pad(votes, [(1, 1) if k == axis else (0, 0) for k in (0, 1)], mode="edge")
+        before, here, after = (wide[k : k + len(votes)] if axis == 0 else wide[:, k : k + votes.shape[1]] for k in (0, 1, 2))
+        votes = before + here
+        votes += after
+    return votes
 
 
 def apart_from_leaves(wood: Mixture, leaf: Mixture, foot: Float[np.ndarray, "pixel 3"]) -> Mixture:
@@ -93,9 +103,10 @@ def _others(number, marked: Marked, width: float, key) -> Int[np.ndarray, " pixe
         spine, _ = evenly(stroke, 1.0)
         column, row = np.floor(spine).astype(np.int64).T
         inside = (row >= 0) & (row < rows) & (column >= 0) & (column < columns)
-        row, column = (np.unique(np.stack([row, column], axis=1)[inside], axis=0)[:, None] + near).reshape(-1, 2).T
+        row, column = (np.stack([row, column], axis=1)[inside][:, None] + near).reshape(-1, 2).T
         inside = (row >= 0) & (row < rows) & (column >= 0) & (column < columns)
         free[row[inside], column[inside]] = False
-    where = np.flatnonzero(free.reshape(-1))
-    draw = numpy_generator(stage_key(key, "others"))
-    return number.reshape(-1)[where[draw.integers(len(where), size=_OTHERS)]]
+    drawn = numpy_generator(stage_key(key, "others")).integers(free.size, size=2 * _OTHERS)
+    drawn = drawn[free.reshape(-1)[drawn]][:_OTHERS]
+    where = drawn if len(drawn) else np.flatnonzero(free.reshape(-1))  # strokes over nearly all of a tiny picture
+    return number.reshape(-1)[where]
