@@ -5,7 +5,8 @@ Footprint and branching (`templates.matching`) are told from what is drawn, and 
 - only ordinary trees are thought of, conifers where the silhouette is a conifer's (`photo.cone`), else broadleaves: a bonsai, a dead oak or a palm has to be named;
 - the likeliest is taken where it is SURE among those, on at least LIMBS limbs; else a neutral one of its family (of a bare tree, which shows how it branches, the likeliest all the same),
   which is told, and PLAUSIBLE metres high: a height is never taken from a guess;
-- leaves are a willow's, whatever the template, where the photo shows that they are long and narrow (`photo.blades`).
+- leaves are a willow's, whatever the template, where the photo shows that they are long and narrow (`photo.blades`), and flowers of a cherry, or of the sure template, where it shows a
+  tree in blossom (`photo.flowering`).
 """
 
 import dataclasses
@@ -14,12 +15,15 @@ from collections.abc import Iterable
 from dataclasses import dataclass
 
 import numpy as np
+from jaxtyping import Bool
 
+from sketchtree.foliage.models import leaf_model
 from sketchtree.foliage.species.conifers import CONIFERS
 from sketchtree.foliage.species.monocots import MONOCOTS
 from sketchtree.options import ReadingOptions
 from sketchtree.photo.blades import blades_are_narrow
 from sketchtree.photo.cone import CrownShape
+from sketchtree.photo.flowering import is_in_blossom
 from sketchtree.photo.foliage import Foliage
 from sketchtree.photo.marked import Marked
 from sketchtree.photo.photo import Photo
@@ -31,7 +35,7 @@ from sketchtree.templates.store.database import Database
 SURE = 0.9  # probability among trees of its family: ten limbs of a poplar make a horse chestnut at .82, eleven of an oak make an oak at .96
 LIMBS = 8  # fewer say too little: three of a hickory make an olive at .51, five of a spruce a cedar at .68
 NEUTRAL = {"broadleaf": "small_leaved_lime", "conifer": "norway_spruce"}
-NARROW_LEAF = "willow"
+NARROW_LEAF, FLOWER = "willow", "cherry_blossom"
 PLAUSIBLE = 10.0  # metres: half of a park's elm, three times an orchard's peach
 _RARE = ("irregular", "palm")  # habits that a photo's tree isn't thought to have
 _RANKED = 200  # of a large database, that are looked at
@@ -44,12 +48,18 @@ class Choice:
     reading: ReadingOptions  # with the template, and the height if it was nobody's
     leaf: str | None = None  # None: the template's
     told: tuple[str, ...] = ()
+    told_leaf: tuple[str, ...] = ()
+
+    def warnings(self, leaf: str | None) -> tuple[str, ...]:
+        """What to tell where `leaf` was asked for (None: none was)."""
+        return self.told + (self.told_leaf if leaf is None else ())
 
 
 def choose_for_photo(
-    photo: Photo, marked: Marked, foliage: Foliage, traced: Traced, graph: SketchGraph, templates: Database | None, reading: ReadingOptions, *, scaled: bool = False
-) -> Choice:
-    """The template, unless one was named, with what the user should know. `scaled`: the tree's scale is known already."""
+    photo: Photo, marked: Marked, foliage: Foliage, traced: Traced, graph: SketchGraph, templates: Database | None, reading: ReadingOptions, *,
+    leafy: Bool[np.ndarray, "row column"] | None = None, scaled: bool = False,
+) -> Choice:  # fmt: skip
+    """The template, unless one was named, with what the user should know. `leafy`: the pixels that show a leaf; `scaled`: the tree's scale is known already."""
     if templates is None or reading.template != "auto":
         return Choice(reading)
     family = _family(foliage, marked, traced)
@@ -57,11 +67,13 @@ def choose_for_photo(
     says_enough = len(graph.limb_id) >= LIMBS
     is_sure = says_enough and _share_of_first(found) >= SURE
     name = found[0].name if is_sure or says_enough and foliage.bare and found else _neutral(found, templates, family)
-    leaf = NARROW_LEAF if family == "broadleaf" and not foliage.bare and blades_are_narrow(photo, foliage.mask) else None
+    leaf = None if family == "conifer" or foliage.bare else _leaf(photo, foliage.mask if leafy is None else leafy, foliage.mask, name if is_sure else None, templates)
+    about_leaf = () if leaf is None else (_told_leaf(leaf),)
     if name is None:
-        return Choice(reading, leaf)
+        return Choice(reading, leaf, (), about_leaf)
     height = reading.height if is_sure or scaled else reading.height or PLAUSIBLE
-    return Choice(dataclasses.replace(reading, template=name, height=height), leaf, tuple(_told(name, family, leaf, is_sure, height if reading.height is None else None)))
+    about = () if is_sure else (_told(name, family, height if reading.height is None else None),)
+    return Choice(dataclasses.replace(reading, template=name, height=height), leaf, about, about_leaf)
 
 
 def _family(foliage: Foliage, marked: Marked, traced: Traced) -> str:
@@ -96,11 +108,22 @@ def _neutral(found: list[Match], templates: Database, family: str) -> str | None
     return NEUTRAL[family] if NEUTRAL[family] in templates.names else next((one.name for one in found), None)
 
 
-def _told(name: str, family: str, leaf: str | None, is_sure: bool, height: float | None):
-    """What the user should know of the choice."""
-    if not is_sure:
-        size = "" if height is None else f", {height:g} m high"
-        said = "`--template` and `--height` say" if height is not None else "`--template` says"
-        yield f"The photo doesn't show which {family} it is. It grows by the template {name}{size}; {said} otherwise."
-    if leaf is not None:
-        yield f"The photo shows long, narrow leaves: it wears those of a {leaf}; `--leaf` says otherwise."
+def _leaf(photo: Photo, leafy, mask, sure: str | None, templates: Database) -> str | None:
+    """The model that the photo shows instead of the template's."""
+    if is_in_blossom(photo, leafy):
+        return (leaf_model(templates.exemplar(sure).habit.leaf).blossom if sure else None) or FLOWER
+    return NARROW_LEAF if blades_are_narrow(photo, mask) else None
+
+
+def _told(name: str, family: str, height: float | None) -> str:
+    """What the user should know of a template that is not sure."""
+    size = "" if height is None else f", {height:g} m high"
+    said = "`--template` says" if height is None else "`--template` and `--height` say"
+    return f"The photo doesn't show which {family} it is. It grows by the template {name}{size}; {said} otherwise."
+
+
+def _told_leaf(leaf: str) -> str:
+    """What the user should know of leaves that are not the template's."""
+    if leaf_model(leaf).flower:
+        return f"The photo shows a tree in blossom: instead of leaves it wears {leaf}; `--leaf` says otherwise."
+    return f"The photo shows long, narrow leaves: it wears those of a {leaf}; `--leaf` says otherwise."

@@ -204,9 +204,10 @@ def grow_in_photo(
     similarity = None if scale is None else Similarity(scale, tuple((-scale * np.array([*graph.xy[0], 0.0])).tolist()))
     with watch("match"):
         templates = templates if templates is not None or reading.template == "none" else Database.open()
-        choice = choose_for_photo(photo, own, foliage, traced, graph, templates, reading, scaled=similarity is not None)
+        leafy = leafy_pixels(photo, foliage, traced)
+        choice = choose_for_photo(photo, own, foliage, traced, graph, templates, reading, leafy=leafy, scaled=similarity is not None)
     drawn = draw_out_graph(sketch, graph, templates, key=key, options=choice.reading, similarity=similarity, watch=watch)
-    seen = SeenFoliage(photo, foliage.mask, drawn.similarity, leafy_pixels(photo, foliage, traced))
+    seen = SeenFoliage(photo, foliage.mask, drawn.similarity, leafy)
     with watch("propagate"):
         stage = Attract(targets=target_of(seen), library=wanted.library, iterations=wanted.replacements, alternate=wanted.alternate, twigs=wanted.replacements > 0)
         grown = stage.run(drawn.skeleton, key=stage_key(key, "attract"), pulse=_pulse(watch))
@@ -259,7 +260,7 @@ def to_finish(found: GrownInPhoto, key: Key[Array, ""], options: TreeOptions, te
 def _dressed(found: GrownInPhoto, key: Key[Array, ""], options: TreeOptions, templates: Database | None, place, wanted: PhotoOptions, watch: Watch) -> PhotoTree:
     """A grown tree with radii, leaves and meshes, at its place."""
     model = finish(to_finish(found, key, options, templates, place, wanted), watch)
-    told = (*found.seen.photo.warnings, *found.marked.warnings, *found.foliage.warnings, *found.choice.told, *model.warnings)
+    told = (*found.seen.photo.warnings, *found.marked.warnings, *found.foliage.warnings, *found.choice.warnings(options.leaf), *model.warnings)
     return PhotoTree(**vars(found), model=dataclasses.replace(model, warnings=tuple(dict.fromkeys(told))))
 
 

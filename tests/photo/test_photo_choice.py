@@ -58,10 +58,19 @@ def test_a_cone_is_a_conifer(monkeypatch):
 
 def test_narrow_blades_are_a_willows_and_told(monkeypatch):
     found = chosen(monkeypatch, {"english_oak": 9.0, "olive": 0.0}, narrow=True)
-    assert found.leaf == "willow" and found.told == ("The photo shows long, narrow leaves: it wears those of a willow; `--leaf` says otherwise.",)
+    told = "The photo shows long, narrow leaves: it wears those of a willow; `--leaf` says otherwise."
+    assert (found.leaf, found.warnings(None), found.warnings("oak")) == ("willow", (told,), ())
 
 
 def test_what_is_named_counts(monkeypatch):
     assert chosen(monkeypatch, {"english_oak": 9.0}, template="olive", narrow=True) == Choice(ReadingOptions(template="olive"))
     assert chosen(monkeypatch, {"olive": 1.0}, limbs=3, height=3.5).reading.height == 3.5
     assert dataclasses.replace(ReadingOptions(), template="none") == chosen(monkeypatch, {}, template="none").reading
+
+
+def test_a_tree_in_blossom_wears_flowers_those_of_its_species_where_that_is_sure(monkeypatch):
+    monkeypatch.setattr(photo_choice, "is_in_blossom", lambda photo, leafy: True)
+    found = chosen(monkeypatch, {"english_oak": 1.0, "olive": 0.9})
+    assert found.leaf == "cherry_blossom" and found.warnings(None)[1] == "The photo shows a tree in blossom: instead of leaves it wears cherry_blossom; `--leaf` says otherwise."
+    assert chosen(monkeypatch, {"apple": 9.0, "olive": 0.0}).leaf == "apple_blossom"
+    assert chosen(monkeypatch, {"apple": 9.0, "olive": 0.0}, bare=True).leaf is None

@@ -42,7 +42,7 @@ class Growth:
         for number, (one, at) in enumerate(self._each(wish, found, foliages, watch)):
             key = tree_key(root_key(wish.asked.seed), number)
             trees.append((key, leafy(to_finish(one, key, wish.tree, self._templates(wish), at, wish.wanted), watch)))
-            told += [*one.seen.photo.warnings, *one.marked.warnings, *one.foliage.warnings, *one.drawn.warnings, *trees[-1][1].warnings]
+            told += [*one.seen.photo.warnings, *one.marked.warnings, *one.foliage.warnings, *one.choice.warnings(wish.tree.leaf), *one.drawn.warnings, *trees[-1][1].warnings]
         if found.remark:
             told.append(found.remark)
         drawn = self.grown[1][0][0].drawn
