@@ -22,7 +22,7 @@ AHEAD = 0.4
 WINDOW = 5  # places, half a circle apart
 _BESIDE = 2.0 / 640.0  # of the photo's longer side, at least two pixels: so far from its line a limb's middle may lie
 _FINEST = 0.5  # pixels between places across
-_ALONG = 3  # places averaged along a limb
+_ALONG = 5  # places averaged along a limb
 _LEAST = 0.5  # pixels, half a width
 
 
