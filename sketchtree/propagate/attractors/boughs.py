@@ -6,13 +6,13 @@ along the wood it takes the one that costs least,
 
     |q − p| (_TURN − cos)        cos: between the direction of the limb at p and the way to the attractor q
 
-of which the way is seen in foliage and free of thick limbs, and goes as a twig does (`ends`), leaving its limb at a fork's angle.
+of which the way is seen in foliage and free of thick limbs, and goes as a twig does (`ends`).
 """
 
 import numpy as np
 from jaxtyping import Float, Int
 
-from sketchtree.propagate.attractors.ends import feet
+from sketchtree.propagate.attractors.ends import curves, feet
 from sketchtree.propagate.attractors.state import State
 
 SPANS = (0.7, 0.5, 0.36, 0.26)  # of half the width of the crown: from how far off a bough comes, round after round
@@ -23,8 +23,7 @@ _TURN = 1.7  # how much way a turn is worth: more is less
 _EVERY = 3  # places along the wood: one in so many is looked at
 _CHOICES = 10  # places that are looked at closely
 _PIECES = 6  # of a bough
-_FORK = 0.6  # of the length, that a bough goes the way it left
-_SPLAY = 1.0  # tangent of the angle between a limb and a bough that leaves it, at most
+_BENDS = 0.6  # of its length: how far a bough goes the way it left
 _STEEP = 0.1  # cosine between the limb and the way, at least: nothing turns back
 
 
@@ -65,22 +64,10 @@ def _way(state: State, goal: Float[np.ndarray, " 3"]) -> tuple[int, float, Float
     cost = np.where((cosine > _STEEP) & state.target.inside(foot), length * (_TURN - cosine), np.inf)
     best = np.argsort(cost, kind="stable")[:_CHOICES]
     best = best[np.isfinite(cost[best])]
-    point = _curves(foot[best], heading[best], vector[best])
+    point = curves(foot[best], heading[best], vector[best], _PIECES, _BENDS)
     free = state.target.inside(point[:, 1:]).all(axis=1)
     for k in np.flatnonzero(free):
         pieces = np.full(_PIECES, best[k])
         if not state.thick.struck(point[k, :-1], point[k, 1:], limb[pieces], arc[pieces]).any():
             return int(limb[best[k]]), float(arc[best[k]]), point[k]
     return None
-
-
-def _curves(foot: Float[np.ndarray, "way 3"], heading, vector) -> Float[np.ndarray, "way point 3"]:
-    """Curves that leave at a fork's angle and end at the goal."""
-    length = np.linalg.norm(vector, axis=1, keepdims=True)
-    ahead = (vector * heading).sum(axis=1, keepdims=True)
-    aside = vector - ahead * heading
-    wide = np.linalg.norm(aside, axis=1, keepdims=True)
-    leave = heading + aside / np.maximum(wide, 1e-300) * np.minimum(wide / np.maximum(ahead, 1e-300), _SPLAY)
-    leave /= np.linalg.norm(leave, axis=1, keepdims=True)
-    t = np.linspace(0.0, 1.0, _PIECES + 1)[:, None]
-    return foot[:, None] + 2 * t * (1 - t) * (_FORK * length * leave)[:, None] + t**2 * vector[:, None]

@@ -139,7 +139,7 @@ class Engine:
         return within_foliage(at, self.library, state.target, state.home, state.axes, light, _PIECE * self.leaf)
 
     def _best(self, attractors: Attractors, open_: list[Choice]) -> tuple[Subtree, Placed] | None:
-        """Of the choices left, that with the highest gain once it is pruned by what stands already; None where none is worth it. What has once been found is the most
+        """Of the choices left, that with the highest gain, less its wood, once it is pruned by what stands already; None where none is worth it. What has once been found is the most
         that will be found later, since the tree only comes nearer: so a choice is looked at anew only while it may still be the best."""
         best, gain = None, _LEAST * self.leaf
         for choice in sorted(open_, key=lambda one: (-one.most, one.number, one.flat)):
@@ -151,7 +151,7 @@ class Engine:
         return best
 
     def _close(self, attractors: Attractors, flat: int, at: Placed) -> tuple[float, Subtree, Placed]:
-        """(gain, subtree, placement) of one placement, without branches too near to others or through thick limbs."""
+        """(gain less what its wood costs, subtree, placement) of one placement, without branches too near to others or through thick limbs."""
         subtree, turn = np.unravel_index(flat, at.there.shape[:2])
         one = Placed(at.stretch, at.middle, at.start[[subtree], turn][None][:, 0][:, None], at.end[[subtree], turn][:, None], at.there[[subtree], turn][:, None])
         part, stretch = self.library.only(int(subtree)), at.stretch
@@ -159,7 +159,9 @@ class Engine:
         at_limb = stretch.low + part.share[0] * stretch.length
         clear &= ~self.state.thick.struck(one.start[0, 0], one.end[0, 0], np.full(len(clear), stretch.limb), at_limb)
         one = replace(one, there=whole_branches(one.there & clear, part))
-        return float(gains(attractors, one, self.library.reach * stretch.length)[0, 0]), part.subtrees[0], one
+        gain = gains(attractors, one, self.library.reach * stretch.length)[0, 0]
+        wood = np.linalg.norm((one.end - one.start)[one.there], axis=1).sum()
+        return float(gain - self.wanted.thrift * wood), part.subtrees[0], one
 
     def _is_clear(self, one: Placed, beyond: Subtree) -> Bool[np.ndarray, " piece"]:
         """Which pieces of the only subtree placed are far enough from other wood; the first of a branch need only lead away from it."""

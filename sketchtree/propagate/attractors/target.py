@@ -19,7 +19,7 @@ from scipy import ndimage, signal
 from sketchtree.errors import OptionError
 
 _FINEST = 600  # pixels, the longer side of the mask at most that growth looks at: an eighth of a leaf
-_DENSE = (0.6, 0.5, 0.4, 0.3)  # of a disc as large as a leaf is long, is foliage where leaves are dense
+_DENSE = (0.5, 0.4, 0.3)  # of a disc as large as a leaf is long, is foliage where leaves are dense
 _KEPT = 0.98  # of the foliage, within a leaf of it
 _STEPS = 4  # places looked at along a piece of wood
 
@@ -86,7 +86,7 @@ class Target:
         return Target(mask | kept, self.left - steps * self.pixel, self.top + steps * self.pixel, self.pixel)
 
     def dense(self, leaf: float) -> "Target":
-        """Where leaves of this length are at home: what is foliage for the most part for a leaf's length round it. The share asked for is the highest of `_DENSE` at which `_KEPT` of the foliage lies
+        """Where leaves of this length are at home: what is foliage for half or more for a leaf's length round it. The share asked for is the highest of `_DENSE` at which `_KEPT` of the foliage lies
         within a leaf of what is left, so that branchlets that stand by themselves stay."""
         steps = int(np.ceil(leaf / self.pixel)) + 1
         mask = np.pad(self.mask, steps)

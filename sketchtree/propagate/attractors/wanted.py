@@ -26,6 +26,7 @@ class Wanted:
     candidates: str = "need"  # which branches may be replaced next: where attractors are far (need) or thick ones (radius, the paper's)
     rise: float = 0.15  # how much new branches bow to the light, ≥ 0; 0: not at all (the paper's)
     apart: float = 0.15  # of its length: a new branch keeps so far from others, beyond its foot
+    thrift: float = 0.3  # metres of energy that a metre of wood must gain, ≥ 0: else a limb near which little is far is replaced till it is a broom; 0: none (the paper's)
     boughs: bool = True  # to parts of the crown that are far from all wood a bough grows first; with attractors in 3D that fill the foliage, and only where these drive
     twigs: bool = True  # what is still farther than a leaf is long grows twigs in the end
     in_space: int = 2500  # attractors in 3D, about, of `volume`
@@ -44,6 +45,8 @@ class Wanted:
             raise OptionError(f"leaf_length is {self.leaf_length:g}, but must be above zero.", remedy="Give metres, or nothing: then it goes by the tree's height.")
         if not (np.isfinite([self.rise, self.apart]).all() and min(self.rise, self.apart) >= 0):
             raise OptionError(f"rise is {self.rise:g} and apart {self.apart:g}, but neither may be below zero.", remedy="0 switches either off.")
+        if not (np.isfinite(self.thrift) and self.thrift >= 0):
+            raise OptionError(f"thrift is {self.thrift:g}, but may not be below zero.", remedy="0 switches it off.")
 
 
-PAPER = {"candidates": "radius", "replacements": 1, "depth": "joints", "axis": "trunk", "rise": 0.0, "boughs": False, "twigs": False}
+PAPER = {"candidates": "radius", "replacements": 1, "depth": "joints", "axis": "trunk", "rise": 0.0, "thrift": 0.0, "boughs": False, "twigs": False}

@@ -1,4 +1,4 @@
-"""Single twigs to what is still far: b(t) = (1 − t)² p + 2 t (1 − t) (p + c h) + t² q (`ends`)."""
+"""Single twigs to what is still far: b(t) = (1 − t)² p + 2 t (1 − t) (p + c u) + t² q (`ends`)."""
 
 import numpy as np
 import pytest
@@ -22,7 +22,10 @@ def twigs(place):
 def test_eq_a_twig_is_a_quadratic_curve_from_its_limb_to_the_attractor():
     _, at, (point,) = twigs([[0.6, 2.4, 0.3]])
     foot, heading, target = np.array([0.0, 1.0 + at[0], 0.0]), np.array([0.0, 1.0, 0.0]), np.array([0.6, 2.4, 0.3])
-    control = foot + 0.5 * np.linalg.norm(target - foot) * heading
+    aside = (target - foot) * [1.0, 0.0, 1.0]
+    wide = np.linalg.norm(aside)
+    leave = heading + min(wide / (target - foot)[1], 1.0) * aside / wide
+    control = foot + 0.5 * np.linalg.norm(target - foot) * leave / np.linalg.norm(leave)
     t = np.linspace(0, 1, ends.PIECES + 1)[:, None]
     np.testing.assert_allclose(point, (1 - t) ** 2 * foot + 2 * t * (1 - t) * control + t**2 * target, atol=1e-9)
 
