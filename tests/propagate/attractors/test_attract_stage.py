@@ -183,6 +183,7 @@ def test_candidates_by_need_are_those_near_which_attractors_are_far():
     ({"depth": "deep"}, "depth is 'deep', but must be volume or joints. volume is what is taken by default."),
     ({"replacements": 0}, "replacements is 0, but must be 1 or more. Give a positive number."),
     ({"leaf_length": 0.0}, "leaf_length is 0, but must be above zero. Give metres, or nothing: then it goes by the tree's height."),
+    ({"thrift": -1.0}, "thrift is -1, but may not be below zero. 0 switches it off."),
     ({"rise": -1.0}, "rise is -1 and apart 0.15, but neither may be below zero. 0 switches either off."),
 ])  # fmt: skip
 def test_a_wrong_choice_is_named(wanted, message):

@@ -58,3 +58,19 @@ def test_what_can_not_be_a_target_is_named(made, message):
     with pytest.raises(OptionError) as error:
         made()
     assert str(error.value) == message
+
+
+def test_leaves_are_at_home_where_most_of_what_is_round_them_is_foliage():
+    mask = np.zeros((60, 80), bool)
+    mask[10:50, 5:50] = True
+    mask[25, 50:56] = True  # a hair
+    dense = Target(mask, 0.0, 60.0, 1.0).dense(4.0)
+    at = lambda x, y: bool(dense.inside(np.array([x, y])))  # noqa: E731
+    assert at(25.0, 30.0) and at(48.5, 30.0) and not at(55.5, 34.5) and not at(58.0, 30.0)
+
+
+def test_foliage_that_is_dense_nowhere_is_all_home():
+    mask = np.zeros((60, 80), bool)
+    mask[::12, ::12] = True
+    target = Target(mask, 0.0, 60.0, 1.0)
+    assert target.dense(4.0) is target
