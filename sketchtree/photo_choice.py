@@ -32,8 +32,8 @@ from sketchtree.sketch.graph import SketchGraph
 from sketchtree.templates.matching.match import Match, match
 from sketchtree.templates.store.database import Database
 
-SURE = 0.9  # probability among trees of its family: ten limbs of a poplar make a horse chestnut at .82, eleven of an oak make an oak at .96
-LIMBS = 8  # fewer say too little: three of a hickory make an olive at .51, five of a spruce a cedar at .68
+SURE = 0.97  # probability among trees of its family: a poplar has made a horse chestnut at .82, a peach an olive at .94; a vase-shaped elm makes an elm at .997
+LIMBS = 8  # fewer say too little: seven of a hickory make an olive at .81, four of an apple a weeping beech at .91
 NEUTRAL = {"broadleaf": "small_leaved_lime", "conifer": "norway_spruce"}
 NARROW_LEAF, FLOWER = "willow", "cherry_blossom"
 PLAUSIBLE = 10.0  # metres: half of a park's elm, three times an orchard's peach
