@@ -12,6 +12,7 @@ from jaxtyping import Array, Key
 from sketchtree.dressing import Dress
 from sketchtree.foliage.blossom import blossom
 from sketchtree.foliage.leaves import Leaves, select
+from sketchtree.foliage.models import leaf_model
 from sketchtree.foliage.populate import populate
 from sketchtree.foliage.twigs import wood_pieces
 from sketchtree.foliage.wear import wear_of
@@ -95,7 +96,7 @@ class PhotoLeafing:
         if self.wanted.colours != "photo" or self.seen.photo.is_grey or len(leaves) == 0:
             return leaves
         coloured = self.seen.coloured(leaves)
-        return replace(coloured, seen=without_shadows(coloured.seen))
+        return replace(coloured, seen=without_shadows(coloured.seen, flower=leaf_model(leaves.model).flower))
 
 
 def _some(leaves: Leaves, share: float, draw: np.random.Generator) -> Leaves:
