@@ -1,8 +1,9 @@
 """Where does a photo show foliage that no leaf of the tree covers yet, and which twig bears one there?
 
 Ours. Twigs bear most leaves where the light is. A leaf more is put with its middle over a place of the foliage that is open (at random, as likely as it is open), its foot on one of the
-NEAR twigs that are seen nearest to there, within REACH of a leaf's length, whichever depth they have; its face is turned to the light, as every leaf's is (`foliage.populate`). It is kept
-by the rule for every leaf: most of it in the foliage, and more of what it adds inside than outside. After ROUNDS of this what is still open has no twig near, or is finer than a leaf.
+NEAR twigs that are seen nearest to there, within REACH of a leaf's length, whichever depth they have; its face is turned to the light, as every leaf's is (`foliage.populate`). It
+is kept by the rule for every leaf: most of it in the foliage, and more of what it adds inside than outside. After ROUNDS of this what is still open has no twig near, or is finer than
+a leaf.
 
     d = (u sin τ, ± cos τ)        sin τ = 2 g / l, at least FLATTEST        u: on the page, from foot to place    g: how far that is    l: the leaf's length
 """

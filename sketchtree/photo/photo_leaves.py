@@ -1,9 +1,9 @@
 """Which leaves of a grown tree does the photo confirm, and in which colours does it show them (§4)?
 
-"We keep only those leaves that are projected inside the foliage region in the input image. Leaves are textured according to their projected position." A leaf
-looks through the page at its middle. Its colour is the mean of the pixels within REACH of a leaf from there that show a leaf, or of the nearest such pixels (ours). A pixel shows a leaf where
-its colour is likelier a leaf's than that of what is between the leaves, is not most of the way to the latter (a blossom no broader than a pixel is half sky), and is not on a limb that
-was traced: so no leaf is as blue as the sky, or as brown as the wood.
+"We keep only those leaves that are projected inside the foliage region in the input image. Leaves are textured according to their projected position." A leaf looks through the page at
+its middle. Its colour is the mean of the pixels within REACH of a leaf from there that show a leaf, or of the nearest such pixels (ours). A pixel shows a leaf where its colour is likelier
+a leaf's than that of what is between the leaves, is not most of the way to the latter (a blossom no broader than a pixel is half sky), and is not on a limb that was traced: so no leaf is
+as blue as the sky, or as brown as the wood.
 
 A photo's colours have its light and shadows in them, and whoever draws the tree throws others. So half of the shadows are taken out, and leaves are as bright as in light of their own
 (ours; Y the lightness of a leaf, Ȳ that of the brighter ones, c and c̄ the colours at lightness 1, of the leaf and of the brighter ones):
