@@ -4,9 +4,9 @@ Where leaves hide all limbs but a few, a lobe of the crown may be many branches 
 boughs go there first, in rounds from coarse to fine: of the attractors in space that are farther from the tree than a span, the farthest in every cell of a grid as large gets one. From all places
 along the wood it takes the one that costs least,
 
-    |q − p| (_TURN − cos)        cos: between the direction of the limb at p and the way to the attractor q
+    |q − p| (_TURN − cos_limb − _LIGHT cos_light)        angles between the way to the attractor q and the direction of the limb at p, or the light at q
 
-of which the way is seen in foliage and free of thick limbs, and goes as a twig does (`ends`).
+so that a bough comes from within and doesn't run along the outside of the crown; of which the way is seen in foliage and free of thick limbs, and goes as a twig does (`ends`).
 """
 
 import numpy as np
@@ -19,7 +19,8 @@ SPANS = (0.7, 0.5, 0.36, 0.26)  # of half the width of the crown: from how far o
 LEAST = 5.0  # leaf lengths: subtrees do what is nearer
 _AGAIN = 2  # rounds of one span: a bough may grow on another
 _CELL = 1.2  # spans: one bough in such a cell and round
-_TURN = 1.7  # how much way a turn is worth: more is less
+_TURN = 2.3  # how much way a turn is worth: more is less
+_LIGHT = 0.6  # how much coming towards the light counts, beside going on as the limb does
 _EVERY = 3  # places along the wood: one in so many is looked at
 _CHOICES = 10  # places that are looked at closely
 _PIECES = 6  # of a bough
@@ -61,7 +62,7 @@ def _way(state: State, goal: Float[np.ndarray, " 3"]) -> tuple[int, float, Float
     vector = goal - foot
     length = np.maximum(np.linalg.norm(vector, axis=1), 1e-300)
     cosine = (vector * heading).sum(axis=1) / length
-    cost = np.where((cosine > _STEEP) & state.target.inside(foot), length * (_TURN - cosine), np.inf)
+    cost = np.where((cosine > _STEEP) & state.target.inside(foot), length * (_TURN - cosine - _LIGHT * (vector @ state.light(goal)) / length), np.inf)
     best = np.argsort(cost, kind="stable")[:_CHOICES]
     best = best[np.isfinite(cost[best])]
     point = curves(foot[best], heading[best], vector[best], _PIECES, _BENDS)
