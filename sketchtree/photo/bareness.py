@@ -12,9 +12,9 @@ from scipy import ndimage
 
 GAP = 0.06  # of the crown's size (√area): gaps between a bare tree's twigs
 WINDOW = 0.04  # of it, a side: several twigs wide, and narrower than a bough with its leaves
-BARE = 0.65  # eight bare trees of photos have .24-.55, eleven in leaf .76-1
+BARE = 0.65  # six photos of bare trees have .24-.55 (any of three seeds), eleven of trees in leaf .76-1
 HALF = 0.5
-LIMB = 0.04  # no trunk is as thick
+LIMB = 0.04  # half a stout trunk
 _FINE = 250  # pixels: a crown of twice that size is looked at in squares of two pixels, and so on
 
 
