@@ -1,6 +1,6 @@
 """What is taken off a subtree that replaces a branch (Tan et al. 2008, §3.1, "Branch pruning")?
 
-    beyond   what leaves the foliage as the page shows it ends before it does; a branch of which less than two pieces are left is removed
+    beyond   what leaves the foliage as the page shows it ends before it does, and where leaves are at home (`Target.dense`; ours); a branch of which less than two pieces are left is removed
     deep     what goes farther out, before or behind, than the foliage revolved about its axes (`revolved`) ends likewise, unless it starts as far out (ours; `DEEP`)
     back     what grows against the light, back through the tree, is removed (ours; `BACK`)
     close    new branches too near to branches that are there are removed, from where they come too near
@@ -23,7 +23,7 @@ BACK = -0.3  # cosine between a piece and the light, at least
 
 
 def within_foliage(at: Placed, library: Library, target: Target, home: Target, axes: Axes, light: Float[np.ndarray, " 3"], shortest: float) -> Placed:
-    """The same without what leaves the foliage on the page or in depth or grows back, and without stumps and pieces shorter than `shortest` (metres)."""
+    """The same without what leaves the foliage on the page or in depth or grows back, and without stumps and pieces shorter than `shortest` (metres). Wood may go through `target` and end in `home`."""
     vector = at.end - at.start
     length = np.linalg.norm(vector, axis=-1)
     middle = 0.5 * (at.start + at.end)

@@ -47,13 +47,13 @@ class State:
         self.wood, self.wanted, self.leaf, self.key = wood, wanted, leaf, keys.draw_key(key)
         seen = target.coarser()
         self.target = seen.closed(leaf)  # wood may go through
-        self.home = seen.dense(leaf)  # wood may end in
+        self.home = seen.dense(leaf) if wanted.dense else self.target  # wood may end in
         trunk = wood.trunk()
         self.axes = Axes.about_trunk(self.target, trunk) if wanted.axis == "trunk" else Axes.about_crown(self.target, trunk)
         rows = np.flatnonzero(seen.mask.any(axis=1))
         self.hearth = float(seen.top - (0.85 * rows[-1] + 0.15 * rows[0]) * seen.pixel)  # where the crown comes from, metres up
         self.thick = Thick.of(wood, leaf)
-        self.image = Attractors.at(image_attractors(self.home, leaf))
+        self.image = Attractors.at(image_attractors(self.home if wanted.dense else seen, leaf))
         self.space = Attractors.at(self._in_space())
         self.stretches: list[Stretch] = []
         self.parts: list[np.ndarray] = []  # places along each limb

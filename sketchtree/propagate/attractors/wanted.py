@@ -27,6 +27,7 @@ class Wanted:
     rise: float = 0.15  # how much new branches bow to the light, ≥ 0; 0: not at all (the paper's)
     apart: float = 0.15  # of its length: a new branch keeps so far from others, beyond its foot
     thrift: float = 0.3  # metres of energy that a metre of wood must gain, ≥ 0: else a limb near which little is far is replaced till it is a broom; 0: none (the paper's)
+    dense: bool = True  # wood ends where half of what is round it for a leaf's length is foliage; False: anywhere in the foliage, its gaps closed (the paper's)
     boughs: bool = True  # to parts of the crown that are far from all wood a bough grows first; with attractors in 3D that fill the foliage, and only where these drive
     twigs: bool = True  # what is still farther than a leaf is long grows twigs in the end
     in_space: int = 2500  # attractors in 3D, about, of `volume`
@@ -49,4 +50,4 @@ class Wanted:
             raise OptionError(f"thrift is {self.thrift:g}, but may not be below zero.", remedy="0 switches it off.")
 
 
-PAPER = {"candidates": "radius", "replacements": 1, "depth": "joints", "axis": "trunk", "rise": 0.0, "thrift": 0.0, "boughs": False, "twigs": False}
+PAPER = {"candidates": "radius", "replacements": 1, "depth": "joints", "axis": "trunk", "rise": 0.0, "thrift": 0.0, "dense": False, "boughs": False, "twigs": False}
