@@ -83,7 +83,7 @@ class PhotoLeafing:
     def _worn(self, tree: TreeSkeleton, dress: Dress, key, density: float) -> Leaves:
         """The leaves that the twigs bear, where their middles are seen in the foliage."""
         if dress.leaf == RECTANGLE:
-            return self.seen.confirmed(paper_leaves(tree, key=key, density=density, most=2 * MOST))
+            return self.seen.confirmed(paper_leaves(tree, key=key, density=density, most=MOST))
         how = {"model": dress.leaf, "season": dress.season, "arrangement": self.wanted.leaf_arrangement}
         return self.seen.confirmed(populate(tree, dress.habit, key=key, density=density, max_leaves=2 * MOST, **how))
 
