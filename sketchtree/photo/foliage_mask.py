@@ -34,6 +34,7 @@ from sketchtree.photo.greenness import LEAF_COMPONENTS, greenest, greenness
 from sketchtree.photo.marked import Marked
 from sketchtree.photo.photo import Photo
 from sketchtree.photo.pixels import Pixels
+from sketchtree.photo.standing_out import LEAST, step_at_edge
 from sketchtree.photo.surroundings import Surroundings, learn_surroundings, rarely_around, ring_around
 
 Rule = Literal["contrast", "paper"]
@@ -47,6 +48,7 @@ _FEW = 0.08  # share of what the stroke surrounds that must be rare around it: t
 _OWN = 0.33  # share of the crown with no other trees beside it that is enough to tell whether it is bare
 _LEAST = 0.01  # share of the region that must be foliage
 _PALE = 0.02  # score of the greenest component that is hardly green or red
+_GREEN = 0.06  # score of a colour that may be a leaf's
 _SAMPLE = 20_000
 
 
@@ -129,7 +131,7 @@ def _by_contrast(rgb, inside, region, marked: Marked, bare: bool | None, *, key:
     around = learn_surroundings(own, near, region.shape, size, key=stage_key(key, "around"))
     rare = rarely_around(around, own, near, TAIL)
     if around.leafy.all() or len(rare) < _FEW * len(own):
-        if around.leafy.any() or greenness(np.median(own.colours(), axis=0)) > 0.06:
+        if around.leafy.any() or greenness(np.median(own.colours(), axis=0)) > _GREEN:
             return _Found(region.copy(), warnings=("The crown has the colours of what is around it: all that its stroke surrounds was taken for foliage.",))
         raise _nothing(marked, "it has the colours of what is around it, and none of them is a leaf's")
     def mask_before(background: Surroundings, rare) -> Bool[np.ndarray, "row column"]:
@@ -142,7 +144,17 @@ def _by_contrast(rgb, inside, region, marked: Marked, bare: bool | None, *, key:
     own_place = inside & ~theirs
     bare = looks_bare(mask, own_place if own_place.sum() > _OWN * inside.sum() else inside) if bare is None else bare
     rare = rarely_around(neighbours, own, near, TAIL) if bare and (region & theirs).any() else []
-    return _Found(mask_before(neighbours, rare) if len(rare) >= _FEW * len(own) else mask, bare=bare)
+    mask = mask_before(neighbours, rare) if len(rare) >= _FEW * len(own) else mask
+    return _Found(mask, warnings=() if bare else _doubts(rgb, mask, region, marked), bare=bare)
+
+
+def _doubts(rgb, mask, region, marked: Marked) -> tuple[str, ...]:
+    """What to tell of foliage that hardly stands out; what has no leaf's colour either is none. Raises SketchError."""
+    if not mask.any() or step_at_edge(rgb, mask, float(np.sqrt(region.sum()))) >= LEAST:
+        return ()
+    if greenness(np.median(rgb[mask], axis=0)) < _GREEN:
+        raise _nothing(marked, "it goes on beyond the stroke as it is within, like sky or ground")
+    return ("What the crown's stroke surrounds hardly stands out from what is around it; it was taken for foliage.",)
 
 
 def _cut(rgb: UInt8[np.ndarray, "row column 3"], region, zero, one, smoothness: float) -> Bool[np.ndarray, "row column"]:

@@ -178,3 +178,26 @@ def test_an_unknown_rule_is_refused():
     with pytest.raises(OptionError) as error:
         found(photo, rule="magic")
     assert str(error.value) == "There is no rule of foliage 'magic'. Say one of: paper, contrast."
+
+
+def plain(colour, slope=0.0, grain=4.0) -> Photo:
+    """A picture of nothing but one colour, lighter by `slope` levels from its top to its foot."""
+    rise = slope * np.linspace(-0.5, 0.5, 160)[:, None, None]
+    return Photo(np.clip(np.array(colour) + rise + np.random.default_rng(0).normal(0, grain, (160, 160, 3)), 0, 255).astype(np.uint8))
+
+
+@pytest.mark.parametrize(("colour", "slope"), [(SKY, 60.0), ((225, 228, 232), 20.0), ((120, 120, 118), 40.0)])
+def test_a_crown_round_nothing_but_sky_snow_or_stone_is_refused(colour, slope):
+    """A sky is lighter towards the horizon: inside the stroke it has colours that are rare around it, and yet it is no tree."""
+    with pytest.raises(SketchError, match="there is no foliage inside it: it (goes on beyond the stroke|has the colours of what is around it)"):
+        found(plain(colour, slope))
+
+
+def test_what_hardly_stands_out_but_might_be_leaves_is_taken_and_told():
+    photo = plain(MEADOW, 70.0, grain=9.0)
+    assert any("hardly stands out" in told or "has the colours of what is around it" in told for told in found(photo).warnings)
+
+
+@pytest.mark.parametrize("leaf", [LEAF, BLOSSOM])
+def test_a_crown_before_the_sky_stands_out(leaf):
+    assert not found(painted(leaf)[0]).warnings
