@@ -29,7 +29,7 @@ LONGEST = 0.016  # of the tree's height; of a narrow leaf as much more as gives 
 BROAD = 0.35
 STEP = 1.15  # between two lengths that are tried
 _HARDLY = 0.01  # of overlap
-_FILLED, _AIMED = 0.8, 0.5  # of what is open can be filled, if there are leaves enough; of a leaf that fills, lies where it is open
+_FILLED, _AIMED = 0.65, 0.3  # of what is open can be filled, if there are leaves enough; of a leaf that fills, lies where it is open
 
 
 @dataclass(frozen=True, eq=False)
