@@ -49,11 +49,11 @@ def grown(case: Case, manner: str) -> tuple[Propagation, float]:
     return found, time.process_time() - began
 
 
-def measured(case: Case, found: Propagation) -> dict[str, float]:
-    """The bars of one tree."""
+def measured(case: Case, tree: TreeSkeleton, grew) -> dict[str, float]:
+    """The bars of one tree that the case has become; `grew`: the rows that are new."""
     leaf = LEAF * max(case.tree.height, case.target.highest - float(case.tree.tip[case.tree.is_base, 1].min()))
-    target, tree = case.target.coarser(), found.skeleton
-    wood, new = _samples(tree, 0.25 * leaf), _samples(tree, 0.25 * leaf, found.generation > 0)
+    target = case.target.coarser()
+    wood, new = _samples(tree, 0.25 * leaf), _samples(tree, 0.25 * leaf, grew)
     new = new if len(new) else wood
     pad = int(np.ceil(3 * leaf / target.pixel))
     mask = np.pad(target.mask, pad)
@@ -168,7 +168,7 @@ def main(argv=None) -> None:
             continue
         for manner in asked.manner or MANNERS:
             found, seconds = grown(case, manner)
-            of = measured(case, found)
+            of = measured(case, found.skeleton, found.generation > 0)
             its = next(iter(getattr(found, "grown", {}).values()), None)
             fall = ["" if its is None else f"{one[0]:.0f} → {one[-1]:.0f}" for one in ((its.course.image, its.course.space) if its else ((), ()))]
             print(f"{case.name:20} {manner:11} {of['near']:5.3f} {of['IoU']:5.3f} {of['deep']:5.2f} {of['gap']:4.0f} {of['side']:5.2f} {fall[0]:>12} {fall[1]:>12} {of['segments']:8} {seconds:5.1f}", flush=True)

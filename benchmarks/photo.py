@@ -39,6 +39,7 @@ from sketchtree.photo.read_strokes import read_strokes
 from sketchtree.photo.trace.palette import Palette
 from sketchtree.photo.wanted import LIBRARIES, PhotoOptions
 from sketchtree.photo_tree import PhotoModel, PhotoTree, photo_to_tree, target_of
+from sketchtree.skeleton import Kind
 from sketchtree.watch import Watch
 
 STROKES = Path(__file__).parent / "data" / "photo_strokes"
@@ -151,7 +152,7 @@ def bars(name: str, photo: Photo, model: PhotoModel, seconds: dict[str, float]) 
     """Every bar of the first tree."""
     tree = model.trees[0]
     case = Case(name, tree.drawn.skeleton, target_of(tree.seen))
-    wood = measured_wood(case, tree.grown)
+    wood = measured_wood(case, tree.model.skeleton, tree.model.skeleton.kind == Kind.PROPAGATED)  # as it is written, without what crossed other limbs
     course = next(iter(tree.grown.grown.values())).course
     fall = {kind: line[-1] / line[0] if len(line) and line[0] > 0 else np.nan for kind, line in (("E2D", course.image), ("E3D", np.array(course.space) / np.maximum(course.in_space, 1)))}
     return {
