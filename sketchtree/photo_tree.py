@@ -39,6 +39,7 @@ from sketchtree.photo_choice import Choice, choose_for_photo
 from sketchtree.pipeline import Grown, TreeModel, finish
 from sketchtree.planting import tree_key
 from sketchtree.propagate.after.prune import Prune
+from sketchtree.propagate.attractors.lifted_within import lifted_within
 from sketchtree.propagate.attractors.stage import Attract, Attraction
 from sketchtree.propagate.attractors.target import Target
 from sketchtree.similarity import Similarity
@@ -208,6 +209,7 @@ def grow_in_photo(
         choice = choose_for_photo(photo, own, foliage, traced, graph, templates, reading, leafy=leafy, scaled=similarity is not None)
     drawn = draw_out_graph(sketch, graph, templates, key=key, options=choice.reading, similarity=similarity, watch=watch)
     seen = SeenFoliage(photo, foliage.mask, drawn.similarity, leafy)
+    drawn = dataclasses.replace(drawn, skeleton=lifted_within(drawn.skeleton, target_of(seen)))
     with watch("propagate"):
         stage = Attract(targets=target_of(seen), library=wanted.library, iterations=wanted.replacements, alternate=wanted.alternate, twigs=wanted.replacements > 0)
         grown = stage.run(drawn.skeleton, key=stage_key(key, "attract"), pulse=_pulse(watch))
