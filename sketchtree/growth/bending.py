@@ -14,11 +14,11 @@ Signs, and what is crossed with g, are lost in print: we turn the way a unit poi
 towards g for δ < 0 (they hang), as in Figure 8 from left to right. T R turns the unit about the world's axis (T ζ) × g, whatever
 frame it is written in, so the world's is used here; all that the unit bears turns with it.
 
-δ is the turn, degrees, from the foot to the tip of the branch that gives way most; unit i takes of it
+δ is the turn, degrees, on the way from the ground to a tip, for the tip in the middle of all (half give way more); unit i takes of it
 
-    δ_i(t) = δ · κ_i / K · s_i · L_i(t) / L_i(1)         κ_i = ℓ_i (1 − r_i / r_0) / √r_i
+    δ_i(t) = δ · κ_i / K · s_i · L_i(t) / L_i(1)         κ_i = ℓ_i (1 − r_i / r_0) / r_i^¼
 
-    K     the largest sum of κ on a way from the ground to a tip;  r_0  radius at the ground: the trunk hardly bends, thin wood most
+    K     the median, over all tips, of the sum of κ from the ground;  r_0  radius at the ground: the trunk hardly bends, thin wood most
     L     metres of wood at or beyond the unit at time t: a unit bends as it comes to bear, so nothing ever jumps
     s_i   min(1, sin of the angle to the vertical / sin 20°), and no unit turns past the vertical
 
@@ -31,22 +31,23 @@ from jaxtyping import Float
 from sketchtree.growth.layers import Layers
 from sketchtree.growth.straight import radius_at_start
 from sketchtree.skeleton import Kind, TreeSkeleton
-from sketchtree.traverse import generations, sum_from_root
+from sketchtree.traverse import generations, is_tip, sum_from_root
 
 LEAST, MOST = -60.0, 60.0  # degrees
 _STEEP = np.sin(np.radians(20.0))
 
 
 def yielding(tree: TreeSkeleton) -> Float[np.ndarray, " segment"]:
-    """κ_i / K of every row of a tree without curve points: which share of δ it takes, 0-1."""
+    """κ_i / K of every row of a tree without curve points: which share of δ it takes."""
     thick = 0.5 * (radius_at_start(tree) + tree.radius)
     ground = np.array(tree.radius)
     for rows in generations(tree.parent)[1:]:
         ground[rows] = ground[tree.parent[rows]]
-    share = tree.length * np.clip(1.0 - thick / ground, 0.0, 1.0) / np.sqrt(thick)
+    share = tree.length * np.clip(1.0 - thick / ground, 0.0, 1.0) / thick**0.25
     share[tree.kind == int(Kind.ROOT)] = 0.0
-    most = sum_from_root(tree.parent, share).max(initial=0.0)
-    return share / most if most > 0 else share
+    ways = sum_from_root(tree.parent, share)[is_tip(tree.parent)]
+    middle = float(np.median(ways[ways > 0])) if (ways > 0).any() else 1.0
+    return share / middle
 
 
 def bent(
