@@ -1,0 +1,89 @@
+"""Which pixels are the trunk? Those at least half opaque, of one connected piece.
+
+Pieces are counted over all eight neighbours, so that a twig one pixel wide holds together. Kept is the piece that holds the root, or else the largest; the others are left out, and a warning says how
+many. Holes of less than `SMALL_HOLE` of the piece, or too narrow for a circle of `NARROW_HOLE` pixels, are filled; a warning says how many. Larger ones stay: a hole between two limbs that cross is seen through.
+"""
+
+from dataclasses import dataclass
+
+import numpy as np
+from jaxtyping import Bool, Float
+from scipy import ndimage
+
+from sketchtree.errors import OptionError, SketchError
+from sketchtree.photo.photo import at_pixels
+
+HALF = 0.5
+SMALL_HOLE = 0.002  # of the piece's area
+NARROW_HOLE = 1.5  # pixels: radius of the largest circle in it
+LEAST = 12  # pixels that a trunk has
+_EIGHT = np.ones((3, 3), bool)
+_NEAR = 0.05  # of the picture's longer side: how far beside the trunk a given root may lie
+
+
+@dataclass(frozen=True, eq=False)
+class Binary:
+    """One piece of trunk, with a border of background round it."""
+
+    level: Float[np.ndarray, "row column"]  # alpha within the piece and just round it, padded by one pixel; ½ is the contour
+    mask: Bool[np.ndarray, "row column"]  # the piece, padded alike
+    warnings: tuple[str, ...] = ()
+
+
+def binary_trunk(alpha: Float[np.ndarray, "row column"], root: tuple[float, float] | None = None) -> Binary:
+    """The piece of trunk in a matte; `root`: a point on it, pixels, y down. Raises SketchError if there is none."""
+    alpha = np.asarray(alpha, np.float64)
+    if alpha.ndim != 2 or not np.isfinite(alpha).all():
+        raise SketchError("A matte is one channel of finite numbers from 0 to 1.", remedy="Save it as a grey picture.")
+    padded = np.pad(np.clip(alpha, 0.0, 1.0), 1)
+    labels, count = ndimage.label(padded >= HALF, structure=_EIGHT)
+    sizes = np.bincount(labels.ravel(), minlength=count + 1)[1:]
+    if count == 0 or sizes.max() < LEAST:
+        raise SketchError("The matte is empty: nowhere is it half opaque.", remedy="Draw a foreground scribble along the trunk, or give another matte.")
+    chosen = 1 + int(np.argmax(sizes)) if root is None else _holding(labels, root)
+    told = _of_pieces(sizes, chosen)
+    mask, filled, holes = _without_small_holes(labels == chosen)
+    told += [f"{filled} small {'hole' if filled == 1 else 'holes'} in the trunk {'was' if filled == 1 else 'were'} filled."] if filled else []
+    told += [f"The trunk has {holes} {'hole' if holes == 1 else 'holes'}; the loop round each is cut where it is thinnest."] if holes else []
+    level = np.where(mask, np.maximum(padded, HALF + 1e-3), np.minimum(padded, HALF - 1e-3))
+    return Binary(level, mask, tuple(told))
+
+
+def _holding(labels, root) -> int:
+    """The piece that a given root lies on, or that is nearest to it."""
+    x, y = root
+    rows, columns = labels.shape[0] - 2, labels.shape[1] - 2
+    if not (0 <= x <= columns and 0 <= y <= rows):
+        raise OptionError(f"The root ({x:g}, {y:g}) lies outside the picture of {columns} × {rows} pixels.", remedy="Give a point on the trunk, in pixels from the top left.")
+    distance, nearest = ndimage.distance_transform_edt(labels == 0, return_indices=True)
+    row, column = min(int(y), rows - 1) + 1, min(int(x), columns - 1) + 1
+    if distance[row, column] > _NEAR * max(rows, columns):
+        raise OptionError(f"The root ({x:g}, {y:g}) lies {distance[row, column]:.0f} pixels beside the trunk.", remedy="Give a point on the trunk, in pixels from the top left.")
+    return int(labels[nearest[0, row, column], nearest[1, row, column]])
+
+
+def _of_pieces(sizes, chosen: int) -> list[str]:
+    others = len(sizes) - 1
+    if not others:
+        return []
+    share = (sizes.sum() - sizes[chosen - 1]) / sizes.sum()
+    what = "one other piece was" if others == 1 else f"{others} other pieces were"
+    return [f"The matte is in pieces: {what} left out ({share:.1%} of its pixels)."]
+
+
+def _without_small_holes(piece) -> tuple[Bool[np.ndarray, "row column"], int, int]:
+    """(the piece, how many holes were filled, how many stay)."""
+    labels, count = ndimage.label(~piece)  # four neighbours: what the piece joins diagonally, it parts
+    if count <= 1:
+        return piece, 0, 0
+    area = np.bincount(labels.ravel(), minlength=count + 1)
+    widest = ndimage.maximum(ndimage.distance_transform_edt(~piece), labels, np.arange(count + 1))
+    outside = labels[0, 0]
+    small = (area < SMALL_HOLE * piece.sum()) | (np.asarray(widest) < NARROW_HOLE)
+    small[[0, outside]] = False
+    return piece | small[labels], int(small.sum()), count - 1 - int(small.sum())
+
+
+def holds(binary: Binary, points: Float[np.ndarray, "point 2"]) -> Bool[np.ndarray, " point"]:
+    """Which points (pixels, y down) lie on the trunk."""
+    return at_pixels(binary.mask, np.asarray(points) + 1.0)

@@ -1,0 +1,68 @@
+"""Where is the middle of the trunk? The medial axis, without what one contour segment alone gives rise to.
+
+Points of the medial axis lie on edges of the Voronoi diagram of the contour's points: the two points that an edge parts are those where the largest circle round any point of it touches the contour. §II.2 removes
+"all skeleton points whose boundary points tangential to their maximal circle lie on the same contour segment" (Bai, Latecki & Liu 2007): an edge stays if its two points lie on different segments. What
+is left hangs together, and has one loop for each hole.
+"""
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+
+import numpy as np
+from jaxtyping import Bool, Float, Int
+from scipy.ndimage import map_coordinates
+from scipy.sparse import coo_array
+from scipy.sparse.csgraph import connected_components
+from scipy.spatial import Voronoi
+
+from sketchtree.errors import SketchError
+from sketchtree.trunk.binary import HALF, Binary
+
+_APART = 1e-3  # pixels: contour points of a grid stand on common circles, and are moved by so much
+
+
+@dataclass(frozen=True, eq=False)
+class Axis:
+    """The medial axis as a graph; pixels, y down."""
+
+    xy: Float[np.ndarray, "node 2"]
+    edges: Int[np.ndarray, "edge 2"]
+
+
+def medial_axis(binary: Binary, rings: Sequence[Float[np.ndarray, "point 2"]], segment: Int[np.ndarray, " point"]) -> Axis:
+    """The axis within the trunk; `segment` of every contour point, rings one after the other (None parts every point from every other)."""
+    sites = np.concatenate(rings)
+    diagram = Voronoi(sites + _scattered(len(sites)))
+    ends = np.array(diagram.ridge_vertices)
+    own = segment[diagram.ridge_points]
+    inside = np.zeros(len(diagram.vertices) + 1, bool)  # the last: at infinity
+    inside[:-1] = within(binary, diagram.vertices)
+    ends = ends[(own[:, 0] != own[:, 1]) & inside[ends].all(axis=1)]
+    if len(ends) == 0:
+        raise SketchError("The trunk has no skeleton: it is too small, or its contour has too few vertices.", remedy="Ask for more vertices, or give a larger picture.")
+    return _largest(diagram.vertices, ends)
+
+
+def within(binary: Binary, points: Float[np.ndarray, "point 2"]) -> Bool[np.ndarray, " point"]:
+    """Which points lie inside the contour."""
+    return map_coordinates(binary.level, points[:, ::-1].T + 0.5, order=1, cval=0.0) > HALF
+
+
+def _scattered(count: int) -> Float[np.ndarray, "point 2"]:
+    """Little steps that never repeat: fractional parts of multiples of two irrational numbers."""
+    k = np.arange(1, count + 1)[:, None]
+    return _APART * ((k * np.array([0.7548776662466927, 0.5698402909980532])) % 1.0 - 0.5)
+
+
+def _largest(xy, ends) -> Axis:
+    """The longest connected part, nodes numbered anew."""
+    used, edges = np.unique(ends, return_inverse=True)
+    edges, xy = edges.reshape(-1, 2), xy[used]
+    graph = coo_array((np.ones(len(edges)), (edges[:, 0], edges[:, 1])), shape=(len(xy), len(xy)))
+    count, part = connected_components(graph, directed=False)
+    if count > 1:
+        length = np.bincount(part[edges[:, 0]], np.hypot(*(xy[edges[:, 0]] - xy[edges[:, 1]]).T), minlength=count)
+        keep = part == np.argmax(length)
+        number = np.cumsum(keep) - 1
+        edges, xy = number[edges[keep[edges[:, 0]]]], xy[keep]
+    return Axis(xy, edges)

@@ -1,0 +1,101 @@
+"""A matte in, the trunk's skeleton out (§II.2, Algorithm 1), every step in order.
+
+    alpha → binary → contour → discrete curve evolution → edits by hand → segments → medial axis, pruned → rooted tree → blunt ends off → smooth lines up to the contour
+"""
+
+import numpy as np
+from jaxtyping import Float
+from scipy.spatial import KDTree
+
+from sketchtree.axes import NULL
+from sketchtree.errors import OptionError
+from sketchtree.trunk.binary import Binary, binary_trunk
+from sketchtree.trunk.blunt import without_blunt
+from sketchtree.trunk.edits import VertexEdits, Vertices, edited
+from sketchtree.trunk.ends import led_out, smooth, telling
+from sketchtree.trunk.evolution import evolve
+from sketchtree.trunk.medial import medial_axis, within
+from sketchtree.trunk.noise import noise_level, roughness
+from sketchtree.trunk.outline import Outline, outline
+from sketchtree.trunk.rooted import Rooted, chains, rooted
+from sketchtree.trunk.segments import convex, segments
+from sketchtree.trunk.trunk_skeleton import TrunkSkeleton
+
+_LEAST_RADIUS = 0.5  # pixels
+_PROTRUDES, _ROUGH = 2.0, 4.0  # pixels, and of the contour's roughness: what a branch stands out, at least
+_NEAR = 2.0  # pixels: a tip so near to a vertex that a person added is the one that was asked for
+
+
+def trunk_skeleton(
+    alpha: Float[np.ndarray, "row column"], *, vertices: int | None = None, edits: VertexEdits = VertexEdits(), root: tuple[float, float] | None = None
+) -> TrunkSkeleton:
+    """The skeleton of the trunk in a matte. `vertices`: m (None: by the contour's roughness); `root`: a point of the trunk where it stands (None: the lowest). Pixels, y down.
+
+    Raises SketchError for an empty matte, OptionError for m < 3 and for edits of what does not exist."""
+    asked = edits.vertices if vertices is None else vertices
+    if asked is not None and asked < 3:
+        raise OptionError(f"The contour can't be evolved to {asked} vertices: a polygon has at least 3.", remedy="Ask for 3 or more, or let the number be found.")
+    binary = binary_trunk(alpha, root)
+    shape = outline(binary)
+    polygon, told = _evolved(shape, asked)
+    polygon = edited(polygon, shape.rings, edits)
+    axis = medial_axis(binary, shape.rings, segments(shape.rings, polygon))
+    nearest = KDTree(np.concatenate(shape.rings))
+    start = _start(axis.xy, root)
+    tree, _ = rooted(axis.xy, axis.edges, nearest.query(axis.xy)[0], start)
+    tree = without_blunt(tree, _asked(tree, shape, polygon), max(_PROTRUDES, _ROUGH * roughness(shape.rings)))
+    return _finished(tree, binary, nearest, shape, polygon, root, (*binary.warnings, *told))
+
+
+def _evolved(shape: Outline, asked: int | None) -> tuple[Vertices, list[str]]:
+    """(the vertices that are left, remarks)."""
+    found = evolve(shape.rings, vertices=asked, noise=noise_level(shape.rings))
+    told = []
+    if asked is not None and found.count != asked:
+        why = "the contour has no more" if found.count < asked else "with fewer it would cross itself"
+        told = [f"{asked} vertices were asked for; {found.count} are left, since {why}."]
+    return Vertices.of(found.kept), told
+
+
+def _start(xy, root) -> int:
+    """The node to walk from: the one nearest to the root, or the lowest."""
+    return int(np.argmax(xy[:, 1])) if root is None else int(np.argmin(np.hypot(*(xy - root).T)))
+
+
+def _asked(tree: Rooted, shape: Outline, polygon: Vertices):
+    """Tips at vertices that a person added."""
+    added = np.concatenate([ring[rows[own]] for ring, rows, own in zip(shape.rings, polygon.rows, polygon.added, strict=True)])
+    if len(added) == 0:
+        return np.zeros(len(tree.parent), bool)
+    return KDTree(added).query(tree.xy)[0] <= _NEAR
+
+
+def _finished(tree: Rooted, binary: Binary, nearest: KDTree, shape: Outline, polygon: Vertices, root, warnings) -> TrunkSkeleton:
+    """Smooth lines up to the contour, as a graph with few nodes."""
+
+    def inside(points):
+        return within(binary, points)
+
+    count = np.bincount(tree.parent[tree.parent != NULL], minlength=len(tree.parent))
+    xy, radius, parent, node = [tree.xy[0]], [tree.radius[0]], [NULL], {0: 0}
+    for rows in chains(tree.parent):
+        line = smooth(tree.xy[rows], float(np.median(tree.radius[rows])))
+        end = None
+        if count[rows[-1]] == 0:
+            line, end = led_out(line, nearest.query(line)[0], inside)
+        if rows[0] == 0 and count[0] == 1 and root is None:
+            line, foot = led_out(line[::-1], nearest.query(line[::-1])[0], inside)
+            line, xy[0], radius[0] = line[::-1], line[-1], foot
+        line = telling(line)
+        width = nearest.query(line)[0]
+        width[-1] = width[-1] if end is None else end
+        before = node[rows[0]]
+        for k in range(1, len(line)):
+            xy.append(line[k]), radius.append(width[k]), parent.append(before)
+            before = len(xy) - 1
+        node[rows[-1]] = before
+    parent = np.array(parent)
+    edges = np.column_stack([parent[1:], np.arange(1, len(parent))])
+    corners = tuple(ring[rows] for ring, rows in zip(shape.rings, polygon.rows, strict=True))
+    parting = tuple(convex(ring) | added for ring, added in zip(corners, polygon.added, strict=True))
+    return TrunkSkeleton(np.array(xy), edges, np.maximum(np.array(radius), _LEAST_RADIUS), 0, corners, parting, shape, warnings)
