@@ -20,7 +20,7 @@ frame it is written in, so the world's is used here; all that the unit bears tur
 
     K     the median, over all tips, of the sum of κ from the ground;  r_0  radius at the ground: the trunk hardly bends, thin wood most
     L     metres of wood at or beyond the unit at time t: a unit bends as it comes to bear, so nothing ever jumps
-    s_i   min(1, sin of the angle to the vertical / sin 20°), and no unit turns past the vertical
+    s_i   min(1, sin of the angle to the vertical / sin 20°); δ_i / s_i is at most sin 20° radians, so no unit turns past the vertical
 
 Roots below the ground stay.
 """
@@ -34,7 +34,8 @@ from sketchtree.skeleton import Kind, TreeSkeleton
 from sketchtree.traverse import generations, is_tip, sum_from_root
 
 LEAST, MOST = -60.0, 60.0  # degrees
-_STEEP = np.sin(np.radians(20.0))
+_STEEP = float(np.sin(np.radians(20.0)))
+_VERTICAL = 1e-12  # metres (and m²): a unit that leaves the vertical by less has no side to turn to
 
 
 def yielding(tree: TreeSkeleton) -> Float[np.ndarray, " segment"]:
@@ -62,8 +63,8 @@ def bent(
     Rows stand at their places, bases first. A unit that has not grown lies at the tip of what it will grow from."""
     tip = np.empty((3, *grown.shape), grown.dtype)
     carried = np.zeros((4, *grown.shape), grown.dtype)  # unit quaternions w, x, y, z
-    tip[:, : layers.cut[1]] = base.T[:, :, None]
-    carried[0, : layers.cut[1]] = 1.0
+    tip[:, : layers.ground] = base.T[:, :, None]
+    carried[0, : layers.ground] = 1.0
     for layer in layers.downwards():
         above = layers.parent[layer]
         before = carried[:, above]
@@ -76,16 +77,17 @@ def bent(
 def _turned(way, carried, turn):
     """(where a unit that points along `way` points once it has turned, the rotation it carries then)."""
     x, y, z = way
-    flat = np.hypot(x, z)
-    length = np.hypot(flat, y)
-    steep = flat / np.maximum(length, 1e-30)
-    to_vertical = np.arctan2(flat, np.where(turn > 0, y, -y))
-    angle = np.sign(turn) * np.minimum(np.abs(turn) * np.minimum(steep / _STEEP, 1.0), to_vertical)
-    cosine, sine = np.cos(angle), np.sin(angle)
-    onwards = np.where(flat > 0, (flat * cosine - y * sine) / np.where(flat > 0, flat, 1.0), 1.0)
-    turned = np.stack([x * onwards, y * cosine + flat * sine, z * onwards])
-    half = np.sin(0.5 * angle) / np.where(flat > 0, flat, 1.0)
-    w, axis_x, axis_z = np.cos(0.5 * angle), -z * half, x * half
+    level = x * x + z * z
+    flat = np.sqrt(level)
+    one_over = 1.0 / np.maximum(flat, _VERTICAL)
+    half = np.minimum(flat / np.sqrt(np.maximum(level + y * y, _VERTICAL)), _STEEP)
+    half *= np.clip(turn, -_STEEP, _STEEP) * way.dtype.type(0.5 / _STEEP)
+    w, sine = np.cos(half), np.sin(half)
+    cosine_whole, sine_whole = 1.0 - 2.0 * sine * sine, 2.0 * sine * w
+    onwards = np.where(flat > _VERTICAL, cosine_whole - y * sine_whole * one_over, 1.0)
+    turned = np.stack([x * onwards, y * cosine_whole + flat * sine_whole, z * onwards])
+    sine *= one_over
+    axis_x, axis_z = -z * sine, x * sine
     qw, qx, qy, qz = carried
     return turned, np.stack([
         w * qw - axis_x * qx - axis_z * qz,
@@ -100,4 +102,4 @@ def _rotated(quaternion, vector):
     w, qx, qy, qz = quaternion
     x, y, z = vector
     cx, cy, cz = 2 * (qy * z - qz * y), 2 * (qz * x - qx * z), 2 * (qx * y - qy * x)
-    return x + w * cx + qy * cz - qz * cy, y + w * cy + qz * cx - qx * cz, z + w * cz + qx * cy - qy * cx
+    return np.stack([x + w * cx + qy * cz - qz * cy, y + w * cy + qz * cx - qx * cz, z + w * cz + qx * cy - qy * cx])

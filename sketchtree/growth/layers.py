@@ -37,6 +37,11 @@ class Layers:
         above = parent[order]
         return cls(order, place, np.where(above == NULL, NULL, place[above]), np.array(cut))
 
+    @property
+    def ground(self) -> int:
+        """How many rows are bases: they stand first."""
+        return int(self.cut[1]) if len(self.cut) > 1 else 0
+
     def downwards(self):
         """The slices of all layers but the bases', from the ground to the tips."""
         return [slice(low, high) for low, high in zip(self.cut[1:-1], self.cut[2:], strict=True)]

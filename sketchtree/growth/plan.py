@@ -26,7 +26,7 @@ from sketchtree.growth.thickness import borne_share, radii
 from sketchtree.skeleton import TreeSkeleton
 
 MODES = ("age", "full", "scale")
-_AT_ONCE = 2_000_000  # places that are worked out together
+_AT_ONCE = 800_000  # places that are worked out together
 
 
 @dataclass(frozen=True, eq=False)
@@ -135,13 +135,14 @@ class GrowthPlan:
     def _pieces(self, times, dtype):
         """(tip (time, piece, 3), radius (time, piece), grown (time, piece), size (time)) of the straight pieces."""
         pieces, layers, order = self.straight.pieces, self.layers, self.layers.order
-        grown = self._grown(times)[order]
-        share = grown if self.mode == "scale" else borne_share(layers, pieces.length[order], grown)
-        final = pieces.radius[order]
+        grown = self._grown(times).astype(dtype, copy=False)[order]
+        share = grown if self.mode == "scale" else borne_share(layers, pieces.length[order].astype(dtype), grown)
+        final = pieces.radius[order].astype(dtype)
         radius = np.repeat(final[:, None], len(times), 1) if self.mode == "scale" else radii(layers, final, share)
         size = np.ones(len(times)) if self.mode == "age" else self.times.size(self._clock(times))
-        tip = self._tips(grown.astype(dtype, copy=False), share, dtype)
-        base = self._ground()[order]
+        tip = self._tips(grown, share, dtype)
+        base = self._ground()[order].astype(dtype)
+        size = size.astype(dtype)
         if self.mode != "age":
             small = size < 1
             tip[:, :, small] = base.T[:, :, None] + size[small] * (tip[:, :, small] - base.T[:, :, None])
@@ -152,10 +153,10 @@ class GrowthPlan:
     def _tips(self, grown, share, dtype):
         """The tips of all pieces at their places, before the whole is scaled."""
         pieces, layers, order = self.straight.pieces, self.layers, self.layers.order
-        base, vector, final = pieces.tip[order[: layers.cut[1]] if len(order) else order], pieces.vector[order], pieces.tip[order]
+        base, vector, final = (of_all.astype(dtype) for of_all in (pieces.tip[order[: layers.ground]], pieces.vector[order], pieces.tip[order]))
         if self.bend != 0:
-            turn = (np.radians(self.bend) * self.yields[order][:, None] * share).astype(dtype)
-            return bending.bent(layers, base.astype(dtype), vector.astype(dtype), grown, turn)
+            turn = (np.radians(self.bend) * self.yields[order]).astype(dtype)[:, None] * share
+            return bending.bent(layers, base, vector, grown, turn)
         tip = np.empty((3, *grown.shape), dtype)
         tip[:, : len(base)] = base.T[:, :, None]
         for layer in layers.downwards():

@@ -24,16 +24,20 @@ def borne_share(layers: Layers, length: Float[np.ndarray, " segment"], grown: Fl
     whole = length[:, None].copy()
     layers.sum_to_root(whole)
     bare = whole[:, 0] <= 0
-    return np.where(bare[:, None], (grown > 0).astype(float), np.minimum(borne / np.where(bare[:, None], 1.0, whole), 1.0))
+    share = np.minimum(borne / np.where(bare[:, None], 1.0, whole).astype(grown.dtype), 1.0)
+    return np.where(bare[:, None], (grown > 0).astype(grown.dtype), share) if bare.any() else share
 
 
 def radii(layers: Layers, final: Float[np.ndarray, " segment"], share: Float[np.ndarray, "segment time"]) -> Float[np.ndarray, "segment time"]:
     """Radius of every piece's tip at every time, metres, where it bears a `share` of what it will bear. At share 1 the final one."""
     twig = final.min(initial=np.inf)
-    radius = np.sqrt(twig**2 + (final**2 - twig**2)[:, None] * share)
-    radius = np.where(share >= 1.0, final[:, None], radius)
+    radius = share * (final**2 - twig**2)[:, None]
+    radius += twig**2
+    np.sqrt(radius, out=radius)
+    radius = np.where(share >= 1.0, final[:, None], np.minimum(radius, final[:, None]))
     for layer in layers.downwards():
         above = layers.parent[layer]
-        thicker = np.maximum(final[layer] / final[above], 1.0)[:, None]
-        radius[layer] = np.minimum(radius[layer], np.where(thicker > 1, thicker * (1 + 1e-12), 1.0) * radius[above])
+        thicker = final[layer] / final[above]
+        most = np.where(thicker > 1, thicker * (1 + 1e-6), 1.0).astype(radius.dtype)[:, None]
+        radius[layer] = np.minimum(radius[layer], most * radius[above])
     return radius
