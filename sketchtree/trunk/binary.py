@@ -1,7 +1,7 @@
 """Which pixels are the trunk? Those at least half opaque, of one connected piece.
 
 Pieces are counted over all eight neighbours, so that a twig one pixel wide holds together. Kept is the piece that holds the root, or else the largest; the others are left out, and a warning says how
-many. Holes of less than `SMALL_HOLE` of the piece, or too narrow for a circle of `NARROW_HOLE` pixels, are filled; a warning says how many. Larger ones stay: a hole between two limbs that cross is seen through.
+many. Holes of less than `SMALL_HOLE` of the piece, or in which no square of three pixels finds room, are filled; a warning says how many. Larger ones stay: a hole between two limbs that cross is seen through.
 """
 
 from dataclasses import dataclass
@@ -15,7 +15,6 @@ from sketchtree.photo.photo import at_pixels
 
 HALF = 0.5
 SMALL_HOLE = 0.002  # of the piece's area
-NARROW_HOLE = 1.5  # pixels: radius of the largest circle in it
 LEAST = 12  # pixels that a trunk has
 _EIGHT = np.ones((3, 3), bool)
 _NEAR = 0.05  # of the picture's longer side: how far beside the trunk a given root may lie
@@ -76,10 +75,11 @@ def _without_small_holes(piece) -> tuple[Bool[np.ndarray, "row column"], int, in
     labels, count = ndimage.label(~piece)  # four neighbours: what the piece joins diagonally, it parts
     if count <= 1:
         return piece, 0, 0
-    area = np.bincount(labels.ravel(), minlength=count + 1)
-    widest = ndimage.maximum(ndimage.distance_transform_edt(~piece), labels, np.arange(count + 1))
     outside = labels[0, 0]
-    small = (area < SMALL_HOLE * piece.sum()) | (np.asarray(widest) < NARROW_HOLE)
+    area = np.bincount(labels.ravel(), minlength=count + 1)
+    wide = np.zeros(count + 1, bool)
+    wide[labels[ndimage.binary_erosion((labels > 0) & (labels != outside), structure=_EIGHT)]] = True
+    small = (area < SMALL_HOLE * piece.sum()) | ~wide
     small[[0, outside]] = False
     return piece | small[labels], int(small.sum()), count - 1 - int(small.sum())
 

@@ -1,0 +1,81 @@
+"""Which branch carries each limb on, and which ones grow from it? The trunk's graph as a drawing, so that all that is done to strokes can be done to it.
+
+Where the axis forks, the limb goes on in the branch that is straightest for its thickness: the least of (bend in radians − r / r_widest), the bend measured over two radii of the fork's circle and 8 pixels at
+least, r the median radius of what follows up to the next fork. Limbs are called trunk, trunk.1, trunk.1.2 …: ids are of these names.
+"""
+
+import dataclasses
+
+import numpy as np
+from jaxtyping import Int
+
+from sketchtree.axes import NULL
+from sketchtree.photo.as_graph import as_drawing
+from sketchtree.photo.marked import Marked
+from sketchtree.photo.trace.traced import Traced
+from sketchtree.sketch.graph import SketchGraph
+from sketchtree.sketch.strokes import Sketch
+from sketchtree.trunk.rooted import chains
+from sketchtree.trunk.trunk_skeleton import TrunkSkeleton
+
+_LOOK, _LEAST_LOOK = 2.0, 8.0  # radii of the fork's circle; pixels
+
+
+def trunk_drawing(skeleton: TrunkSkeleton, name: str = "trunk") -> tuple[Sketch, SketchGraph]:
+    """(the limbs as strokes, their segment tree): pixels, y UP."""
+    order = _parents_first(skeleton)
+    number = np.argsort(order)
+    parent = skeleton.parent[order]
+    parent = np.where(parent == NULL, NULL, number[parent])
+    xy, radius = skeleton.xy[order], skeleton.radius[order]
+    limb, rank = limb_of(parent, xy, radius)
+    count = int(limb.max()) + 1
+    traced = Traced(parent, xy, radius, rank, limb, np.ones(len(parent), bool), skeleton.warnings)
+    marked = Marked(np.zeros((0, 2)), (np.zeros((0, 2)),) * count, ("trunk",) * count)
+    sketch, graph = as_drawing([(traced, marked)], name, outlines=[()])
+    told = tuple(dataclasses.replace(one, reason="a branch of the matte's skeleton") for one in graph.attachments)
+    return sketch, graph.replace(attachments=told)
+
+
+def limb_of(parent: Int[np.ndarray, " node"], xy, radius) -> tuple[Int[np.ndarray, " node"], Int[np.ndarray, " node"]]:
+    """(limb, branching order) of every node; limb 0 is the trunk."""
+    limb, rank = np.zeros(len(parent), np.int64), np.zeros(len(parent), np.int64)
+    starting: dict[int, list[list[int]]] = {}
+    for chain in chains(parent):
+        starting.setdefault(chain[0], []).append(chain)
+    before = {0: np.array([0.0, -1.0])}  # direction in which each fork is reached
+    count = 1
+    for fork in sorted(starting):
+        apical = _straightest(starting[fork], before[fork], xy, radius)
+        for k, chain in enumerate(starting[fork]):
+            own = k == apical
+            limb[chain[1:]] = limb[fork] if own else count
+            rank[chain[1:]] = rank[fork] + (not own)
+            count += not own
+            before[chain[-1]] = _direction(xy[chain[::-1]], -1.0, radius[chain[-1]])
+    return limb, rank
+
+
+def _straightest(own: list[list[int]], before, xy, radius) -> int:
+    wide = [float(np.median(radius[chain[1:]])) for chain in own]
+    onward = [_direction(xy[chain], 1.0, radius[chain[0]]) for chain in own]
+    bend = [float(np.arccos(np.clip(before @ step, -1.0, 1.0))) for step in onward]
+    return int(np.argmin([b - w / max(wide) for b, w in zip(bend, wide, strict=True)]))
+
+
+def _direction(line, sign: float, radius: float):
+    """The unit direction from a line's first point to where it is a few radii away; turned round by sign −1."""
+    away = np.hypot(*(line - line[0]).T)
+    far = np.flatnonzero(away >= max(_LOOK * radius, _LEAST_LOOK))
+    step = sign * (line[far[0] if len(far) else -1] - line[0])
+    return step / max(float(np.hypot(*step)), 1e-9)
+
+
+def _parents_first(skeleton: TrunkSkeleton) -> Int[np.ndarray, " node"]:
+    """The nodes by their distance in edges from the root."""
+    parent, depth = skeleton.parent, np.zeros(len(skeleton), np.int64)
+    at = parent.copy()
+    while (at != NULL).any():
+        depth += at != NULL
+        at = np.where(at == NULL, NULL, parent[at])
+    return np.argsort(depth, kind="stable")
