@@ -78,7 +78,7 @@ def timeline(tree: TreeSkeleton, thickness_weight: float = THICKNESS_WEIGHT, bud
         begin[rows] = np.maximum(begin[rows], end[tree.parent[rows]])
         end[rows] = np.maximum(end[rows], begin[rows] + length[rows] / FASTEST)
     whole = max(float(end.max(initial=0.0)), 1e-300)
-    begin, end = WHOLE * begin / whole, WHOLE * (end / whole)
+    begin, end = WHOLE * (begin / whole), WHOLE * (end / whole)
     forks = end[(child_count(tree.parent) > 1) & (end > 0)]
     return Timeline(begin, end, float(forks.max()) if len(forks) else WHOLE)
 

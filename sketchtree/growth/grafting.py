@@ -10,7 +10,8 @@ is as thick as what bears it allows, and from there on as thick as what it bears
     r_i² = ρ² + (r_foot² − ρ²) L_i / L_foot          L  metres of wood at or beyond a piece;  ρ  the radius of a twig
     r_foot = r at a tip's end;  r √(L_foot / (L_foot + L_host)), at most `SIDE` r, at a side, L_host the wood that the host bears there
 
-What was there before stays as it was. Numbers are drawn by limb id: a limb more leaves the branches on the others alone.
+What was there before stays as it was. Numbers are drawn by limb id: a limb more changes the branches on the others only as far as it
+changes the tree's manner.
 """
 
 from dataclasses import dataclass, field
