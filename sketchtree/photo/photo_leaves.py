@@ -30,11 +30,11 @@ from sketchtree.photo.trace.traced import Traced
 from sketchtree.similarity import Similarity
 
 REACH = 0.2  # leaf lengths: pixels so far from where it is seen count for its colour; farther, and all leaves become alike
-SHADE, SHADE_OF_FLOWERS = 0.5, 0.8  # of the photo's shadows, in powers, is taken out; more of blossoms: all have one colour, it is dark between them, and their drawing has shadows
+SHADE = 0.5  # of the photo's shadows, in powers, is taken out
 BRIGHTER = 1.25  # times the photo's light: leaves shade each other, so a crown comes out darker than its leaves are (six colour photos: by as much, within 6 units of L*)
 VIVID = 1.15  # times as far from grey: they shine, too, so a crown comes out greyer (by a sixth)
 BLUER = 1.1  # times the blue of the brighter ones, where blue outweighs red
-_DARKER, _DARKER_FLOWERS = 75, 90  # percent of the leaves, of the blossoms, that are darker than the brighter ones
+_DARKER = 75  # percent of the leaves that are darker than the brighter ones
 _LIGHTNESS = np.array([0.2126, 0.7152, 0.0722])  # of linear sRGB
 _PURE = 0.6  # of the way that leaves are from what is between them, for the most part
 
@@ -100,17 +100,16 @@ def _foliage_alone(rgb, leafy, reach: int) -> tuple[Float[np.ndarray, "row colum
     return total / np.maximum(near, 1e-9)[..., None], near > 0.5 / side**2
 
 
-def without_shadows(colour: Float[np.ndarray, "leaf 3"], *, flower: bool = False) -> Float[np.ndarray, "leaf 3"]:
-    """Linear colours of leaves, or of blossoms, with a share of the photo's shadows taken out."""
-    shade, darker = (SHADE_OF_FLOWERS, _DARKER_FLOWERS) if flower else (SHADE, _DARKER)
+def without_shadows(colour: Float[np.ndarray, "leaf 3"]) -> Float[np.ndarray, "leaf 3"]:
+    """Linear colours of leaves with a share of the photo's shadows taken out. (Of flowers: `petals`.)"""
     light = np.maximum(colour @ _LIGHTNESS, 1e-4)
-    bright = float(np.percentile(light, darker))
+    bright = float(np.percentile(light, _DARKER))
     own = colour / light[:, None]
     usual = np.median(own[light >= bright], axis=0)
     cold = (own[:, 2] > own[:, 0]) & (own[:, 2] > BLUER * usual[2])
     own[cold] = usual + ((BLUER - 1) * usual[2] / (own[cold, 2] - usual[2]))[:, None] * (own[cold] - usual)
     mixed = usual + np.sqrt(np.minimum(light / bright, 1.0))[:, None] * (own - usual)
-    return np.clip((1.0 + VIVID * (mixed - 1.0)) * (BRIGHTER * light ** (1 - shade) * bright**shade)[:, None], 0.0, 1.0)
+    return np.clip((1.0 + VIVID * (mixed - 1.0)) * (BRIGHTER * light ** (1 - SHADE) * bright**SHADE)[:, None], 0.0, 1.0)
 
 
 def leafy_pixels(photo: Photo, foliage: Foliage, traced: Traced | None = None) -> Bool[np.ndarray, "row column"]:

@@ -132,13 +132,6 @@ def test_shadows_are_halved_and_shaded_leaves_are_no_bluer_than_lit_ones():
     assert shown[9, 2] / shown[9].sum() <= 1.11 * shown[0, 2] / shown[0].sum()
 
 
-def test_blossoms_in_shade_are_nearly_as_light_as_those_in_light():
-    white = np.array([0.6, 0.58, 0.5])
-    seen_colours = np.array([white] * 8 + [0.2 * white] * 2)
-    leaves, blossoms = (without_shadows(seen_colours, flower=flower).sum(axis=1) for flower in (False, True))
-    assert leaves[8] / leaves[0] == pytest.approx(0.2**0.5, rel=1e-6) and blossoms[8] / blossoms[0] == pytest.approx(0.2**0.2, rel=1e-6)
-
-
 @pytest.fixture(scope="module")
 def tree() -> TreeSkeleton:
     """A trunk of 20 cm with a long and a short branch."""
