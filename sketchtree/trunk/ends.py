@@ -8,7 +8,7 @@ from collections.abc import Callable
 
 import numpy as np
 import shapely
-from jaxtyping import Float
+from jaxtyping import Bool, Float
 from scipy.ndimage import gaussian_filter1d
 
 Line = Float[np.ndarray, "point 2"]
@@ -16,6 +16,8 @@ Line = Float[np.ndarray, "point 2"]
 _SHARE, _LEAST, _MOST = 0.5, 1.0, 6.0  # σ of the Gaussian: of the median radius; pixels
 _CLEAR = 1.6  # radii from the end: at a corner of a right angle the line is never farther than √2 of them, the corner's circles
 _REACH = 2.4  # radii of the last circle, and two pixels, within which the contour must be met
+_BEHIND, _LEAST_BEHIND = 3.0, 8.0  # radii, and pixels, over which a limb's own direction is measured
+_ABOVE = 1.0  # pixels
 _STEP = 0.25  # pixels
 _OFF = 0.3  # pixels a line may leave out
 _PIECE = 12.0  # pixels, the longest straight piece
@@ -35,15 +37,24 @@ def smooth(line: Line, radius: float) -> Line:
     return straight + gaussian_filter1d(doubled, sigma, axis=0, mode="wrap")[: len(off)]
 
 
-def led_out(line: Line, radius: Float[np.ndarray, " point"], within: Callable[[Line], np.ndarray]) -> tuple[Line, float]:
-    """(a chain whose last point is an end, up to the contour; the radius there)."""
-    away = np.hypot(*(line - line[-1]).T)
-    clear = np.flatnonzero(away >= _CLEAR * radius)
+def clear_of_end(line: Line, radius: Float[np.ndarray, " point"]) -> Bool[np.ndarray, " point"]:
+    """Whose circles lie clear of the chain's last point, a tip?"""
+    return np.hypot(*(line - line[-1]).T) >= _CLEAR * radius
+
+
+def clear_of_ground(line: Line, radius: Float[np.ndarray, " point"]) -> Bool[np.ndarray, " point"]:
+    """Whose circles do not reach down to the chain's last point, a foot? Those of a corner of it all touch the ground."""
+    return line[:, 1] + radius <= line[-1, 1] - _ABOVE
+
+
+def led_out(line: Line, radius: Float[np.ndarray, " point"], clear: Bool[np.ndarray, " point"], within: Callable[[Line], np.ndarray]) -> tuple[Line, float]:
+    """(a chain whose last point is an end, up to the contour; the radius there). `clear`: points that the end has no part in; the last of them is where the straight piece begins."""
+    clear = np.flatnonzero(clear)
     if len(clear) == 0 or clear[-1] == 0:
         return line, float(radius.min() if len(clear) == 0 else radius[-1])
     last = int(clear[-1])
     wide = float(radius[last])
-    behind = np.flatnonzero(np.hypot(*(line[: last + 1] - line[last]).T) >= 2.0 * wide)
+    behind = np.flatnonzero(np.hypot(*(line[: last + 1] - line[last]).T) >= max(_BEHIND * wide, _LEAST_BEHIND))
     start = line[behind[-1]] if len(behind) else line[0]
     step = line[last] - start
     step = step / max(float(np.hypot(*step)), 1e-9)

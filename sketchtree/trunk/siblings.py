@@ -4,15 +4,20 @@
 
     θ_i ~ N(2π (k − i) / k, σ_i),   0 ≤ i < k
 
-    i    rank of the sub-branch along its parent, from below            θ_i   its azimuth about the parent's axis p, from the page's right-hand side towards the viewer
+    i    number of the sub-branch            θ_i   its azimuth about the parent's axis p, from the page's right-hand side towards the viewer
+
+The paper does not say which sub-branch is which i. Numbered from below, the lower half of a tree would lean back and the upper one forward; we number them so that from one to the next along the parent i grows by about
+k times the golden section's smaller part (the step nearest to 0.382 k that shares no divisor with k): all k angles are taken, and neighbours stand about a golden angle apart, as leaves on a shoot do.
 
 A limb that sets out along d on the page, and z towards the viewer for every unit of it, has the azimuth atan2(c·w, c·u) with c = (d, z), u = (p_y, −p_x, 0) / |·| and w = u × p. As u lies in the page, only c·w holds z:
 
     z = ((d·u) tan θ − d·w) / w_z
 
-The side on which a limb is drawn is known, cos θ has its sign: an angle that says the other side is mirrored, θ → π − θ, which keeps the side towards the viewer. Where the limb would leave the page by more than `STEEPEST`
-(at θ near ±π/2 without bound) it leaves it by that. z goes on with the length on the page; x and y are never touched.
+The side on which a limb is drawn is known, cos θ has its sign: an angle that says the other side is mirrored, θ → π − θ, which keeps the side towards the viewer. A limb at θ near ±π/2 would leave the page without
+bound: from `STEEPEST` / 2 on, z only tends to `STEEPEST`. z goes on with the length on the page; x and y are never touched.
 """
+
+import math
 
 import numpy as np
 from jaxtyping import Array, Float, Int, Key
@@ -22,15 +27,22 @@ from sketchtree.keys import normal
 from sketchtree.mrf.lift import along_curves
 from sketchtree.sketch.graph import SketchGraph
 
-STEEPEST = float(np.tan(np.radians(45.0)))
+STEEPEST = 1.25
+GOLDEN = (3.0 - math.sqrt(5.0)) / 2.0
 SPREAD = float(np.radians(20.0))  # σ
 
 
 def sibling_angles(graph: SketchGraph, key: Key[Array, ""], spread: float = SPREAD) -> Float[np.ndarray, " limb"]:
     """θ of every limb, radians; NaN of a trunk. `spread`: σ."""
     rank, count = _ranks(graph)
-    mean = 2.0 * np.pi * (count - rank) / np.maximum(count, 1)
+    number = rank * np.array([golden_step(int(k)) for k in count]) % np.maximum(count, 1)
+    mean = 2.0 * np.pi * (count - number) / np.maximum(count, 1)
     return np.where(graph.limb_parent == NULL, np.nan, mean + spread * normal(key, graph.limb_id, 0))
+
+
+def golden_step(k: int) -> int:
+    """The step nearest to 0.382 k that shares no divisor with k."""
+    return min((step for step in range(1, max(k, 2)) if math.gcd(step, max(k, 1)) == 1), key=lambda step: abs(step - GOLDEN * k))
 
 
 def sibling_depth(graph: SketchGraph, angle: Float[np.ndarray, " limb"]) -> Float[np.ndarray, " segment"]:
@@ -55,7 +67,8 @@ def leaving(d: Float[np.ndarray, " 2"], p: Float[np.ndarray, " 3"], theta: float
     w = np.array([u[1] * axis[2], -u[0] * axis[2], u[0] * axis[1] - u[1] * axis[0]])
     aside = float(d @ u)
     tangent = np.sin(theta) / max(abs(np.cos(theta)), 1e-9) * (1.0 if aside >= 0 else -1.0)  # mirrored to the drawn side: |aside| tan of the angle out of the page
-    return float(np.clip((aside * tangent - float(d @ w[:2])) / w[2], -STEEPEST, STEEPEST))
+    z, half = (aside * tangent - float(d @ w[:2])) / w[2], STEEPEST / 2.0
+    return float(z if abs(z) <= half else np.copysign(half + half * np.tanh((abs(z) - half) / half), z))
 
 
 def _ranks(graph: SketchGraph) -> tuple[Int[np.ndarray, " limb"], Int[np.ndarray, " limb"]]:

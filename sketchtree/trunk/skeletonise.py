@@ -12,7 +12,7 @@ from sketchtree.errors import OptionError
 from sketchtree.trunk.binary import Binary, binary_trunk
 from sketchtree.trunk.blunt import without_blunt
 from sketchtree.trunk.edits import VertexEdits, Vertices, edited
-from sketchtree.trunk.ends import led_out, smooth, telling
+from sketchtree.trunk.ends import clear_of_end, clear_of_ground, led_out, smooth, telling
 from sketchtree.trunk.evolution import evolve
 from sketchtree.trunk.medial import medial_axis, within
 from sketchtree.trunk.noise import noise_level, roughness
@@ -82,10 +82,13 @@ def _finished(tree: Rooted, binary: Binary, nearest: KDTree, shape: Outline, pol
         line = smooth(tree.xy[rows], float(np.median(tree.radius[rows])))
         end = None
         if count[rows[-1]] == 0:
-            line, end = led_out(line, nearest.query(line)[0], inside)
+            width = nearest.query(line)[0]
+            line, end = led_out(line, width, clear_of_end(line, width), inside)
         if rows[0] == 0 and count[0] == 1 and root is None:
-            line, foot = led_out(line[::-1], nearest.query(line[::-1])[0], inside)
-            line, xy[0], radius[0] = line[::-1], line[-1], foot
+            line, width = line[::-1], nearest.query(line[::-1])[0]
+            line, radius[0] = led_out(line, width, clear_of_ground(line, width), inside)
+            line = line[::-1]
+            xy[0] = line[0]
         line = telling(line)
         width = nearest.query(line)[0]
         width[-1] = width[-1] if end is None else end
