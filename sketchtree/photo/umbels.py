@@ -16,6 +16,7 @@ from jaxtyping import Array, Bool, Float, Int, Key
 from sketchtree import keys
 from sketchtree.foliage.buds import SUNK, Buds, around, stem_nodes
 from sketchtree.foliage.leaves import Leaves
+from sketchtree.foliage.models import leaf_model
 from sketchtree.foliage.populate import leafy_wood
 from sketchtree.foliage.twigs import Twigs
 from sketchtree.foliage.wear import Wear, wear_of
@@ -108,7 +109,7 @@ class Flowering:
         rank = np.arange(len(of)) - np.repeat(np.cumsum(number) - number, number)
         ids = child_limb_id(nodes.id[of], rank)
         position = start[of] + np.maximum(long[of] - _APART * size * rank, 0.0)[:, None] * ahead[of]
-        direction = astray(ahead[of], self._noise(ids, _AWAY))
+        direction = astray(ahead[of], self._noise(ids, _AWAY), self.wear.model.droop)
         axis = self.tree.tip[self.tree.is_base].mean(axis=0)
         light = _UP + _OUTWARD * _unit((position - axis) * [1.0, 0.0, 1.0]) + _UNEVEN * self._noise(ids, _FACE)
         sizes = size * (SIZES[0] + (SIZES[1] - SIZES[0]) * keys.uniform(self.key, ids, _SIZE))
@@ -130,15 +131,15 @@ def stalk(share: Float[np.ndarray, " shoot"]) -> Float[np.ndarray, " shoot"]:
     return SHORTEST + (LONGEST - SHORTEST) * share**1.6
 
 
-def astray(ahead: Float[np.ndarray, "umbel 3"], noise: Float[np.ndarray, "umbel 3"]) -> Float[np.ndarray, "umbel 3"]:
-    """Directions about a shoot's; `noise`: standard normal numbers."""
-    return _unit(ahead + _ASTRAY * noise)
+def astray(ahead: Float[np.ndarray, "umbel 3"], noise: Float[np.ndarray, "umbel 3"], droop: float) -> Float[np.ndarray, "umbel 3"]:
+    """Directions about a shoot's, of flowers that hang as their model does; `noise`: standard normal numbers."""
+    return _unit(ahead + _ASTRAY * noise - droop * _UP)
 
 
 def on_own_shoots(one: Leaves, long: Float[np.ndarray, " umbel"], draw: np.random.Generator) -> Leaves:
     """Umbels that stand on wood, each moved to the end of a shoot so long, metres, of its own size and direction there."""
     end = one.position + long[:, None] * one.direction
-    direction = astray(one.direction, draw.normal(size=(len(one), 3)))
+    direction = astray(one.direction, draw.normal(size=(len(one), 3)), leaf_model(one.model).droop)
     return replace(one, position=end, direction=direction, normal=across(one.normal, direction), size=one.size * draw.uniform(*SIZES, len(one)), shoot=np.stack([one.position, end], axis=1))
 
 

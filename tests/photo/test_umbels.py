@@ -59,9 +59,11 @@ def test_twigs_have_bare_stretches_and_full_ones(comb):
     assert (bins == 0).mean() > 0.1 and bins.var() > 0.8 * bins.mean()
 
 
-def test_umbels_look_all_ways(comb):
+def test_umbels_look_all_ways_and_hang_as_their_model_does(comb):
     direction = flowers(comb).direction
     assert (np.abs(direction.mean(axis=0)) < 0.25).all() and (direction.std(axis=0) > 0.35).all()
+    catkins = Flowering.of(comb, HABIT, "hazel_catkin", size=SIZE, key=root_key(0)).umbels(wood_pieces(comb), 500)
+    assert catkins.direction[:, 1].mean() < -0.7
 
 
 def test_a_field_bears_its_share_and_is_much_alike_near_by():
