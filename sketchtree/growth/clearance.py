@@ -34,10 +34,12 @@ class Clearance:
         points = tree.start[row] + share[:, None] * tree.vector[row]
         return cls(cKDTree(points) if len(points) else None, radius, low + _ABOVE * tree.height)
 
-    def blocked(self, start: Float[np.ndarray, "piece 3"], end: Float[np.ndarray, "piece 3"], foot: Float[np.ndarray, "piece 3"], near) -> Bool[np.ndarray, " piece"]:
+    def blocked(
+        self, start: Float[np.ndarray, "piece 3"], end: Float[np.ndarray, "piece 3"], foot: Float[np.ndarray, "piece 3"], near: Float[np.ndarray, " piece"]
+    ) -> Bool[np.ndarray, " piece"]:
         """Pieces that go below the ground's margin, or whose middle or end lies in thick wood farther than `near` metres from their foot."""
         bad = (end[:, 1] < self.ground) & (end[:, 1] < start[:, 1])
-        if self.tree is None:
+        if self.tree is None or len(start) == 0:
             return bad
         for point in (0.5 * (start + end), end):
             away, sample = self.tree.query(point, k=min(_NEAREST, len(self.radius)))

@@ -19,6 +19,7 @@ from dataclasses import dataclass
 import numpy as np
 from jaxtyping import Float
 
+from sketchtree.growth.across import unit
 from sketchtree.skeleton import Kind, TreeSkeleton
 from sketchtree.traverse import limb_chains
 
@@ -74,7 +75,7 @@ class _Limbs:
             number[rows] = k
         foot = np.array([tree.parent[rows[0]] for rows in chain], int)
         way = np.array([_way(tree, rows) for rows in chain]).reshape(-1, 3)
-        return cls(tree, chain, number[foot], way, _unit(tree.vector[foot]), np.array([tree.length[rows].sum() for rows in chain]))
+        return cls(tree, chain, number[foot], way, unit(tree.vector[foot]), np.array([tree.length[rows].sum() for rows in chain]))
 
     def leans(self):
         borne = self.bearer >= 0
@@ -90,13 +91,13 @@ class _Limbs:
         order = np.lexsort((place, self.bearer))
         one, other = order[:-1], order[1:]
         next_to = (self.bearer[one] == self.bearer[other]) & (self.bearer[one] >= 0)
-        one, other = _unit(side[one[next_to]]), _unit(side[other[next_to]])
+        one, other = unit(side[one[next_to]]), unit(side[other[next_to]])
         return np.arccos(np.clip(np.sum(one * other, axis=1), -1.0, 1.0))
 
     def swings(self):
         bends = [np.zeros(0)]
         for rows in self.chain:
-            way = _unit(self.tree.vector[rows])
+            way = unit(self.tree.vector[rows])
             # half of what a piece turns by, squared, is sideways: the other half is within the plane of the lean
             bends.append(np.arccos(np.clip(np.sum(way[1:] * way[:-1], axis=1), -1.0, 1.0)) / np.sqrt(2.0))
         return np.concatenate(bends)
@@ -105,11 +106,7 @@ class _Limbs:
 def _way(tree: TreeSkeleton, rows):
     run = np.cumsum(tree.length[rows])
     end = rows[min(int(np.searchsorted(run, _FOOT * tree.height)), len(rows) - 1)]
-    return _unit((tree.tip[end] - tree.start[rows[0]])[None])[0]
-
-
-def _unit(vector):
-    return vector / np.maximum(np.linalg.norm(vector, axis=1, keepdims=True), 1e-300)
+    return unit((tree.tip[end] - tree.start[rows[0]])[None])[0]
 
 
 def _blended(seen: Float[np.ndarray, " pair"], usual: Spread) -> Spread:

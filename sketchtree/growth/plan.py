@@ -1,6 +1,7 @@
 """What does the tree look like at any time of its life?
 
-A plan is made once of any skeleton; `at(t)` is the tree at a time t, `poses(times)` the places of all segments at many times. Three ways to grow (single-image growth, Figure 9):
+A plan is made once of any skeleton; `at(t)` is the tree at a time t, `poses(times)` the places of all segments at many times. Three ways
+to grow (single-image growth, Figure 9):
 
     age     segments appear by age (Eq. 5), the growing ones lengthen, all thicken as they come to bear
     full    the same, each further branching order later, and the whole as large as M (Eq. 5): a young tree is a small tree. Its clock

@@ -169,7 +169,10 @@ def test_the_same_tree_grows_the_same():
             {"bend": -61},
             "bend is -61, but must lie between -60 and 60 degrees. Above 0 branches rise, below 0 they hang; the paper's pictures go from -25 to 20.",
         ),
-        ({"bend": float("nan")}, "bend is nan, but must lie between -60 and 60 degrees. Above 0 branches rise, below 0 they hang; the paper's pictures go from -25 to 20."),
+        (
+            {"bend": float("nan")},
+            "bend is nan, but must lie between -60 and 60 degrees. Above 0 branches rise, below 0 they hang; the paper's pictures go from -25 to 20.",
+        ),
         ({"thickness_weight": 2}, "thickness_weight is 2, but must lie between 0 and 1. The paper's is 0.001."),
     ],
 )
