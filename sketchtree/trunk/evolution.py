@@ -8,7 +8,7 @@
     l    length over the whole contour's
 
 until m vertices of the first ring are left (holes evolve along with it), or until the least relevance exceeds a noise level. Lengths are kept in pixels while it runs, and divided once at the end: the order is the same. A bump of height h
-has R ≈ 2h pixels however wide it is, a twig of length h has R ≈ πh / 2: the level parts noise from twigs by their height alone.
+has R ≈ h pixels however wide it is, a twig of length h has R ≈ πh / 2: the level parts noise from twigs by their height alone.
 
 No ring ever crosses itself or another: a vertex stays while any other lies in the triangle that its going would sweep; it is asked again when that one has gone. Every ring keeps three.
 """

@@ -1,8 +1,8 @@
 """How rough is the contour, and how far must it be evolved so that only its shape is left?
 
 Ours; the paper leaves m to the user. The roughness σ is estimated from how far every point of the contour lies off the line through those `_SPAN` pixels before and behind it: for noise that differs from point to
-point the median of that is 0.6745 σ √1.5 (and more where the contour bends, which a median hardly sees). A bump as high as h has a relevance of about 2h pixels however wide it is (`evolution`), and noise seldom
-rises above 3-4 σ: so the evolution goes on until the least relevance exceeds `FACTOR` σ, or `LEAST` pixels, which pixels of an even edge alone need.
+point the median of that is 0.6745 σ √1.5 (and more where the contour bends, which a median hardly sees). A bump as high as h has a relevance of about h however wide it is (`evolution`), and noise leads from
+−3 or −4 σ to as much above: so the evolution goes on until the least relevance exceeds `FACTOR` σ, or `LEAST` pixels, which the pixels of an even edge alone need.
 """
 
 from collections.abc import Sequence
