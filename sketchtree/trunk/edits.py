@@ -52,10 +52,10 @@ def read_edits(path: str | os.PathLike) -> VertexEdits:
 def edits_of(said: object, name: str = "The edits") -> VertexEdits:
     """The edits that a JSON object says."""
     if not isinstance(said, dict):
-        raise OptionError(f"{name} is no JSON object.", remedy=_REMEDY)
+        raise OptionError(f"{name}: no JSON object.", remedy=_REMEDY)
     unknown = [key for key in said if key not in _KEYS]
     if unknown:
-        raise OptionError(f"{name} has the key `{unknown[0]}`, which is none of {', '.join(_KEYS)}.", remedy=_REMEDY)
+        raise OptionError(f"{name}: the key `{unknown[0]}` is none of {', '.join(_KEYS)}.", remedy=_REMEDY)
     m = said.get("vertices")
     if m is not None and (isinstance(m, bool) or not isinstance(m, int)):
         raise OptionError(f"{name}: `vertices` is {m!r}, not a whole number.", remedy=_REMEDY)
@@ -83,20 +83,24 @@ def _point(value: object, key: str, name: str) -> Point:
 
 @dataclass(frozen=True, eq=False)
 class Vertices:
-    """The vertices of every ring: numbers of its points, rising, and which of them a person added."""
+    """The vertices of every ring: numbers of its points, rising; which of them part the contour, and which of those a person added."""
 
     rows: tuple[Int[np.ndarray, " vertex"], ...]
+    parting: tuple[Bool[np.ndarray, " vertex"], ...]
     added: tuple[Bool[np.ndarray, " vertex"], ...]
 
     @classmethod
-    def of(cls, rows: Sequence[Int[np.ndarray, " vertex"]]) -> "Vertices":
+    def of(cls, rows: Sequence[Int[np.ndarray, " vertex"]], parting: Sequence[Bool[np.ndarray, " vertex"]]) -> "Vertices":
         """Vertices of which none was added."""
-        return cls(tuple(rows), tuple(np.zeros(len(own), bool) for own in rows))
+        return cls(tuple(rows), tuple(parting), tuple(np.zeros(len(own), bool) for own in rows))
+
+
+_PARTS, _ADDED = 1, 2  # beside 0: parts nothing
 
 
 def edited(vertices: Vertices, rings: Sequence[Float[np.ndarray, "point 2"]], edits: VertexEdits) -> Vertices:
-    """The vertices after the edits. Raises OptionError, naming the point, for what does not exist."""
-    kept = [dict.fromkeys(rows.tolist(), False) for rows in vertices.rows]
+    """The vertices after the edits; those that stay part the contour as before. Raises OptionError, naming the point, for what does not exist."""
+    kept = [dict(zip(rows.tolist(), parting.astype(int).tolist(), strict=True)) for rows, parting in zip(vertices.rows, vertices.parting, strict=True)]
     reach = max(_LEAST_REACH, _REACH * float(np.ptp(np.concatenate(rings), axis=0).max()))
     for point in edits.remove:
         ring, row = _vertex_at(kept, rings, point, reach)
@@ -105,9 +109,10 @@ def edited(vertices: Vertices, rings: Sequence[Float[np.ndarray, "point 2"]], ed
         _merge(kept, rings, one, other, reach)
     for point in edits.add:
         ring, row = _contour_at(rings, point, reach, "add")
-        kept[ring][row] = True
-    order = [np.array(sorted(own), np.int64) for own in kept]
-    return Vertices(tuple(order), tuple(np.array([own[row] for row in rows], bool) for own, rows in zip(kept, order, strict=True)))
+        kept[ring][row] = _ADDED
+    rows = [np.array(sorted(own), np.int64) for own in kept]
+    state = [np.array([own[row] for row in order]) for own, order in zip(kept, rows, strict=True)]
+    return Vertices(tuple(rows), tuple(own >= _PARTS for own in state), tuple(own == _ADDED for own in state))
 
 
 def _vertex_at(kept, rings, point: Point, reach: float) -> tuple[int, int]:

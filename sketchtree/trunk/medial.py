@@ -37,10 +37,24 @@ def medial_axis(binary: Binary, rings: Sequence[Float[np.ndarray, "point 2"]], s
     own = segment[diagram.ridge_points]
     inside = np.zeros(len(diagram.vertices) + 1, bool)  # the last: at infinity
     inside[:-1] = within(binary, diagram.vertices)
-    ends = ends[(own[:, 0] != own[:, 1]) & inside[ends].all(axis=1)]
+    parted = own[:, 0] != own[:, 1]
+    whole, half = parted & inside[ends].all(axis=1), parted & (inside[ends].sum(axis=1) == 1) & _neighbours(diagram.ridge_points, rings)
+    on_contour = sites[diagram.ridge_points[half]].mean(axis=1)  # an edge between two neighbours of the contour leaves the trunk between them
+    reaching = np.column_stack([ends[half][inside[ends[half]]], len(diagram.vertices) + np.arange(len(on_contour))])
+    ends = np.concatenate([ends[whole], reaching])
     if len(ends) == 0:
         raise SketchError("The trunk has no skeleton: it is too small, or its contour has too few vertices.", remedy="Ask for more vertices, or give a larger picture.")
-    return _largest(diagram.vertices, ends)
+    return _largest(np.concatenate([diagram.vertices, on_contour]), ends)
+
+
+def _neighbours(pairs, rings) -> Bool[np.ndarray, " pair"]:
+    """Which pairs of contour points follow each other on their ring?"""
+    after, first = [], 0
+    for ring in rings:
+        after.append(first + (np.arange(len(ring)) + 1) % len(ring))
+        first += len(ring)
+    after = np.concatenate(after)
+    return (after[pairs[:, 0]] == pairs[:, 1]) | (after[pairs[:, 1]] == pairs[:, 0])
 
 
 def within(binary: Binary, points: Float[np.ndarray, "point 2"]) -> Bool[np.ndarray, " point"]:

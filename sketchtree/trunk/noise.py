@@ -12,7 +12,7 @@ from jaxtyping import Float
 
 FACTOR = 8.0
 LEAST = 4.0  # pixels
-_SPAN = 4.0  # pixels
+_SPAN = 6.0  # pixels
 
 
 def roughness(rings: Sequence[Float[np.ndarray, "point 2"]]) -> float:

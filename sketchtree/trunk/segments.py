@@ -21,8 +21,8 @@ def convex(ring: Float[np.ndarray, "vertex 2"]) -> Bool[np.ndarray, " vertex"]:
 def segments(rings: Sequence[Float[np.ndarray, "point 2"]], vertices: Vertices) -> Int[np.ndarray, " point"]:
     """The segment of every point of every ring, rings one after the other; a vertex belongs to the segment that it begins."""
     labels, first = [], 0
-    for ring, rows, added in zip(rings, vertices.rows, vertices.added, strict=True):
-        parting = rows[convex(ring[rows]) | added]
+    for ring, rows, parts in zip(rings, vertices.rows, vertices.parting, strict=True):
+        parting = rows[parts]
         count = max(len(parting), 1)
         number = np.searchsorted(parting, np.arange(len(ring)), side="right") - 1
         labels.append(first + number % count)

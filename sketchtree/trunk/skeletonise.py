@@ -54,7 +54,7 @@ def _evolved(shape: Outline, asked: int | None) -> tuple[Vertices, list[str]]:
     if asked is not None and found.count != asked:
         why = "the contour has no more" if found.count < asked else "with fewer it would cross itself"
         told = [f"{asked} vertices were asked for; {found.count} are left, since {why}."]
-    return Vertices.of(found.kept), told
+    return Vertices.of(found.kept, [convex(ring[rows]) for ring, rows in zip(shape.rings, found.kept, strict=True)]), told
 
 
 def _start(xy, root) -> int:
@@ -79,16 +79,14 @@ def _finished(tree: Rooted, binary: Binary, nearest: KDTree, shape: Outline, pol
     count = np.bincount(tree.parent[tree.parent != NULL], minlength=len(tree.parent))
     xy, radius, parent, node = [tree.xy[0]], [tree.radius[0]], [NULL], {0: 0}
     for rows in chains(tree.parent):
-        line = smooth(tree.xy[rows], float(np.median(tree.radius[rows])))
-        end = None
-        if count[rows[-1]] == 0:
-            width = nearest.query(line)[0]
-            line, end = led_out(line, width, clear_of_end(line, width), inside)
+        line, width, end = tree.xy[rows], tree.radius[rows], None
         if rows[0] == 0 and count[0] == 1 and root is None:
-            line, width = line[::-1], nearest.query(line[::-1])[0]
-            line, radius[0] = led_out(line, width, clear_of_ground(line, width), inside)
+            line, radius[0] = led_out(line[::-1], width[::-1], clear_of_ground(line[::-1], width[::-1]), inside)
             line = line[::-1]
-            xy[0] = line[0]
+            xy[0], width = line[0], nearest.query(line)[0]
+        if count[rows[-1]] == 0:
+            line, end = led_out(line, width, clear_of_end(line, width), inside)
+        line = smooth(line, float(np.median(tree.radius[rows])))
         line = telling(line)
         width = nearest.query(line)[0]
         width[-1] = width[-1] if end is None else end
@@ -100,5 +98,4 @@ def _finished(tree: Rooted, binary: Binary, nearest: KDTree, shape: Outline, pol
     parent = np.array(parent)
     edges = np.column_stack([parent[1:], np.arange(1, len(parent))])
     corners = tuple(ring[rows] for ring, rows in zip(shape.rings, polygon.rows, strict=True))
-    parting = tuple(convex(ring) | added for ring, added in zip(corners, polygon.added, strict=True))
-    return TrunkSkeleton(np.array(xy), edges, np.maximum(np.array(radius), _LEAST_RADIUS), 0, corners, parting, shape, warnings)
+    return TrunkSkeleton(np.array(xy), edges, np.maximum(np.array(radius), _LEAST_RADIUS), 0, corners, polygon.parting, shape, warnings)

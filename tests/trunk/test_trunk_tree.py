@@ -1,0 +1,134 @@
+"""Skeleton in the picture → tree in space (§II.3)."""
+
+import re
+
+import numpy as np
+import pytest
+from silhouettes import capsules, forked
+
+from sketchtree.errors import OptionError
+from sketchtree.keys import root_key
+from sketchtree.options import ReadingOptions
+from sketchtree.page import page_to_world
+from sketchtree.trunk.as_tree import as_tree
+from sketchtree.trunk.limbs import limb_of, trunk_drawing
+from sketchtree.trunk.siblings import STEEPEST, golden_step, leaving, sibling_angles, sibling_depth
+from sketchtree.trunk.skeletonise import trunk_skeleton
+
+KEY = root_key(0)
+UP = np.array([0.0, 1.0, 0.0])
+
+
+def bushy() -> np.ndarray:
+    """A stem with five limbs, one of them with a twig."""
+    stem = ((100.0, 250.0), (100.0, 20.0), 7.0)
+    limbs = [((100.0, y), (100.0 + side * 60.0, y - 40.0), 3.5) for y, side in ((190.0, 1), (165.0, -1), (135.0, 1), (110.0, -1), (75.0, 1))]
+    return capsules([stem, *limbs, ((130.0, 170.0), (160.0, 175.0), 3.0)], (230, 200))
+
+
+def azimuth(d, z: float, p) -> float:
+    """The angle of (d, z) about p from the page's right-hand side, a frame made another way."""
+    p = p / np.linalg.norm(p)
+    right = np.cross(p, [0.0, 0.0, 1.0])
+    right /= np.linalg.norm(right)
+    c = np.array([*d, z])
+    return float(np.arctan2(c @ np.cross(right, p), c @ right))
+
+
+@pytest.mark.parametrize("theta", [0.0, 0.3, -0.4, np.pi - 0.3, 2 * np.pi - 0.2])
+@pytest.mark.parametrize("p", [UP, np.array([0.3, 0.9, 0.2]), np.array([-0.6, 0.5, -0.1])])
+def test_a_limb_has_the_azimuth_that_was_drawn_for_it(theta, p):
+    right = np.array([p[1], -p[0]]) / np.hypot(p[0], p[1])
+    side = 1.0 if np.cos(theta) > 0 else -1.0
+    d = side * 0.8 * right + 0.6 * p[:2] / np.hypot(p[0], p[1])
+    z = leaving(d, p, theta)
+    assert abs(z) <= STEEPEST / 2
+    assert np.exp(1j * azimuth(d, z, p)) == pytest.approx(np.exp(1j * theta))
+
+
+def test_an_angle_of_the_other_side_is_mirrored_in_depth_kept():
+    d = np.array([0.8, 0.6])
+    assert leaving(d, UP, np.pi - 0.3) == pytest.approx(leaving(d, UP, 0.3))
+    assert leaving(d, UP, np.pi + 0.3) == pytest.approx(leaving(d, UP, -0.3))
+
+
+def test_no_limb_leaves_the_page_by_more_than_the_steepest():
+    assert abs(leaving(np.array([0.8, 0.6]), UP, np.pi / 2)) <= STEEPEST
+
+
+def test_siblings_take_all_k_angles():
+    _, graph = trunk_drawing(trunk_skeleton(bushy()))
+    angle = sibling_angles(graph, KEY, spread=0.0)
+    laterals = np.flatnonzero(graph.limb_parent == 0)
+    k = len(laterals)
+    assert k == 5
+    assert np.sort(angle[laterals]) == pytest.approx(2 * np.pi * np.arange(1, k + 1) / k)
+
+
+@pytest.mark.parametrize("k", range(1, 30))
+def test_the_golden_step_reaches_every_number(k):
+    assert sorted(np.arange(k) * golden_step(k) % k) == list(range(k))
+
+
+def test_siblings_angles_are_normal_about_those():
+    _, graph = trunk_drawing(trunk_skeleton(forked()))
+    off = np.array([sibling_angles(graph, root_key(seed), 0.35) - sibling_angles(graph, KEY, 0.0) for seed in range(200)])[:, 1:]
+    assert off.mean() == pytest.approx(0.0, abs=0.06) and off.std() == pytest.approx(0.35, abs=0.05)
+
+
+def test_a_trunk_stays_in_the_page():
+    _, graph = trunk_drawing(trunk_skeleton(bushy()))
+    depth = sibling_depth(graph, sibling_angles(graph, KEY))
+    assert np.all(depth[graph.limb == 0] == 0.0) and np.abs(depth).max() > 10.0
+
+
+def test_the_projection_is_that_of_the_picture_to_the_last_bit():
+    skeleton = trunk_skeleton(bushy())
+    _, graph = trunk_drawing(skeleton)
+    tree = as_tree(skeleton, key=KEY, height=9.0)
+    similarity = page_to_world(graph, 9.0)
+    assert np.array_equal(tree.tip[:, :2], similarity.to_world(graph.xy))
+    assert np.array_equal(tree.curve_points[:, :2], similarity.to_world(graph.curve_points))
+    assert tree.radius == pytest.approx(graph.width / 2 * similarity.scale)
+
+
+def test_the_root_is_the_origin_and_the_height_what_was_asked_for():
+    tree = as_tree(trunk_skeleton(bushy()), key=KEY, height=9.0)
+    assert tree.tip[0] == pytest.approx([0.0, 0.0, 0.0]) and tree.height == pytest.approx(9.0)
+
+
+def test_elevation_keeps_the_projection_too():
+    skeleton = trunk_skeleton(forked())
+    one = as_tree(skeleton, key=KEY, height=9.0)
+    other = as_tree(skeleton, key=KEY, lift="elevation", height=9.0, options=ReadingOptions(template="none"))
+    assert np.abs(one.tip[:, :2] - other.tip[:, :2]).max() < 1e-9 and np.ptp(other.tip[:, 2]) > 0
+
+
+def test_limbs_have_names_of_their_parents_and_orders():
+    sketch, graph = trunk_drawing(trunk_skeleton(bushy()))
+    names = [stroke.id for stroke in sketch.strokes]
+    assert names[0] == "trunk" and {f"trunk.{k}" for k in range(1, 6)} < set(names)
+    assert sum(name.count(".") == 2 for name in names) == 1
+    assert np.bincount(graph.limb_order).tolist() == [1, 5, 1]
+
+
+def test_the_straightest_thickest_branch_carries_the_limb_on():
+    xy = np.array([[0.0, 0.0], [0.0, -20.0], [2.0, -40.0], [15.0, -35.0]])
+    limb, order = limb_of(np.array([-1, 0, 1, 1]), xy, np.array([5.0, 4.0, 2.0, 2.0]))
+    assert limb.tolist() == [0, 0, 0, 1] and order.tolist() == [0, 0, 0, 1]
+    limb, _ = limb_of(np.array([-1, 0, 1, 1]), xy, np.array([5.0, 4.0, 1.0, 4.0]))
+    assert limb.tolist() == [0, 0, 1, 0]
+
+
+def test_another_seed_gives_other_depths_and_the_same_seed_the_same():
+    skeleton = trunk_skeleton(bushy())
+    one, same, other = (as_tree(skeleton, key=root_key(seed)) for seed in (1, 1, 2))
+    assert one.tip.tobytes() == same.tip.tobytes() and not np.array_equal(one.tip, other.tip)
+
+
+def test_an_unknown_lift_or_height_is_refused():
+    skeleton = trunk_skeleton(forked())
+    with pytest.raises(OptionError, match=re.escape("There is no lift called `okabe`. Use one of: siblings, elevation.")):
+        as_tree(skeleton, key=KEY, lift="okabe")
+    with pytest.raises(OptionError, match=re.escape("A height of -1 m is not positive. Give metres above 0.")):
+        as_tree(skeleton, key=KEY, height=-1.0)
