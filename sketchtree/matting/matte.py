@@ -1,0 +1,65 @@
+"""How much of each pixel is tree, by which method? The names of the methods, and what is done around each: alpha that the file has, size, warnings."""
+
+from collections.abc import Callable
+
+import numpy as np
+from jaxtyping import Array, Key
+from PIL import Image
+
+from sketchtree.errors import OptionError, SketchError
+from sketchtree.matting.alpha import Matte
+from sketchtree.matting.closed_form import closed_form
+from sketchtree.matting.layered import layered
+from sketchtree.matting.normalised import normalised
+from sketchtree.matting.scribbles import Scribbles
+from sketchtree.photo.photo import Photo
+
+__all__ = ["DEFAULT", "LARGEST", "MATTINGS", "Matte", "find_matte"]
+
+MATTINGS: dict[str, Callable[..., Matte]] = {"layered": layered, "closed-form": closed_form, "normalised": normalised}
+DEFAULT = "layered"
+LARGEST = 400_000  # pixels that are worked on: the factors of 10⁶ take some gigabytes
+_SMALLEST = 3  # pixels: a window
+_FULL = 250  # of 255: alpha from which a file's own counts as none
+
+
+def find_matte(photo: Photo, scribbles: Scribbles | None, *, key: Key[Array, ""], method: str = DEFAULT, largest: int = LARGEST) -> Matte:
+    """The matte of a photo: its own alpha where it has one, else by a method and scribbles. Raises SketchError for scribbles that mark nothing or both sides at once."""
+    if method not in MATTINGS:
+        raise OptionError(f"There is no matting called '{method}'.", remedy=f"Choose one of: {', '.join(MATTINGS)}.")
+    if photo.alpha is not None and (photo.alpha < _FULL).any():
+        told = f"{photo.name} is transparent in part; its own alpha was taken as the matte" + (", and the scribbles were not used." if scribbles is not None else ".")
+        return Matte(photo.alpha / np.float32(255), "alpha of the file", (), (told,))
+    if scribbles is None:
+        raise SketchError(f"{photo.name} needs scribbles that say what is tree.", remedy="Give --scribbles FILE: one line along the trunk (foreground), one beside the tree (background).")
+    if min(photo.width, photo.height) < _SMALLEST:
+        raise SketchError(f"{photo.name} has {photo.width} × {photo.height} pixels; {_SMALLEST} × {_SMALLEST} are the least.", remedy="Give a larger photo.")
+    scribbles.masks(photo)  # what is wrong with them is said of the photo as it is
+    if photo.width * photo.height <= largest:
+        found = MATTINGS[method](photo, scribbles, key=key)
+        return Matte(found.alpha, found.method, found.course, scribbles.warnings + found.warnings)
+    return _smaller(photo, scribbles, method, largest, key)
+
+
+def _smaller(photo: Photo, scribbles: Scribbles, method: str, largest: int, key) -> Matte:
+    """The matte of a smaller copy, enlarged."""
+    scale = (largest / (photo.width * photo.height)) ** 0.5
+    size = max(int(photo.width * scale), _SMALLEST), max(int(photo.height * scale), _SMALLEST)
+    small = Photo(np.asarray(Image.fromarray(photo.rgb).resize(size, Image.Resampling.BOX)), None, photo.name)
+    along = np.array([size[0] / photo.width, size[1] / photo.height])
+    lines = [tuple(line * along for line in side) for side in (scribbles.foreground, scribbles.background)]
+    found = MATTINGS[method](small, _apart(Scribbles(lines[0], lines[1], scribbles.brush * scale, scribbles.name), small), key=key)
+    alpha = np.asarray(Image.fromarray(np.asarray(found.alpha)).resize((photo.width, photo.height), Image.Resampling.BILINEAR))
+    told = f"{photo.name} has {photo.width} × {photo.height} pixels; the matte was found on {size[0]} × {size[1]} and enlarged."
+    return Matte(np.clip(alpha, 0, 1), found.method, found.course, (*scribbles.warnings, told, *found.warnings))
+
+
+def _apart(scribbles: Scribbles, photo: Photo) -> Scribbles:
+    """The scribbles with as narrow a brush as it takes that two sides, apart on the photo, stay so on the small one."""
+    try:
+        scribbles.masks(photo)
+    except SketchError as error:
+        if "as foreground and as background" not in error.message or scribbles.brush < 1e-3:
+            raise
+        return _apart(Scribbles(scribbles.foreground, scribbles.background, scribbles.brush / 2, scribbles.name), photo)
+    return scribbles

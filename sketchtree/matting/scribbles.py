@@ -1,0 +1,168 @@
+"""What did the user mark as tree, and what as anything else? Two sets of lines over a photo, from a JSON or SVG file.
+
+    {"foreground": [[[x, y], ...], ...], "background": [...], "brush": px}
+
+Pixels, x right, y DOWN; the middle of the pixel in row r and column c is (c + ½, r + ½). A brush is round and `brush` pixels across. An SVG says by layer or id which is
+which, and its page (viewBox) is the photo.
+"""
+
+import os
+from dataclasses import dataclass, field
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+from jaxtyping import Bool, Float
+
+from sketchtree.errors import SketchError
+from sketchtree.photo.photo import Photo
+from sketchtree.sketch.files.json_text import parse_json
+from sketchtree.sketch.files.limits import MAX_MB, inflate, read_bytes
+from sketchtree.sketch.formats import read_sketch
+
+BRUSH = 3.0  # pixels across, where a file doesn't say
+SIDES = ("foreground", "background")
+_MOST = 100_000  # points of all lines
+_SAME_SHAPE = 0.01  # by which the page's width / height may differ from the photo's
+_AGAIN = "Draw the scribbles again over this photo."
+
+
+@dataclass(frozen=True, eq=False)
+class Scribbles:
+    """Lines on the tree and lines beside it. Requirements, checked at construction: every line has a point, all are finite, the brush is a positive number."""
+
+    foreground: tuple[Float[np.ndarray, "point 2"], ...]
+    background: tuple[Float[np.ndarray, "point 2"], ...]
+    brush: float = BRUSH  # pixels across
+    name: str = "scribbles"
+    warnings: tuple[str, ...] = field(default=())
+
+    def __post_init__(self):
+        if not (np.isfinite(self.brush) and self.brush > 0):
+            raise SketchError(f"{self.name} has a brush of {self.brush:g} pixels.", remedy="Give `brush` as the line's width in pixels, above 0.")
+        for side in SIDES:
+            lines = tuple(np.array(line, np.float64).reshape(-1, 2) for line in getattr(self, side))
+            for k, line in enumerate(lines):
+                if len(line) == 0 or not np.isfinite(line).all():
+                    what = "has no points" if len(line) == 0 else "has a coordinate that is not a finite number"
+                    raise SketchError(f"{self.name}: {side} line {k + 1} {what}.", remedy="Delete it or draw it again.")
+                line.flags.writeable = False
+            object.__setattr__(self, side, lines)
+
+    def masks(self, photo: Photo) -> tuple[Bool[np.ndarray, "row column"], Bool[np.ndarray, "row column"]]:
+        """The pixels under the foreground's and under the background's lines. Raises SketchError where a side has none in the photo, or both have the same."""
+        shape = (photo.height, photo.width)
+        fore, back = (painted(getattr(self, side), self.brush, shape) for side in SIDES)
+        if not self.foreground and not self.background:
+            raise SketchError(f"{self.name} is empty.", remedy="Draw one line along the trunk (foreground) and one beside the tree (background).")
+        for side, mask in zip(SIDES, (fore, back), strict=True):
+            if not getattr(self, side):
+                raise SketchError(f"{self.name} has no {side} line.", remedy=_wanted(side))
+            if not mask.any():
+                raise SketchError(f"The {side} lines of {self.name} lie outside the photo ({photo.width} × {photo.height} pixels).", remedy=_AGAIN)
+        both = fore & back
+        if both.any():
+            row, column = np.argwhere(both)[0]
+            raise SketchError(
+                f"{self.name} marks {both.sum()} pixels as foreground and as background, the first at ({column}, {row}).",
+                remedy="Erase one of the two lines there, or draw with a smaller `brush`.",
+            )
+        return fore, back
+
+    def leaving(self, photo: Photo) -> tuple[str, ...]:
+        """A warning for every line that leaves the photo: only what lies inside counts."""
+        told = []
+        for side in SIDES:
+            for k, line in enumerate(getattr(self, side)):
+                if (line < -1).any() or (line > [photo.width + 1, photo.height + 1]).any():
+                    told.append(f"{self.name}: {side} line {k + 1} leaves the photo; what is outside was left out.")
+        return tuple(told)
+
+
+def _wanted(side: str) -> str:
+    return "Draw a line along the trunk." if side == "foreground" else "Draw a line beside the tree, over what is behind it."
+
+
+def painted(lines, brush: float, shape: tuple[int, int]) -> Bool[np.ndarray, "row column"]:
+    """The pixels whose middle lies within half a brush of a line, and those that hold one of its points."""
+    mask = np.zeros(shape, bool)
+    for line in lines:
+        _paint(mask, line, brush / 2)
+        column, row = np.floor(line).astype(np.int64).T if np.abs(line).max() < 1e9 else np.full((2, len(line)), -1)
+        inside = (row >= 0) & (row < shape[0]) & (column >= 0) & (column < shape[1])
+        mask[row[inside], column[inside]] = True
+    return mask
+
+
+def _paint(mask: Bool[np.ndarray, "row column"], line: Float[np.ndarray, "point 2"], half: float) -> None:
+    ends = line if len(line) > 1 else np.repeat(line, 2, axis=0)
+    for start, end in zip(ends[:-1], ends[1:], strict=True):
+        low = np.clip(np.floor(np.minimum(start, end) - half).astype(np.float64), 0, mask.shape[::-1]).astype(int)
+        high = np.clip(np.ceil(np.maximum(start, end) + half).astype(np.float64), 0, mask.shape[::-1]).astype(int)
+        if (high <= low).any():
+            continue
+        x, y = np.meshgrid(np.arange(low[0], high[0]) + 0.5, np.arange(low[1], high[1]) + 0.5)
+        along = end - start
+        at = np.clip(((x - start[0]) * along[0] + (y - start[1]) * along[1]) / max(along @ along, 1e-12), 0.0, 1.0)
+        near = np.hypot(x - start[0] - at * along[0], y - start[1] - at * along[1]) <= half
+        mask[low[1] : high[1], low[0] : high[0]] |= near
+
+
+def read_scribbles(path: str | os.PathLike, photo: Photo, *, max_mb: float = MAX_MB) -> Scribbles:
+    """The scribbles in a file, in the photo's pixels. Raises SketchError, naming the file, for what holds none."""
+    path = Path(path)
+    data = inflate(read_bytes(path, max_mb=max_mb), path.name, max_mb=max_mb)
+    found = _of_json(data, path.name) if data.lstrip(b"\xef\xbb\xbf \t\r\n").startswith((b"{", b"[")) else _of_drawing(path, photo, max_mb)
+    return Scribbles(found.foreground, found.background, found.brush, path.name, found.warnings + found.leaving(photo))
+
+
+def _of_json(data: bytes, name: str) -> Scribbles:
+    document = parse_json(data, name)
+    if not isinstance(document, dict) or not any(side in document for side in SIDES):
+        raise SketchError(f"{name} is JSON, but holds no scribbles: it has neither a key 'foreground' nor 'background'.", remedy="Compare it with docs/formats.md.")
+    brush = document.get("brush", BRUSH)
+    if isinstance(brush, bool) or not isinstance(brush, int | float):
+        raise SketchError(f"{name} has 'brush': {brush!r}; a number was expected.", remedy="Give `brush` as the line's width in pixels, above 0.")
+    sides = [tuple(_line(line, name, side, k) for k, line in enumerate(_list(document.get(side, []), name, side))) for side in SIDES]
+    if sum(len(line) for side in sides for line in side) > _MOST:
+        raise SketchError(f"{name} has more than {_MOST:,} points.", remedy="Simplify the lines.")
+    return Scribbles(sides[0], sides[1], float(brush), name)
+
+
+def _list(value: Any, name: str, side: str) -> list:
+    if not isinstance(value, list):
+        raise SketchError(f"{name}: '{side}' is no list of lines.", remedy="Give it as [[[x, y], ...], ...].")
+    return value
+
+
+def _line(line: Any, name: str, side: str, k: int) -> Float[np.ndarray, "point 2"]:
+    points = line if isinstance(line, list) else [None]
+    numbers = [point[:2] for point in points if isinstance(point, list) and len(point) >= 2 and all(_number(value) for value in point[:2])]
+    if len(numbers) != len(points):
+        raise SketchError(f"{name}: {side} line {k + 1} is no list of points.", remedy="Give every line as [[x, y], ...], in pixels.")
+    return np.array(numbers, np.float64).reshape(-1, 2)
+
+
+def _number(value: Any) -> bool:
+    return isinstance(value, int | float) and not isinstance(value, bool)
+
+
+def _of_drawing(path: Path, photo: Photo, max_mb: float) -> Scribbles:
+    sketch = read_sketch(path, max_mb=max_mb)
+    scale, shift = 1.0, np.zeros(2)
+    if sketch.page is not None:
+        left, bottom, right, top = sketch.page
+        if right <= left or top <= bottom or abs((right - left) / (top - bottom) * photo.height / photo.width - 1) > _SAME_SHAPE:
+            raise SketchError(f"{path.name} is drawn on a page of {right - left:g} × {top - bottom:g}, but the photo has {photo.width} × {photo.height} pixels.", remedy=_AGAIN)
+        scale = photo.width / (right - left)
+        shift = np.array([-left, top]) * scale
+    sides: dict[str, list] = {side: [] for side in SIDES}
+    nameless = 0
+    for stroke in sketch.strokes:
+        said = next((side for word in (stroke.id, stroke.layer) for side in SIDES if side in (word or "").lower()), None)
+        nameless += said is None
+        if said is not None:
+            sides[said].append(stroke.points * [scale, -scale] + shift)
+    widths = [stroke.width for stroke in sketch.strokes if stroke.width]
+    told = (f"{path.name}: {nameless} lines are in no layer called foreground or background; they were left out.",) if nameless else ()
+    return Scribbles(tuple(sides["foreground"]), tuple(sides["background"]), float(np.median(widths)) * scale if widths else BRUSH, path.name, told)
