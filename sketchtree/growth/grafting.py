@@ -2,8 +2,8 @@
 
 Single-image growth, §II.3 and Figure 7: units of the library are grafted on existing tips and sides, level by level, with angles and
 sizes drawn about those of the tree itself (its local self-similarity). A unit that goes on from a tip continues its limb; one at a side
-begins a limb of the next branching order. Units never run through thick wood or into the ground: one that would is turned about the
-branch that bears it, and left out if that doesn't help.
+begins a limb of the next branching order. Units never run through thick wood or into the ground, and don't hang much more than what
+bears them: one that would is turned about the branch that bears it, and left out if that doesn't help.
 
 What was there before stays as it was. Numbers are drawn by limb id: a limb more changes the branches on the others only as far as it
 changes the tree's manner.
@@ -30,6 +30,7 @@ from sketchtree.skeleton import Kind, TreeSkeleton
 LEAST, MOST = 0, 5  # levels
 _TRIES = 4
 _NEAR = 3.0  # radii of the wood that bears a unit, from its foot: there it may touch it
+_HANGS = np.sin(np.radians(20.0))  # most that a unit's way falls a metre, or as much as that of what bears it
 _TWIG = 0.25  # of the thinnest wood there is
 
 
@@ -99,6 +100,7 @@ class _Growth:
             starts = np.concatenate([start[left][:, None], tips], axis=1)[:, np.array(unit.parent) + 1]
             foot, near = np.repeat(start[left], len(unit), 0), np.repeat(_NEAR * thick[feet.node[left]], len(unit))
             bad = self.clear.blocked(starts.reshape(-1, 3), tips.reshape(-1, 3), foot, near).reshape(len(left), len(unit)).any(axis=1)
+            bad |= ways[:, 0, 1] < np.minimum(feet.way[left, 1], 0.0) - _HANGS
             good = left[~bad]
             way[good], tip[good], room[good] = ways[~bad], tips[~bad], True
             left = left[bad]
