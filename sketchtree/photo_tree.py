@@ -40,8 +40,10 @@ from sketchtree.pipeline import Grown, TreeModel, finish
 from sketchtree.planting import tree_key
 from sketchtree.propagate.after.prune import Prune
 from sketchtree.propagate.attractors.lifted_within import lifted_within
+from sketchtree.propagate.attractors.regrown import grown_free
 from sketchtree.propagate.attractors.stage import Attract, Attraction
 from sketchtree.propagate.attractors.target import Target
+from sketchtree.propagate.scale import to_scale
 from sketchtree.similarity import Similarity
 from sketchtree.skeleton import TreeSkeleton
 from sketchtree.skeleton_joined import joined, moved
@@ -212,7 +214,8 @@ def grow_in_photo(
     drawn = dataclasses.replace(drawn, skeleton=lifted_within(drawn.skeleton, target_of(seen)))
     with watch("propagate"):
         stage = Attract(targets=target_of(seen), library=wanted.library, iterations=wanted.replacements, alternate=wanted.alternate, twigs=wanted.replacements > 0)
-        grown = stage.run(drawn.skeleton, key=stage_key(key, "attract"), pulse=_pulse(watch))
+        scaled = to_scale(drawn.habit, drawn.skeleton, drawn.crown)
+        grown = grown_free(stage, drawn.skeleton, drawn.radius, drawn.habit, scaled, key=stage_key(key, "attract"), pulse=_pulse(watch))
     return GrownInPhoto(own, foliage, traced, drawn, grown, seen, choice, seen_bark(photo, foliage, traced))
 
 

@@ -26,7 +26,6 @@ _SHORTEST = 1.6  # leaf lengths: a shorter branch isn't replaced
 _UNDER = 0.9  # leaf lengths: foliage so near to a drawn limb has no twig yet for its leaves
 _BARK = 1.0  # leaf lengths: a limb as thick hides the leaves that would hang before it, and bears none
 _LOOSE = 0.3  # of the distance between attractors in 3D: so far each is off the grid at most, along each axis, so that nothing grows along its lines
-_RANK = 1 << 20  # ranks of limbs grown here start there, so that other stages' are others
 
 
 @dataclass(eq=False)
@@ -69,7 +68,7 @@ class State:
     def bear(self, parent: int, at: float, point: Float[np.ndarray, "point 3"]) -> None:
         """A new limb."""
         bearer = self.wood.limbs[parent]
-        identity = int(child_limb_id(np.array([bearer.identity]), np.array([_RANK + bearer.sprouted]))[0])
+        identity = int(child_limb_id(np.array([bearer.identity]), np.array([self.wanted.first_rank + bearer.sprouted]))[0])
         bearer.sprouted += 1
         self.wood.limbs.append(Limb(identity, parent, float(at), point, bearer.generation + 1, bearer.radius * RATIO, bearer.order + 1))
         self.grown += len(point) - 1
@@ -127,6 +126,8 @@ class State:
     def _along_limbs(self, seen: Target) -> Attractors:
         """Attractors on the page, of all foliage, that a drawn limb is near, though none whose bark would show: no leaf has a twig there yet, so that they count as far until something grows (ours)."""
         place, thick = image_attractors(seen, self.leaf), self.thick
+        if not self.wanted.along:
+            return Attractors.at(place[:0])
         near = distances(place, *(ends[:, :2] for ends in self.wood.pieces()[:2]))[0] <= _UNDER * self.leaf
         bark = thick.radius > _BARK * self.leaf
         if bark.any():

@@ -30,8 +30,10 @@ class Wanted:
     dense: bool = True  # wood ends where half of what is round it for a leaf's length is foliage; False: anywhere in the foliage, its gaps closed (the paper's)
     boughs: bool = True  # to parts of the crown that are far from all wood a bough grows first; with attractors in 3D that fill the foliage, and only where these drive
     twigs: bool = True  # what is still farther than a leaf is long grows twigs in the end
+    along: bool = True  # so do limbs that were given, where foliage near them has no twig yet for its leaves
     in_space: int = 2500  # attractors in 3D, about, of `volume`
     max_segments: int = 60_000  # straight pieces grown, at most
+    first_rank: int = 1 << 20  # ranks of limbs grown start there, so that the ids of other stages' limbs are others
 
     def __post_init__(self):
         if not 0 <= self.iterations <= MOST_ITERATIONS:
