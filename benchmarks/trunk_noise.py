@@ -2,7 +2,7 @@
 
     python -m benchmarks.trunk_noise                    the table
     python -m benchmarks.trunk_noise --trunks 4 --sizes 420
-    python -m benchmarks.trunk_noise -o DIR             and pictures, one a noise level
+    python -m benchmarks.trunk_noise -o DIR             and pictures, one a noise level, and one of the vertices
 
 A trunk is a union of round tapering limbs: a stem, limbs on it, twigs on those, none nearer to another than a few pixels, none that hardly leaves its parent's outline. Its contour is moved in and out by
 noise: a random field, independent from pixel to pixel but for a Gaussian of σ 0.7 pixels, with a standard deviation of 0-2 pixels, is added to the signed distance.
@@ -32,7 +32,9 @@ from scipy.spatial import KDTree
 from scipy.spatial.distance import cdist
 from skimage.morphology import medial_axis, skeletonize
 
+from sketchtree.trunk.edits import VertexEdits
 from sketchtree.trunk.skeletonise import trunk_skeleton
+from sketchtree.trunk.trunk_skeleton import TrunkSkeleton
 
 NOISE = (0.0, 0.5, 1.0, 1.5, 2.0)  # pixels
 SIZES = (420, 1500)  # pixels high
@@ -194,9 +196,26 @@ def table(size: int, trunks: int, levels=NOISE, methods=METHODS) -> list[dict]:
     return rows
 
 
-def picture(one: Trunk, mask: np.ndarray, scale: int = 2) -> Image.Image:
+def vertices_picture(one: Trunk, mask: np.ndarray) -> Image.Image:
+    """As Figure 4: thinning and the whole medial axis; ours with few vertices, with as many as the noise allows, and with the segments about the leftmost limb merged by hand."""
+    alpha = mask.astype(np.float64)
+    whole = trunk_skeleton(alpha)
+    ring = whole.vertices[0]
+    tip = ring[int(np.argmin(ring[:, 0]))]
+    order = np.roll(np.arange(len(ring)), -int(np.argmin(ring[:, 0])))
+    edits = VertexEdits(merge=((tuple(ring[order[-2]]), tuple(ring[order[2]])),)) if len(ring) > 8 else VertexEdits(remove=(tuple(tip),))
+    thin = [Image.fromarray(np.where(lines, 0, np.where(mask, 170, 255)).astype(np.uint8)) for lines in (skeletonize(mask), medial_axis(mask, rng=0))]
+    size = (2 * mask.shape[1], 2 * mask.shape[0])
+    panels = [lines.resize(size, Image.Resampling.NEAREST).convert("RGB") for lines in thin]
+    panels += [picture(one, mask, trunk_skeleton(alpha, vertices=20)), picture(one, mask, whole), picture(one, mask, trunk_skeleton(alpha, edits=edits))]
+    sheet = Image.new("RGB", (size[0] * len(panels), size[1]), "white")
+    for k, panel in enumerate(panels):
+        sheet.paste(panel, (k * size[0], 0))
+    return sheet
+
+
+def picture(one: Trunk, mask: np.ndarray, skeleton: TrunkSkeleton, scale: int = 2) -> Image.Image:
     """The mask, the evolved polygon with its parting vertices, the skeleton, the true ends."""
-    skeleton = trunk_skeleton(mask.astype(np.float64))
     image = Image.fromarray(np.where(mask, 120, 255).astype(np.uint8)).resize((mask.shape[1] * scale, mask.shape[0] * scale), Image.Resampling.NEAREST).convert("RGB")
     pen = ImageDraw.Draw(image)
     for ring, parting in zip(skeleton.vertices, skeleton.parting, strict=True):
@@ -227,7 +246,9 @@ def main() -> None:
         asked.out.mkdir(parents=True, exist_ok=True)
         one = trunk(1000)
         for sd in asked.noise:
-            picture(one, noisy(one, sd, 7)).save(asked.out / f"trunk_noise_{sd:g}.png")
+            mask = noisy(one, sd, 7)
+            picture(one, mask, trunk_skeleton(mask.astype(np.float64))).save(asked.out / f"trunk_noise_{sd:g}.png")
+        vertices_picture(one, noisy(one, 1.0, 7)).save(asked.out / "trunk_vertices.png")
     sys.exit(1 if missed else 0)
 
 

@@ -1,13 +1,13 @@
 """Which pixels are the trunk? Those at least half opaque, of one connected piece.
 
 Pieces are counted over all eight neighbours, so that a twig one pixel wide holds together. Kept is the piece that holds the root, or else the largest; the others are left out, and a warning says how
-many. Holes of less than `SMALL_HOLE` of the piece, or in which no square of three pixels finds room, are filled; a warning says how many. Larger ones stay: a hole between two limbs that cross is seen through.
+many. Where `gap` is more than 0, ours, pieces that lie so near to the trunk, or to one that was joined, belong to it: thin twigs fall apart where they are half transparent. Holes of less than `SMALL_HOLE` of the piece, or in which no square of three pixels finds room, are filled; a warning says how many. Larger ones stay: a hole between two limbs that cross is seen through.
 """
 
 from dataclasses import dataclass
 
 import numpy as np
-from jaxtyping import Bool, Float
+from jaxtyping import Bool, Float, Int
 from scipy import ndimage
 
 from sketchtree.errors import OptionError, SketchError
@@ -16,6 +16,7 @@ from sketchtree.photo.photo import at_pixels
 HALF = 0.5
 SMALL_HOLE = 0.002  # of the piece's area
 LEAST = 12  # pixels that a trunk has
+_BRIDGE = 2.0  # gaps round the nearest place of a piece, and eight pixels, within which a bridge lies
 _EIGHT = np.ones((3, 3), bool)
 _NEAR = 0.05  # of the picture's longer side: how far beside the trunk a given root may lie
 
@@ -29,8 +30,8 @@ class Binary:
     warnings: tuple[str, ...] = ()
 
 
-def binary_trunk(alpha: Float[np.ndarray, "row column"], root: tuple[float, float] | None = None) -> Binary:
-    """The piece of trunk in a matte; `root`: a point on it, pixels, y down. Raises SketchError if there is none."""
+def binary_trunk(alpha: Float[np.ndarray, "row column"], root: tuple[float, float] | None = None, gap: float = 0.0) -> Binary:
+    """The piece of trunk in a matte; `root`: a point on it, pixels, y down; `gap`: pixels that are bridged. Raises SketchError if there is no piece."""
     alpha = np.asarray(alpha, np.float64)
     if alpha.ndim != 2 or not np.isfinite(alpha).all():
         raise SketchError("A matte is one channel of finite numbers from 0 to 1.", remedy="Save it as a grey picture.")
@@ -40,7 +41,10 @@ def binary_trunk(alpha: Float[np.ndarray, "row column"], root: tuple[float, floa
     if count == 0 or sizes.max() < LEAST:
         raise SketchError("The matte is empty: nowhere is it half opaque.", remedy="Draw a foreground scribble along the trunk, or give another matte.")
     chosen = 1 + int(np.argmax(sizes)) if root is None else _holding(labels, root)
-    told = _of_pieces(sizes, chosen)
+    labels, joined = bridged(labels, sizes, chosen, gap) if gap > 0 and count > 1 else (labels, 0)
+    left = np.bincount(labels.ravel(), minlength=count + 1)[1:]
+    told = [f"{joined} {'piece' if joined == 1 else 'pieces'} of the matte {'was' if joined == 1 else 'were'} joined to the trunk over gaps of at most {gap:g} pixels."] if joined else []
+    told += _of_pieces(left, chosen)
     mask, filled, holes = _without_small_holes(labels == chosen)
     told += [f"{filled} small {'hole' if filled == 1 else 'holes'} in the trunk {'was' if filled == 1 else 'were'} filled."] if filled else []
     told += [f"The trunk has {holes} {'hole' if holes == 1 else 'holes'}; the loop round each is cut where it is thinnest."] if holes else []
@@ -61,8 +65,27 @@ def _holding(labels, root) -> int:
     return int(labels[nearest[0, row, column], nearest[1, row, column]])
 
 
+def bridged(labels, sizes, chosen: int, gap: float) -> tuple[Int[np.ndarray, "row column"], int]:
+    """(the pieces, those joined now part of the chosen one; how many were): whatever of `LEAST` pixels or more is near enough to what is the trunk by now, over all that lies straight between the two."""
+    labels, joined = labels.copy(), 0
+    while True:
+        distance = ndimage.distance_transform_edt(labels != chosen)
+        near = ndimage.minimum_position(distance, labels, np.arange(1, len(sizes) + 1))
+        fresh = [k for k, at in enumerate(near, 1) if k != chosen and sizes[k - 1] >= LEAST and labels[at] == k and 0 < distance[at] <= gap + 1.0]
+        if not fresh:
+            return labels, joined
+        for k in fresh:
+            row, column = near[k - 1]
+            reach = int(np.ceil(_BRIDGE * gap)) + 8
+            window = np.s_[max(row - reach, 1) : min(row + reach, labels.shape[0] - 1), max(column - reach, 1) : min(column + reach, labels.shape[1] - 1)]
+            across = distance[window] + ndimage.distance_transform_edt(labels[window] != k)
+            labels[labels == k] = chosen
+            labels[window][across <= distance[row, column] + 1.0] = chosen
+        joined += len(fresh)
+
+
 def _of_pieces(sizes, chosen: int) -> list[str]:
-    others = len(sizes) - 1
+    others = int(np.count_nonzero(sizes)) - 1
     if not others:
         return []
     share = (sizes.sum() - sizes[chosen - 1]) / sizes.sum()

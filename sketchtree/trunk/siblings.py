@@ -24,10 +24,9 @@ from jaxtyping import Array, Float, Int, Key
 
 from sketchtree.axes import NULL
 from sketchtree.keys import normal
-from sketchtree.mrf.lift import along_curves
 from sketchtree.sketch.graph import SketchGraph
 
-STEEPEST = 1.25
+STEEPEST = 1.0
 GOLDEN = (3.0 - math.sqrt(5.0)) / 2.0
 SPREAD = float(np.radians(20.0))  # σ
 
@@ -47,7 +46,6 @@ def golden_step(k: int) -> int:
 
 def sibling_depth(graph: SketchGraph, angle: Float[np.ndarray, " limb"]) -> Float[np.ndarray, " segment"]:
     """z of every node towards the viewer, sketch units."""
-    _, length = along_curves(graph, np.repeat(np.arange(len(graph)), np.diff(graph.curve_start)))
     slope, depth = np.zeros(len(graph.limb_id)), np.zeros(len(graph))
     for row in range(len(graph)):
         up, limb = graph.parent[row], graph.limb[row]
@@ -56,7 +54,7 @@ def sibling_depth(graph: SketchGraph, angle: Float[np.ndarray, " limb"]) -> Floa
         if row == graph.limb_first[limb] and graph.limb_parent[limb] != NULL:
             host = graph.limb[up]
             slope[limb] = leaving(_onward(graph, row), np.append(_tangent(graph, up, host), slope[host]), float(angle[limb]))
-        depth[row] = depth[up] + slope[limb] * length[row]
+        depth[row] = depth[up] + slope[limb] * float(np.hypot(*np.diff(graph.curve(row), axis=0).T).sum())
     return depth
 
 

@@ -27,15 +27,16 @@ _NEAR = 2.0  # pixels: a tip so near to a vertex that a person added is the one 
 
 
 def trunk_skeleton(
-    alpha: Float[np.ndarray, "row column"], *, vertices: int | None = None, edits: VertexEdits = VertexEdits(), root: tuple[float, float] | None = None
+    alpha: Float[np.ndarray, "row column"], *, vertices: int | None = None, edits: VertexEdits = VertexEdits(), root: tuple[float, float] | None = None, gap: float = 0.0
 ) -> TrunkSkeleton:
-    """The skeleton of the trunk in a matte. `vertices`: m (None: by the contour's roughness); `root`: a point of the trunk where it stands (None: the lowest). Pixels, y down.
+    """The skeleton of the trunk in a matte. `vertices`: m (None: by the contour's roughness); `root`: a point of the trunk where it stands (None: the lowest); `gap`: of pieces that belong to it.
+    Pixels, y down.
 
     Raises SketchError for an empty matte, OptionError for m < 3 and for edits of what does not exist."""
     asked = edits.vertices if vertices is None else vertices
     if asked is not None and asked < 3:
         raise OptionError(f"The contour can't be evolved to {asked} vertices: a polygon has at least 3.", remedy="Ask for 3 or more, or let the number be found.")
-    binary = binary_trunk(alpha, root)
+    binary = binary_trunk(alpha, root, gap)
     shape = outline(binary)
     polygon, told = _evolved(shape, asked)
     polygon = edited(polygon, shape.rings, edits)

@@ -151,6 +151,15 @@ def test_of_several_pieces_the_one_that_holds_the_root_is_kept():
     assert skeleton.xy[:, 0].min() > 80.0 and skeleton.xy[skeleton.root, 1] > 110.0
 
 
+def test_pieces_over_a_small_gap_may_be_joined_one_after_the_other():
+    alpha = forked()
+    alpha[:, 30:32] = alpha[:, 25:27] = 0.0
+    assert tip_near(trunk_skeleton(alpha), 18.0, 48.0) > 8.0
+    skeleton = trunk_skeleton(alpha, gap=3.0)
+    assert tip_near(skeleton, 18.0, 48.0) < 2.0 and len(skeleton.tips) == 3
+    assert skeleton.warnings == ("2 pieces of the matte were joined to the trunk over gaps of at most 3 pixels.",)
+
+
 def test_a_root_beside_the_trunk_or_the_picture_is_refused():
     with pytest.raises(OptionError, match=re.escape("The root (5, 110) lies 39 pixels beside the trunk.")):
         trunk_skeleton(forked(), root=(5.0, 110.0))
