@@ -15,11 +15,11 @@ from sketchtree.traverse import child_count, generations
 
 BARE = 0.3  # of a limb's way: no unit at the sides of its foot
 SLENDER = 0.55  # of the radius at the ground: thicker wood gets no units at its sides
-SHORTEST, LONGEST = 0.03, 0.17  # of the tree's height: a unit of the first level
+SHORTEST, LONGEST = 0.03, 0.13  # of the tree's height: a unit of the first level
 SHRINK = 0.45, 0.85  # least and most that a unit is as long as the one that bears it
 APART = 0.45  # of a unit's length, between units along a limb of the trunk
 _ONWARD = 0.45  # of a limb's length: the unit that goes on from its tip
-_BEARS = 0.5  # of the places at the sides of units that bear another
+_BEARS = 0.65  # of the places at the sides of units that bear another
 _RANK = 1_000_000  # ranks of grafted limbs begin here, apart from those of other laterals
 
 

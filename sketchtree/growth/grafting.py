@@ -30,7 +30,7 @@ from sketchtree.skeleton import Kind, TreeSkeleton
 LEAST, MOST = 0, 5  # levels
 _TRIES = 4
 _NEAR = 3.0  # radii of the wood that bears a unit, from its foot: there it may touch it
-_HANGS = np.sin(np.radians(20.0))  # most that a unit's way falls a metre, or as much as that of what bears it
+_HANGS = np.sin(np.radians([20.0, 40.0]))  # most that a unit's first piece, and any, falls a metre, beyond what bears it
 _TWIG = 0.25  # of the thinnest wood there is
 
 
@@ -100,7 +100,8 @@ class _Growth:
             starts = np.concatenate([start[left][:, None], tips], axis=1)[:, np.array(unit.parent) + 1]
             foot, near = np.repeat(start[left], len(unit), 0), np.repeat(_NEAR * thick[feet.node[left]], len(unit))
             bad = self.clear.blocked(starts.reshape(-1, 3), tips.reshape(-1, 3), foot, near).reshape(len(left), len(unit)).any(axis=1)
-            bad |= ways[:, 0, 1] < np.minimum(feet.way[left, 1], 0.0) - _HANGS
+            falls = np.minimum(feet.way[left, 1], 0.0)[:, None] - ways[:, :, 1]
+            bad |= (falls[:, 0] > _HANGS[0]) | (falls > _HANGS[1]).any(axis=1)
             good = left[~bad]
             way[good], tip[good], room[good] = ways[~bad], tips[~bad], True
             left = left[bad]

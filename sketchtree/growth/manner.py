@@ -58,7 +58,7 @@ class Manner:
 
 @dataclass(frozen=True, eq=False)
 class _Limbs:
-    tree: TreeSkeleton
+    vector: Float[np.ndarray, "segment 3"]  # of all rows, metres
     chain: list  # rows of each limb
     bearer: Float[np.ndarray, " limb"]  # number of the limb that bears each; -1 none
     way: Float[np.ndarray, "limb 3"]  # of unit length, at its foot
@@ -67,15 +67,18 @@ class _Limbs:
 
     @classmethod
     def of(cls, tree: TreeSkeleton) -> "_Limbs":
-        wood = ~tree.is_base & (tree.kind != int(Kind.ROOT)) & (tree.length > 0)
+        start, vector, length = tree.start, tree.vector, tree.length
+        wood = ~tree.is_base & (tree.kind != int(Kind.ROOT)) & (length > 0)
         chain = [rows[wood[rows]] for rows in limb_chains(tree.parent, tree.limb)]
         chain = [rows for rows in chain if len(rows)]
         number = np.full(len(tree) + 1, -1)
         for k, rows in enumerate(chain):
             number[rows] = k
         foot = np.array([tree.parent[rows[0]] for rows in chain], int)
-        way = np.array([_way(tree, rows) for rows in chain]).reshape(-1, 3)
-        return cls(tree, chain, number[foot], way, unit(tree.vector[foot]), np.array([tree.length[rows].sum() for rows in chain]))
+        reach = _FOOT * tree.height
+        end = [rows[min(int(np.searchsorted(np.cumsum(length[rows]), reach)), len(rows) - 1)] for rows in chain]
+        way = unit(tree.tip[np.array(end, int)] - start[np.array([rows[0] for rows in chain], int)])
+        return cls(vector, chain, number[foot], way, unit(vector[foot]), np.array([length[rows].sum() for rows in chain]))
 
     def leans(self):
         borne = self.bearer >= 0
@@ -87,7 +90,7 @@ class _Limbs:
 
     def turns(self):
         side = self.way - np.sum(self.way * self.along, axis=1, keepdims=True) * self.along
-        place = np.array([rows[0] for rows in self.chain])
+        place = np.array([rows[0] for rows in self.chain], int)
         order = np.lexsort((place, self.bearer))
         one, other = order[:-1], order[1:]
         next_to = (self.bearer[one] == self.bearer[other]) & (self.bearer[one] >= 0)
@@ -97,16 +100,10 @@ class _Limbs:
     def swings(self):
         bends = [np.zeros(0)]
         for rows in self.chain:
-            way = unit(self.tree.vector[rows])
+            way = unit(self.vector[rows])
             # half of what a piece turns by, squared, is sideways: the other half is within the plane of the lean
             bends.append(np.arccos(np.clip(np.sum(way[1:] * way[:-1], axis=1), -1.0, 1.0)) / np.sqrt(2.0))
         return np.concatenate(bends)
-
-
-def _way(tree: TreeSkeleton, rows):
-    run = np.cumsum(tree.length[rows])
-    end = rows[min(int(np.searchsorted(run, _FOOT * tree.height)), len(rows) - 1)]
-    return unit((tree.tip[end] - tree.start[rows[0]])[None])[0]
 
 
 def _blended(seen: Float[np.ndarray, " pair"], usual: Spread) -> Spread:

@@ -121,8 +121,9 @@ class GrowthPlan:
         for low in range(0, len(times), step):
             now = slice(low, low + step)
             places, thick, share, size[now] = self._pieces(times[now], dtype)
-            tip[now], radius[now], grown[now] = (places, thick, self._of_rows(share)) if len(rows) == len(self.straight.row) else (
-                places[:, rows], thick[:, rows], share[:, rows] if pieces else self._of_rows(share))
+            if not pieces and len(rows) < len(self.straight.row):
+                places, thick, share = places[:, rows], thick[:, rows], self._of_rows(share)
+            tip[now], radius[now], grown[now] = places, thick, share
         return Poses(times, tip, radius, grown, size, parent)
 
     def leaf_scale(self, time: float, *, falling: bool = False) -> Float[np.ndarray, " segment"]:

@@ -117,6 +117,14 @@ def test_nothing_goes_below_the_ground():
     assert tree.tip[:, 1].min() >= 0
 
 
+def test_units_hang_little_more_than_what_bears_them():
+    trunk, tree = bare_trunk(), crown(1)
+    new = np.arange(len(trunk), len(tree))
+    assert (trunk.vector[:, 1] >= 0).all()
+    fall = -tree.vector[new, 1] / tree.length[new]
+    assert fall.max() <= np.sin(np.radians(40)) + 1e-9
+
+
 def test_nothing_runs_through_thick_wood():
     trunk, tree = bare_trunk(), crown(3)
     clear, new = Clearance.of(trunk), np.flatnonzero(np.arange(len(tree)) >= len(trunk))
@@ -146,9 +154,11 @@ def test_a_limb_more_changes_the_branches_on_the_others_only_as_it_changes_the_m
     tree, other = (Graft(1)(some, key=root_key(0)) for some in (trunk, more))
     found = np.isin(np.unique(tree.limb), np.unique(other.limb))
     assert found.mean() > 0.9
+    near = 0
     for limb in np.unique(tree.limb)[found]:
         one, two = tree.tip[tree.limb == limb], other.tip[other.limb == limb]
-        assert len(one) != len(two) or np.abs(one - two).max() < 0.3 * np.ptp(trunk.tip, axis=0).max()
+        near += len(one) == len(two) and np.abs(one - two).max() < 0.1 * trunk.height
+    assert near > 0.8 * found.sum()
 
 
 def test_a_tree_without_wood_stays_bare():

@@ -72,6 +72,21 @@ def test_many_times_at_once_are_the_same_as_one_by_one(monkeypatch):
     assert np.array_equal(together.tip, apart.tip) and np.array_equal(together.radius, apart.radius)
 
 
+def test_poses_of_pieces_have_every_drawn_point():
+    tree = curved()
+    plan = GrowthPlan.of(tree, mode="age", bend=-5)
+    rows, pieces = plan.poses([0.3, 0.7]), plan.poses([0.3, 0.7], pieces=True)
+    assert pieces.tip.shape[1] == len(tree) + len(tree.curve_points)
+    assert np.array_equal(pieces.tip[:, plan.straight.last], rows.tip)
+
+
+def test_a_curved_segments_share_is_that_of_its_way():
+    tree = curved()
+    poses = GrowthPlan.of(tree, mode="age").poses(TIMES)
+    assert (np.diff(poses.grown, axis=0) >= 0).all() and ((poses.grown[:, 1] > 0.2) & (poses.grown[:, 1] < 0.8)).any()
+    assert (poses.grown[-1] == 1).all() and (poses.grown[0, 1:] == 0).all()
+
+
 def test_a_segment_that_has_not_begun_lies_at_the_tip_it_will_grow_from():
     tree = trunk_and_branch()
     poses = GrowthPlan.of(tree, mode="age").poses([0.1], dtype=np.float64)
