@@ -1,13 +1,13 @@
 """Which branch carries each limb on, and which ones grow from it? The trunk's graph as a drawing, so that all that is done to strokes can be done to it.
 
 Where the axis forks, the limb goes on in the branch that is straightest for its thickness: the least of (bend in radians − r / r_widest), the bend measured over two radii of the fork's circle and 8 pixels at
-least, r the median radius of what follows up to the next fork. Limbs are called trunk, trunk.1, trunk.1.2 …: ids are of these names.
+least, r the median radius of what follows up to the next fork. A limb is as thick at its foot as where it leaves its parent. Limbs are called trunk, trunk.1, trunk.1.2 …: ids are of these names.
 """
 
 import dataclasses
 
 import numpy as np
-from jaxtyping import Int
+from jaxtyping import Float, Int
 
 from sketchtree.axes import NULL
 from sketchtree.photo.as_graph import as_drawing
@@ -30,7 +30,7 @@ def trunk_drawing(skeleton: TrunkSkeleton, name: str = "trunk") -> tuple[Sketch,
     xy, radius = skeleton.xy[order], skeleton.radius[order]
     limb, rank = limb_of(parent, xy, radius)
     count = int(limb.max()) + 1
-    traced = Traced(parent, xy, radius, rank, limb, np.ones(len(parent), bool), skeleton.warnings)
+    traced = Traced(parent, xy, own_radius(parent, xy, radius, limb), rank, limb, np.ones(len(parent), bool), skeleton.warnings)
     marked = Marked(np.zeros((0, 2)), (np.zeros((0, 2)),) * count, ("trunk",) * count)
     sketch, graph = as_drawing([(traced, marked)], name, outlines=[()])
     told = tuple(dataclasses.replace(one, reason="a branch of the matte's skeleton") for one in graph.attachments)
@@ -54,6 +54,17 @@ def limb_of(parent: Int[np.ndarray, " node"], xy, radius) -> tuple[Int[np.ndarra
             count += not own
             before[chain[-1]] = _direction(xy[chain[::-1]], -1.0, radius[chain[-1]])
     return limb, rank
+
+
+def own_radius(parent: Int[np.ndarray, " node"], xy, radius, limb: Int[np.ndarray, " node"]) -> Float[np.ndarray, " node"]:
+    """The radius of every node's own limb: what lies within the circle of the fork that it grows from is as thick as where it leaves that circle (there the distance to the contour is its parent's)."""
+    thick = np.array(radius, np.float64)
+    for first in np.flatnonzero((parent != NULL) & (limb != limb[parent])):
+        rows, fork = np.flatnonzero(limb == limb[first]), parent[first]
+        outside = np.hypot(*(xy[rows] - xy[fork]).T) >= radius[fork]
+        inner = rows[: int(np.argmax(outside)) if outside.any() else len(rows)]
+        thick[inner] = np.minimum(thick[inner], radius[rows[np.argmax(outside)]] if outside.any() else radius[rows].min())
+    return thick
 
 
 def _straightest(own: list[list[int]], before, xy, radius) -> int:

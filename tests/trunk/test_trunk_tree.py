@@ -11,7 +11,7 @@ from sketchtree.keys import root_key
 from sketchtree.options import ReadingOptions
 from sketchtree.page import page_to_world
 from sketchtree.trunk.as_tree import as_tree
-from sketchtree.trunk.limbs import limb_of, trunk_drawing
+from sketchtree.trunk.limbs import limb_of, own_radius, trunk_drawing
 from sketchtree.trunk.siblings import STEEPEST, golden_step, leaving, sibling_angles, sibling_depth
 from sketchtree.trunk.skeletonise import trunk_skeleton
 
@@ -118,6 +118,18 @@ def test_the_straightest_thickest_branch_carries_the_limb_on():
     assert limb.tolist() == [0, 0, 0, 1] and order.tolist() == [0, 0, 0, 1]
     limb, _ = limb_of(np.array([-1, 0, 1, 1]), xy, np.array([5.0, 4.0, 1.0, 4.0]))
     assert limb.tolist() == [0, 0, 1, 0]
+
+
+def test_a_limb_is_no_thicker_at_its_foot_than_where_it_leaves_its_parent():
+    _, graph = trunk_drawing(trunk_skeleton(bushy()))
+    assert graph.width[graph.limb == 0].max() > 13.0
+    assert graph.width[graph.limb_order[graph.limb] > 0].max() < 10.5  # where the twig forks off, the circle is wider than the limb
+
+
+def test_within_the_forks_circle_a_limb_has_its_own_radius():
+    xy = np.array([[0.0, 0.0], [0.0, -20.0], [0.0, -40.0], [3.0, -20.0], [12.0, -20.0]])
+    thick = own_radius(np.array([-1, 0, 1, 1, 3]), xy, np.array([6.0, 6.0, 5.0, 5.5, 2.0]), np.array([0, 0, 0, 1, 1]))
+    assert thick.tolist() == [6.0, 6.0, 5.0, 2.0, 2.0]
 
 
 def test_another_seed_gives_other_depths_and_the_same_seed_the_same():
