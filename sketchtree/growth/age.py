@@ -20,7 +20,8 @@ speed; thick wood comes earlier. A piece grows from the moment of its start to t
 
 so that age never rises towards a tip, even where wood swells; equal ages follow the way from the root; a thin side branch rests in its bud
 until wood as thin as it comes; and nothing grows faster than `FASTEST` times as fast as the thinnest wood. All is then scaled so that
-the last wood is there at `WHOLE` < 1: the rest of the time is for the last leaves to unfold.
+the last wood is there at `WHOLE` < 1: the rest of the time is for the last leaves to unfold. A few twigs that come much later than all others
+don't make everybody wait: what comes after `MOST_WOOD` of all wood has at most `TAIL` of the time, and M goes with that time too.
 """
 
 from dataclasses import dataclass
@@ -36,6 +37,7 @@ THICKNESS_WEIGHT = 0.001  # w_p
 PICTURE = 400.0  # pixels
 FASTEST = 8.0
 WHOLE = 0.95  # all wood is there
+MOST_WOOD, TAIL = 0.99, 0.04
 BUD_REST = 0.05  # of the longest 1 / T: how much later each further branching order starts, where order counts
 
 
@@ -77,8 +79,7 @@ def timeline(tree: TreeSkeleton, thickness_weight: float = THICKNESS_WEIGHT, bud
     for rows in generations(tree.parent)[1:]:
         begin[rows] = np.maximum(begin[rows], end[tree.parent[rows]])
         end[rows] = np.maximum(end[rows], begin[rows] + length[rows] / FASTEST)
-    whole = max(float(end.max(initial=0.0)), 1e-300)
-    begin, end = WHOLE * (begin / whole), WHOLE * (end / whole)
+    begin, end = _scaled(begin, end, tree.length)
     forks = end[(child_count(tree.parent) > 1) & (end > 0)]
     return Timeline(begin, end, float(forks.max()) if len(forks) else WHOLE)
 
@@ -86,6 +87,20 @@ def timeline(tree: TreeSkeleton, thickness_weight: float = THICKNESS_WEIGHT, bud
 def _clock(way, radius, thickness_weight: float):
     """1 / T = d / (1 + w r d), pixels; 0 at the root."""
     return way / (1.0 + thickness_weight * radius * way)
+
+
+def _scaled(begin, end, length):
+    """The times from 0 to `WHOLE`, the tail shortened."""
+    last = float(end.max(initial=0.0))
+    if last <= 0:
+        return np.zeros_like(begin), np.zeros_like(end)
+    order = np.argsort(end, kind="stable")
+    wood = np.cumsum(length[order])
+    most = float(end[order[np.searchsorted(wood, MOST_WOOD * wood[-1])]])
+    knots, times = [0.0, most, last], [0.0, max(most / last, 1.0 - TAIL) * WHOLE, WHOLE]
+    if most >= last:
+        knots, times = [0.0, last], [0.0, WHOLE]
+    return np.interp(begin, knots, times), np.interp(end, knots, times)
 
 
 def _in_pixels(tree: TreeSkeleton, metres):

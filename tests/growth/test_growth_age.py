@@ -4,7 +4,7 @@ import numpy as np
 import pytest
 from growth_trees import crown, trunk_and_branch
 
-from sketchtree.growth.age import FASTEST, PICTURE, WHOLE, growth_age, timeline
+from sketchtree.growth.age import FASTEST, MOST_WOOD, PICTURE, TAIL, WHOLE, growth_age, timeline
 from sketchtree.skeleton import TreeSkeleton
 from sketchtree.traverse import child_count
 
@@ -81,6 +81,17 @@ def test_eq5_size_at_each_branching_node_goes_with_one_over_its_age_and_ends_at_
     size = times.size(times.end[free])
     assert size * age[free] == pytest.approx(np.full(len(free), size[0] * age[free[0]]))
     assert (size > 0).all() and times.size(times.end[forks]).max() == 1
+
+
+def test_a_few_late_twigs_make_nobody_wait():
+    tree = crown(3)
+    late = tree.append({"parent": [len(tree) - 1], "tip": [tree.tip[-1] + [0, 0.3 * tree.height, 0]], "radius": [1e-5], "limb": [7], "order": [9]})
+    with_late, without = timeline(late, bud_rest=0.3), timeline(tree, bud_rest=0.3)
+    others = np.quantile(with_late.end[:-1], 0.9)
+    assert with_late.end[-1] == WHOLE
+    assert np.quantile(without.end, 0.9) > others > 0.6 * np.quantile(without.end, 0.9)
+    wood = np.cumsum(tree.length[np.argsort(without.end)])
+    assert np.sort(without.end)[np.searchsorted(wood, MOST_WOOD * wood[-1])] >= (1 - TAIL) * WHOLE - 1e-12
 
 
 def test_later_branching_orders_rest_longer_where_order_counts():
