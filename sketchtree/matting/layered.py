@@ -5,9 +5,16 @@ The matting Laplacian has only what is in a window of 3 × 3 to go by, and twigs
     before   the colours under the foreground scribbles, and one more: the same wood in any light, from black to twice as bright as half of it
     behind   what shows near by of what is no tree, as a local Gaussian and as shares of common colours (`behind`)
 
-and what is behind is learnt again from what turned out to be no tree. Only pixels that are so all but surely count, since a twig that counts as background hides itself and its
-neighbours in the next round; for the same reason a pixel is held more likely tree than not at first. The matte is the expected alpha.
+and what is behind is learnt again from what turned out to be no tree, in two ways:
+
+    hopeful    a pixel is rather tree than not at first, and only what is all but surely none counts as behind: a twig that counted would hide itself and its neighbours
+    cautious   a pixel is rather none, and more counts as behind: right where the surroundings have the wood's colours, which would be taken for it
+
+Where the colours tell the two apart, both find about as much tree, and the hopeful finds all of it; where they don't, it finds far more, and the cautious matte is kept. At last the
+prior is lowered to how much tree is near by: what no colour decides is none, unless it is in the midst of tree. The matte is the expected alpha.
 """
+
+from dataclasses import dataclass
 
 import numpy as np
 from jaxtyping import Array, Bool, Float, Key
@@ -23,37 +30,82 @@ from sketchtree.photo.photo import Photo
 
 ROUNDS = 2
 FORE, COMMON = 3, 5  # components of either layer's colours
-FIRST = 0.7  # probability that a pixel has tree in it, before anything is known
-RANGE = (0.2, 0.9)  # of that probability later, by how much tree is near
 NEAR = 6.0  # pixels, σ of "near"
-SURELY = 8  # power of the probability of no tree, as a pixel's weight in what is behind
+MOST = 0.9  # probability of tree where all near by is
+LAST = (0.05, 0.02)  # of a pixel of which nothing is known: at first, at least
+TELLS = 1.37  # times as much tree as the cautious finds, up to which the hopeful is believed
+_SETTLED = 4  # rounds of the last prior
 SHADED = 0.2  # share of wood in any light
 _LIGHT, _TINT = 0.25, 0.03  # its spread along its colour, of that, and across
 _SAMPLE = 6000  # pixels that common colours are fitted to
 
 
+@dataclass(frozen=True)
+class Manner:
+    """How what is behind is learnt."""
+
+    first: float  # probability that a pixel has tree in it, before anything is known
+    least: float  # of that probability later
+    surely: float  # power of the probability of no tree, as a pixel's weight in what is behind
+
+
+HOPEFUL, CAUTIOUS = Manner(0.7, 0.2, 8.0), Manner(0.3, 0.05, 4.0)
+
+
 def layered(photo: Photo, scribbles: Scribbles, *, key: Key[Array, ""]) -> Matte:
-    """The matte by layers. Its course is the sum of alpha that changed, of all alpha, in each round."""
+    """The matte by layers. Its course is the alpha that changed, of all alpha, in each round."""
     fore, back = scribbles.masks(photo)
     draw = numpy_generator(stage_key(key, "layered"))
     rgb = photo.rgb / 255.0
     before = _wood(fit_colours(rgb[fore], np.ones(fore.sum()), FORE, draw))
     common = fit_colours(rgb[back], np.ones(back.sum()), COMMON, draw)
-    clear, wood = _first(rgb, before, common), np.full(fore.shape, FIRST)
+    hopeful, course = _rounds(rgb, fore, back, before, common, HOPEFUL, draw)
+    cautious, other = _rounds(rgb, fore, back, before, common, CAUTIOUS, draw)
+    if hopeful.sum() <= TELLS * cautious.sum():
+        return Matte(hopeful, "layered", course)
+    told = "The surroundings have the wood's colours in places; what could be either was left out of the matte. More scribbles there, of both kinds, help."
+    return Matte(cautious, "layered", other, (told,))
+
+
+def _rounds(rgb, fore, back, before: Colours, common: Colours, manner: Manner, draw) -> tuple[Float[np.ndarray, "row column"], tuple[float, ...]]:
+    """(alpha, the course) of one manner."""
+    clear, wood = _first(rgb, before, common, manner.first), np.full(fore.shape, manner.first)
     alpha, course = 1.0 - clear, []
     for turn in range(ROUNDS):
-        weight = clear**SURELY
+        weight = clear**manner.surely
         weight[back], weight[fore] = 1.0, 0.0
         if turn:
             common = _common_again(rgb, weight, back, draw)
-        chance = posterior(rgb, before, look_behind(rgb, weight, common), wood)
+        chance, prior = posterior(rgb, before, look_behind(rgb, weight, common), wood), wood
         clear = chance[0].astype(np.float64)
-        wood = np.clip(gaussian_filter(1.0 - clear - chance[1], NEAR, mode="nearest"), *RANGE)
-        found = np.clip(mean(chance), 0.0, 1.0)
-        found[fore], found[back] = 1.0, 0.0
+        wood = np.clip(_near(chance), manner.least, MOST)
+        found = _kept(mean(chance), fore, back)
         course.append(float(np.abs(found - alpha).sum() / max(found.sum(), 1e-9)))
         alpha = found
-    return Matte(alpha, "layered", tuple(course))
+    return _kept(mean(_last(chance, prior)), fore, back), tuple(course)
+
+
+def _last(chance, prior) -> Float[np.ndarray, "alpha row column"]:
+    """The posterior with a prior that starts low, and rises where tree is near by."""
+    wood = np.full(prior.shape, LAST[0])
+    for _ in range(_SETTLED):
+        lowered = chance * (wood / prior)
+        lowered[0] = chance[0] * ((1 - wood) / (1 - prior))
+        lowered /= lowered.sum(axis=0)
+        wood = np.clip(_near(lowered), LAST[1], MOST)
+    return lowered
+
+
+def _near(chance) -> Float[np.ndarray, "row column"]:
+    """How likely tree is near by: alphas next to 0 may be noise, and don't count."""
+    return gaussian_filter(1.0 - chance[0] - chance[1], NEAR, mode="nearest").astype(np.float64)
+
+
+def _kept(alpha, fore, back) -> Float[np.ndarray, "row column"]:
+    """Alpha with the scribbles as they were drawn."""
+    found = np.clip(alpha, 0.0, 1.0)
+    found[fore], found[back] = 1.0, 0.0
+    return found
 
 
 def _wood(scribbled: Colours) -> Colours:
@@ -67,10 +119,10 @@ def _wood(scribbled: Colours) -> Colours:
     )
 
 
-def _first(rgb, before: Colours, common: Colours) -> Float[np.ndarray, "row column"]:
+def _first(rgb, before: Colours, common: Colours, first: float) -> Float[np.ndarray, "row column"]:
     """How surely a pixel is no tree by its colour alone."""
     colour = rgb.reshape(-1, 3)
-    odds = before.log_density(colour) - common.log_density(colour) + np.log(FIRST / (1 - FIRST))
+    odds = before.log_density(colour) - common.log_density(colour) + np.log(first / (1 - first))
     return (1.0 / (1.0 + np.exp(np.clip(odds, -40, 40)))).reshape(rgb.shape[:2])
 
 
