@@ -79,7 +79,8 @@ def sheet(shown: list[tuple[Case, dict[str, Matte]]], path: Path, *, cell: int =
         for j, name in enumerate(columns):
             if name in fields:
                 field = Image.fromarray(fields[name])
-                field.thumbnail((cell - 8, cell - 8), Image.Resampling.LANCZOS)
+                scale = (cell - 8) / max(field.size)
+                field = field.resize((round(field.width * scale), round(field.height * scale)), Image.Resampling.LANCZOS)
                 picture.paste(field, (j * cell + (cell - field.width) // 2, k * (cell + 18) + 18))
             pen.text((j * cell + 6, k * (cell + 18) + 3), f"{case.name}: {name}" if j == 0 else name, fill="black")
     _curves(pen, shown, (cell + 18) * len(shown) + 20, picture.width)
