@@ -17,6 +17,7 @@ HALF = 0.5
 SMALL_HOLE = 0.002  # of the piece's area
 LEAST = 12  # pixels that a trunk has
 _BRIDGE = 2.0  # gaps round the nearest place of a piece, and eight pixels, within which a bridge lies
+_THIN = 0.9  # alpha, at least, where the piece is one pixel wide, and beside that: the contour leaves a way through
 _EIGHT = np.ones((3, 3), bool)
 _NEAR = 0.05  # of the picture's longer side: how far beside the trunk a given root may lie
 
@@ -48,7 +49,10 @@ def binary_trunk(alpha: Float[np.ndarray, "row column"], root: tuple[float, floa
     mask, filled, holes = _without_small_holes(labels == chosen)
     told += [f"{filled} small {'hole' if filled == 1 else 'holes'} in the trunk {'was' if filled == 1 else 'were'} filled."] if filled else []
     told += [f"The trunk has {holes} {'hole' if holes == 1 else 'holes'}; the loop round each is cut where it is thinnest."] if holes else []
-    level = np.where(mask, np.maximum(padded, HALF + 1e-3), np.minimum(padded, HALF - 1e-3))
+    mask = _without_pinches(mask, padded)
+    thin = ndimage.binary_dilation(mask & ~ndimage.binary_opening(mask, structure=np.ones((2, 2))), structure=_EIGHT)
+    least = np.where(thin, _THIN, HALF + 1e-3)
+    level = np.where(mask, np.maximum(padded, least), np.minimum(padded, HALF - 1e-3))
     return Binary(level, mask, tuple(told))
 
 
@@ -105,6 +109,19 @@ def _without_small_holes(piece) -> tuple[Bool[np.ndarray, "row column"], int, in
     small = (area < SMALL_HOLE * piece.sum()) | ~wide
     small[[0, outside]] = False
     return piece | small[labels], int(small.sum()), count - 1 - int(small.sum())
+
+
+def _without_pinches(mask, alpha) -> Bool[np.ndarray, "row column"]:
+    """The same piece, where it holds together by a corner alone also by the more opaque of the two pixels beside that: otherwise the contour would leave no way through."""
+    mask = mask.copy()
+    for flip in (1, -1):
+        on, grey = mask[:, ::flip], alpha[:, ::flip]
+        pinch = on[:-1, :-1] & on[1:, 1:] & ~on[:-1, 1:] & ~on[1:, :-1]
+        upper = pinch & (grey[:-1, 1:] >= grey[1:, :-1])
+        on[:-1, 1:] |= upper
+        on[1:, :-1] |= pinch & ~upper
+    mask[[0, -1]] = mask[:, [0, -1]] = False
+    return mask
 
 
 def holds(binary: Binary, points: Float[np.ndarray, "point 2"]) -> Bool[np.ndarray, " point"]:

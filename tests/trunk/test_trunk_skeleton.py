@@ -160,6 +160,14 @@ def test_pieces_over_a_small_gap_may_be_joined_one_after_the_other():
     assert skeleton.warnings == ("2 pieces of the matte were joined to the trunk over gaps of at most 3 pixels.",)
 
 
+def test_what_hangs_together_by_a_corner_alone_is_followed_through_it():
+    alpha = np.zeros((60, 60))
+    alpha[30:60, 28:33] = 1.0
+    alpha[5:30, 33:38] = 0.51
+    skeleton = trunk_skeleton(alpha)
+    assert tip_near(skeleton, 35.5, 5.0) < 2.0 and len(skeleton.tips) == 1
+
+
 def test_a_root_beside_the_trunk_or_the_picture_is_refused():
     with pytest.raises(OptionError, match=re.escape("The root (5, 110) lies 39 pixels beside the trunk.")):
         trunk_skeleton(forked(), root=(5.0, 110.0))
