@@ -27,6 +27,7 @@ class Axis:
 
     xy: Float[np.ndarray, "node 2"]
     edges: Int[np.ndarray, "edge 2"]
+    lost: float = 0.0  # length of what does not hang together with it, pixels
 
 
 def medial_axis(binary: Binary, rings: Sequence[Float[np.ndarray, "point 2"]], segment: Int[np.ndarray, " point"]) -> Axis:
@@ -74,9 +75,10 @@ def _largest(xy, ends) -> Axis:
     edges, xy = edges.reshape(-1, 2), xy[used]
     graph = coo_array((np.ones(len(edges)), (edges[:, 0], edges[:, 1])), shape=(len(xy), len(xy)))
     count, part = connected_components(graph, directed=False)
+    lost = 0.0
     if count > 1:
         length = np.bincount(part[edges[:, 0]], np.hypot(*(xy[edges[:, 0]] - xy[edges[:, 1]]).T), minlength=count)
-        keep = part == np.argmax(length)
+        keep, lost = part == np.argmax(length), float(length.sum() - length.max())
         number = np.cumsum(keep) - 1
         edges, xy = number[edges[keep[edges[:, 0]]]], xy[keep]
-    return Axis(xy, edges)
+    return Axis(xy, edges, lost)

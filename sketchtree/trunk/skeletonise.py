@@ -23,6 +23,7 @@ from sketchtree.trunk.trunk_skeleton import TrunkSkeleton
 
 _LEAST_RADIUS = 0.5  # pixels
 _PROTRUDES, _ROUGH = 2.0, 4.0  # pixels, and of the contour's roughness: what a branch stands out, at least
+_LOST = 5.0  # pixels of axis that are left out unremarked
 _NEAR = 2.0  # pixels: a tip so near to a vertex that a person added is the one that was asked for
 
 
@@ -41,6 +42,7 @@ def trunk_skeleton(
     polygon, told = _evolved(shape, asked)
     polygon = edited(polygon, shape.rings, edits)
     axis = medial_axis(binary, shape.rings, segments(shape.rings, polygon))
+    told += [f"Parts of the trunk, {axis.lost:.0f} pixels long, hang on it by less than a pixel, and were left out."] if axis.lost > _LOST else []
     nearest = KDTree(np.concatenate(shape.rings))
     start = _start(axis.xy, root)
     tree, _ = rooted(axis.xy, axis.edges, nearest.query(axis.xy)[0], start)
