@@ -24,6 +24,7 @@ _EXTRAS = (
     ("studio", "starlette", "starlette", "sketchtree studio"),
     ("photo", "sklearn", "scikit-learn", "sketchtree photo"),
     ("photo", "ortools", "ortools", "sketchtree photo"),
+    ("growth", "pymatting", "pymatting", "mattes as the papers make them"),
 )  # extra, module, distribution, for what
 
 

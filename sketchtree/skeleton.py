@@ -125,7 +125,8 @@ class TreeSkeleton:
     def curve(self, row: int) -> Float[np.ndarray, "point 3"]:
         """The whole polyline of one segment: its start, the drawn points between, its tip."""
         inner = self.curve_points[self.curve_start[row] : self.curve_start[row + 1]]
-        return np.concatenate([self.start[row][None], inner, self.tip[row][None]])
+        start = self.tip[row if self.parent[row] == NULL else self.parent[row]]
+        return np.concatenate([start[None], inner, self.tip[row][None]])
 
     def replace(self, **columns) -> "TreeSkeleton":
         """The same skeleton with some columns exchanged; checked anew."""

@@ -6,6 +6,7 @@ import numpy as np
 import pytest
 
 from sketchtree import keys, stage
+from sketchtree.growth.grafting import Graft
 from sketchtree.geometry.radii import PipeRadii
 from sketchtree.parameters import GENERIC, Habit
 from sketchtree.options import ReadingOptions
@@ -29,6 +30,7 @@ STAGES = {
     "shed": Shed(0.3, 1.0),
     "untangle": Untangle(),
     "prune": Prune(("y<1000",)),
+    "graft": Graft(levels=2, most_segments=4_000),
 }
 
 

@@ -14,6 +14,7 @@ from dataclasses import dataclass
 
 import numpy as np
 from jaxtyping import Float, Int
+from scipy.spatial import cKDTree
 
 from sketchtree.axes import NULL
 from sketchtree.propagate.attractors.revolved import Axes
@@ -21,7 +22,6 @@ from sketchtree.propagate.attractors.target import Target
 
 _BLOCK = 200_000  # pairs at a time
 _PIECES = 400  # of wood, that attractors are held against at once
-_FIRST = 16  # every such piece of the tree given is looked at before the others
 _POINT = 1e-300  # m²: a shorter piece is a point
 _SLACK = 1e-5  # of the farthest coordinate: what single precision may be off by
 
@@ -56,8 +56,11 @@ class Attractors:
         """The tree has these pieces more, of these limbs."""
         if len(start) and len(self):
             start, end = start[:, : self.axes], end[:, : self.axes]
-            if not np.isfinite(self.distance).all():  # a few first, so that most pairs needn't be looked at
-                self._approach(start[::_FIRST], end[::_FIRST], limb[::_FIRST])
+            if not np.isfinite(self.distance).all():  # one near each first, so that most pairs needn't be looked at
+                _, piece = cKDTree(0.5 * (start + end)).query(self.place)
+                new = np.sqrt(squared_each(self.place, start[piece], end[piece]))
+                nearer = new < self.distance
+                self.distance, self.nearest = np.where(nearer, new, self.distance), np.where(nearer, limb[piece], self.nearest)
             for first in range(0, len(start), _PIECES):
                 self._approach(start[first : first + _PIECES], end[first : first + _PIECES], limb[first : first + _PIECES])
 
