@@ -538,7 +538,8 @@ def test_a_killed_studio_loses_the_stroke_in_hand_and_nothing_else(browser, tmp_
     own.kill()
     own.start()
     again = Page(context, own.address)
-    assert again.settle()["segments"] == segments
+    # just begun, it rests for a moment before its drawing is there
+    assert again.wait(lambda status: status.get("state") == "idle" and status.get("segments"), "its tree")["segments"] == segments
     listener = Ear(own.address, context.cookies())
     assert listener.state == before
     listener.close()
