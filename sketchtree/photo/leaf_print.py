@@ -10,7 +10,7 @@ from scipy import ndimage
 
 from sketchtree.foliage.painting import to_linear, to_srgb
 from sketchtree.foliage.printed import Print
-from sketchtree.photo.photo_leaves import SeenFoliage, without_shadows
+from sketchtree.photo.photo_leaves import SeenFoliage, box_of, without_shadows
 
 LONGEST = 1024  # pixels
 
@@ -18,10 +18,9 @@ LONGEST = 1024  # pixels
 def leaf_print(seen: SeenFoliage) -> Print | None:
     """The picture, where it hangs in the world; None if no pixel shows a leaf."""
     leafy = seen.mask if seen.leafy is None else seen.leafy
-    rows, columns = (np.flatnonzero(seen.mask.any(axis=axis)) for axis in (1, 0))
     if not leafy.any():
         return None
-    box = np.s_[rows[0] : rows[-1] + 1, columns[0] : columns[-1] + 1]
+    box = rows, columns = box_of(seen.mask)
     rgb, shown = seen.photo.rgb[box], leafy[box]
     nearest = ndimage.distance_transform_edt(~shown, return_distances=False, return_indices=True)
     filled = rgb[tuple(nearest)]
@@ -30,5 +29,5 @@ def leaf_print(seen: SeenFoliage) -> Print | None:
     picture = np.asarray(image.reduce(step) if step > 1 else image)
     lit = without_shadows(to_linear(np.arange(256) / 255.0)[picture].reshape(-1, 3))
     printed = np.round(255 * to_srgb(lit)).astype(np.uint8).reshape(picture.shape)
-    left, top = seen.similarity.to_world(np.array([[columns[0], -float(rows[0])]]))[0]
+    left, top = seen.similarity.to_world(np.array([[columns.start, -float(rows.start)]]))[0]
     return Print(printed, float(left), float(top), seen.similarity.scale * step)

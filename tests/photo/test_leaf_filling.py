@@ -5,6 +5,7 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
+from combs import comb_of
 from sketchtree.axes import NULL
 from sketchtree.dressing import Dress
 from sketchtree.foliage.leaves import Leaves
@@ -33,18 +34,7 @@ def seen() -> SeenFoliage:
 
 @pytest.fixture(scope="module")
 def comb() -> TreeSkeleton:
-    """A trunk, and level twigs to either side every 2.5 cm, up to 1.4 m."""
-    heights = np.arange(0.3, 1.4, 0.025)
-    parent, tip, order, limb = [NULL], [(1.0, 0.0, 0.0)], [0], [1]
-    for height in heights:
-        parent.append(0 if len(parent) == 1 else trunk)  # noqa: F821
-        trunk = len(parent) - 1
-        tip.append((1.0, height, 0.0)), order.append(0), limb.append(1)
-        for side in (-1, 1):
-            parent.append(trunk), order.append(1), limb.append(10 * len(parent))
-            tip.append((1.0 + 0.75 * side, height + 0.02, 0.1 * side))
-    radius = np.where(np.array(order) == 0, 0.03, 0.004)
-    return TreeSkeleton.from_columns(np.array(parent), np.array(tip), radius, order=np.array(order), limb=np.array(limb))
+    return comb_of(0.025)
 
 
 def one_leaf() -> Leaves:

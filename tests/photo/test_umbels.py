@@ -4,7 +4,7 @@ import numpy as np
 import pytest
 from scipy.spatial import cKDTree
 
-from sketchtree.axes import NULL
+from combs import comb_of
 from sketchtree.dressing import Dress
 from sketchtree.foliage.twigs import wood_pieces
 from sketchtree.keys import root_key
@@ -22,17 +22,7 @@ SIZE, HABIT = 0.02, Habit(twig_radius=0.003, twig_length=0.3, height=1.5)
 
 @pytest.fixture(scope="module")
 def comb() -> TreeSkeleton:
-    """A trunk, and level twigs to either side every 5 cm, up to 1.4 m."""
-    parent, tip, order, limb, trunk = [NULL], [(1.0, 0.0, 0.0)], [0], [1], 0
-    for height in np.arange(0.3, 1.4, 0.05):
-        parent.append(trunk)
-        trunk = len(parent) - 1
-        tip.append((1.0, height, 0.0)), order.append(0), limb.append(1)
-        for side in (-1, 1):
-            parent.append(trunk), order.append(1), limb.append(10 * len(parent))
-            tip.append((1.0 + 0.75 * side, height + 0.02, 0.1 * side))
-    radius = np.where(np.array(order) == 0, 0.03, 0.004)
-    return TreeSkeleton.from_columns(np.array(parent), np.array(tip), radius, order=np.array(order), limb=np.array(limb))
+    return comb_of(0.05)
 
 
 def flowers(tree: TreeSkeleton, count: int = 3000, seed: int = 0):

@@ -125,9 +125,9 @@ class State:
 
     def _along_limbs(self, seen: Target) -> Attractors:
         """Attractors on the page, of all foliage, that a drawn limb is near, though none whose bark would show: no leaf has a twig there yet, so that they count as far until something grows (ours)."""
-        place, thick = image_attractors(seen, self.leaf), self.thick
         if not self.wanted.along:
-            return Attractors.at(place[:0])
+            return Attractors.at(np.zeros((0, 2)))
+        place, thick = image_attractors(seen, self.leaf), self.thick
         near = distances(place, *(ends[:, :2] for ends in self.wood.pieces()[:2]))[0] <= _UNDER * self.leaf
         bark = thick.radius > _BARK * self.leaf
         if bark.any():
