@@ -15,6 +15,7 @@ import numpy as np
 from jaxtyping import Bool, Float
 
 from sketchtree.errors import SketchError
+from sketchtree.photo.page_over import page_over
 from sketchtree.photo.photo import Photo
 from sketchtree.sketch.files.json_text import parse_json
 from sketchtree.sketch.files.limits import MAX_MB, inflate, read_bytes
@@ -23,7 +24,6 @@ from sketchtree.sketch.formats import read_sketch
 BRUSH = 3.0  # pixels across, where a file doesn't say
 SIDES = ("foreground", "background")
 _MOST = 100_000  # points of all lines
-_SAME_SHAPE = 0.01  # by which the page's width / height may differ from the photo's
 _AGAIN = "Draw the scribbles again over this photo."
 
 
@@ -149,13 +149,11 @@ def _number(value: Any) -> bool:
 
 def _of_drawing(path: Path, photo: Photo, max_mb: float) -> Scribbles:
     sketch = read_sketch(path, max_mb=max_mb)
-    scale, shift = 1.0, np.zeros(2)
-    if sketch.page is not None:
+    placed = page_over(sketch.page, photo.width, photo.height)
+    if placed is None:
         left, bottom, right, top = sketch.page
-        if right <= left or top <= bottom or abs((right - left) / (top - bottom) * photo.height / photo.width - 1) > _SAME_SHAPE:
-            raise SketchError(f"{path.name} is drawn on a page of {right - left:g} × {top - bottom:g}, but the photo has {photo.width} × {photo.height} pixels.", remedy=_AGAIN)
-        scale = photo.width / (right - left)
-        shift = np.array([-left, top]) * scale
+        raise SketchError(f"{path.name} is drawn on a page of {right - left:g} × {top - bottom:g}, but the photo has {photo.width} × {photo.height} pixels.", remedy=_AGAIN)
+    scale, shift = placed
     sides: dict[str, list] = {side: [] for side in SIDES}
     nameless = 0
     for stroke in sketch.strokes:

@@ -16,12 +16,12 @@ from jaxtyping import Float
 
 from sketchtree.errors import SketchError
 from sketchtree.photo.marked import Marked
+from sketchtree.photo.page_over import page_over
 from sketchtree.photo.photo import Photo, turned_over
 from sketchtree.sketch.files.limits import MAX_MB, MAX_STROKES
 from sketchtree.sketch.formats import read_sketch
 from sketchtree.sketch.strokes import Sketch, Stroke, StrokeKind
 
-_SAME_SHAPE = 0.01  # by which the page's width / height may differ from the photo's
 _CLOSES = 0.12  # gap between a stroke's ends, of its length, up to which it closes on itself
 _ROUND = 0.25  # area of what it surrounds, of its bounding rectangle's, from which it is a crown and no loop
 _HARDLY = 0.05  # of the photo's height: the first stroke may end so much higher than the lowest, and be the trunk
@@ -66,18 +66,19 @@ def marked_trees(sketch: Sketch, photo: Photo) -> tuple[Marked, ...]:
 
 def _placed(sketch: Sketch, photo: Photo) -> tuple[float, Float[np.ndarray, "2"], list[str]]:
     """(pixels a user unit, shift, warnings) from the sketch's page to the photo."""
+    placed = page_over(sketch.page, photo.width, photo.height)
     if sketch.page is None:
-        return 1.0, np.zeros(2), []
+        return *placed, []
     left, bottom, right, top = sketch.page
     width, height = right - left, top - bottom
-    if width <= 0 or height <= 0 or abs(width / height * photo.height / photo.width - 1) > _SAME_SHAPE:
+    if placed is None:
         raise SketchError(
             f"{sketch.name} is drawn on a page of {width:g} × {height:g}, but {photo.name} has {photo.width} × {photo.height} pixels.",
             remedy="Draw the strokes over this photo, with its size as the page's.",
         )
-    scale = photo.width / width
+    scale, shift = placed
     told = [] if abs(scale - 1) < 1e-6 else [f"{sketch.name} is drawn on a page of {width:g} × {height:g}; it was scaled to the photo's {photo.width} × {photo.height}."]
-    return scale, np.array([-left, top]) * scale, told
+    return scale, shift, told
 
 
 def _sorted(sketch: Sketch) -> tuple[list[Stroke], list[Stroke]]:

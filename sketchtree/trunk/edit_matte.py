@@ -14,6 +14,7 @@ from jaxtyping import Float, Float32
 from PIL import Image
 
 from sketchtree.errors import SketchError
+from sketchtree.photo.page_over import page_over
 from sketchtree.photo.photo import turned_over
 from sketchtree.photo.read_photo import read_photo
 from sketchtree.sketch.formats import read_sketch
@@ -23,7 +24,6 @@ BRUSH = 4.0  # pixels
 _PICTURES = (".png", ".jpg", ".jpeg", ".tif", ".tiff", ".webp", ".bmp")
 _NAMED = re.compile(r"(?<![a-z])(add|erase)(?![a-z])", re.IGNORECASE)
 _LEAVES = 4  # of 255, off middle grey: still grey
-_SAME_SHAPE = 0.01  # by which the page's width / height may differ from the matte's
 _REMEDY = "Draw strokes over the picture in layers named `add` and `erase`."
 
 
@@ -85,13 +85,11 @@ def _named(stroke: Stroke) -> str | None:
 
 def _placed(sketch: Sketch, rows: int, columns: int) -> tuple[float, Float[np.ndarray, " 2"]]:
     """(pixels a user unit, shift) from the sketch's page to the picture."""
-    if sketch.page is None:
-        return 1.0, np.zeros(2)
-    left, bottom, right, top = sketch.page
-    width, height = right - left, top - bottom
-    if width <= 0 or height <= 0 or abs(width / height * rows / columns - 1) > _SAME_SHAPE:
-        raise SketchError(f"{sketch.name} is drawn on a page of {width:g} × {height:g}, but the matte has {columns} × {rows} pixels.", remedy="Draw over the picture, with its size as the page's.")
-    return columns / width, np.array([-left, top]) * columns / width
+    placed = page_over(sketch.page, columns, rows)
+    if placed is None:
+        left, bottom, right, top = sketch.page
+        raise SketchError(f"{sketch.name} is drawn on a page of {right - left:g} × {top - bottom:g}, but the matte has {columns} × {rows} pixels.", remedy="Draw over the picture, with its size as the page's.")
+    return placed
 
 
 def _grey(path: Path, size: tuple[int, int]) -> Float[np.ndarray, "row column"]:

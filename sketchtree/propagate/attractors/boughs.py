@@ -10,7 +10,7 @@ so that a bough comes from within and doesn't run along the outside of the crown
 """
 
 import numpy as np
-from jaxtyping import Float, Int
+from jaxtyping import Float
 
 from sketchtree.propagate.attractors.ends import curves, feet
 from sketchtree.propagate.attractors.state import State
