@@ -45,6 +45,30 @@ class Armature:
 
 
 @dataclass(frozen=True, eq=False)
+class Keys:
+    """How one property of joints changes with time: ragged by track, linear between keys (turns on the shorter arc), held before the first and after the last."""
+
+    joint: Int[np.ndarray, " track"]  # that each track moves
+    start: Int[np.ndarray, " track+1"]  # track i owns the keys start[i]:start[i + 1], one at least
+    time: Float[np.ndarray, " key"]  # seconds, rising within a track
+    value: Float[np.ndarray, "key channel"]
+
+    def __len__(self) -> int:
+        return len(self.joint)
+
+
+@dataclass(frozen=True, eq=False)
+class Animation:
+    """How the joints of an armature move. Values are relative to a joint's parent, as in glTF and USD; a joint without a track stays as at rest."""
+
+    name: str
+    seconds: float  # of the whole; the first key of all is at 0
+    translation: Keys  # metres, 3 channels
+    rotation: Keys  # unit quaternions x y z w
+    scale: Keys  # along the joint's axes, 3 channels
+
+
+@dataclass(frozen=True, eq=False)
 class Capsules:
     """Round bars for collision: every point within `radius` of the line from `start` to `end`. Metres, world frame."""
 
@@ -66,6 +90,7 @@ class Asset:
     name: str = "tree"  # of the root node
     armature: Armature | None = None
     capsules: Capsules | None = None
+    animation: Animation | None = None  # of the armature's joints
     about: dict = field(default_factory=dict)  # JSON: seed, version, template, options …; no date, no path
 
     @classmethod
