@@ -10,6 +10,7 @@ and what is behind is learnt again from what turned out to be no tree, in two wa
     hopeful    a pixel is rather tree than not at first, and only what is all but surely none counts as behind: a twig that counted would hide itself and its neighbours
     cautious   a pixel is rather none, and more counts as behind: right where the surroundings have the wood's colours, which would be taken for it
 
+In both, what a foreground scribble reaches without crossing an edge (`reach`) is tree before anything is known, and no part of what is behind.
 Where the colours tell the two apart, both find about as much tree, and the hopeful finds all of it; where they don't, it finds far more, and the cautious matte is kept. At last the
 prior is lowered to how much tree is near by: what no colour decides is none, unless it is in the midst of tree. The matte is the expected alpha.
 """
@@ -25,6 +26,7 @@ from sketchtree.matting.alpha import Matte
 from sketchtree.matting.behind import look_behind
 from sketchtree.matting.colours import Colours, fit_colours
 from sketchtree.matting.opacity import mean, posterior
+from sketchtree.matting.reach import held
 from sketchtree.matting.scribbles import Scribbles
 from sketchtree.photo.photo import Photo
 
@@ -33,6 +35,7 @@ FORE, COMMON = 3, 5  # components of either layer's colours
 NEAR = 6.0  # pixels, σ of "near"
 MOST = 0.9  # probability of tree where all near by is
 LAST = (0.05, 0.02)  # of a pixel of which nothing is known: at first, at least
+HELD = 0.98  # probability of tree in the midst of a marked limb
 TELLS = 1.37  # times as much tree as the cautious finds, up to which the hopeful is believed
 _SETTLED = 4  # rounds of the last prior
 SHADED = 0.2  # share of wood in any light
@@ -59,41 +62,47 @@ def layered(photo: Photo, scribbles: Scribbles, *, key: Key[Array, ""]) -> Matte
     rgb = photo.rgb / 255.0
     before = _wood(fit_colours(rgb[fore], np.ones(fore.sum()), FORE, draw))
     common = fit_colours(rgb[back], np.ones(back.sum()), COMMON, draw)
-    hopeful, course = _rounds(rgb, fore, back, before, common, HOPEFUL, draw)
-    cautious, other = _rounds(rgb, fore, back, before, common, CAUTIOUS, draw)
+    limb = held(rgb, fore, back)
+    hopeful, course = _rounds(rgb, fore, back, limb, before, common, HOPEFUL, draw)
+    cautious, other = _rounds(rgb, fore, back, limb, before, common, CAUTIOUS, draw)
     if hopeful.sum() <= TELLS * cautious.sum():
         return Matte(hopeful, "layered", course)
     told = "The surroundings have the wood's colours in places; what could be either was left out of the matte. More scribbles there, of both kinds, help."
     return Matte(cautious, "layered", other, (told,))
 
 
-def _rounds(rgb, fore, back, before: Colours, common: Colours, manner: Manner, draw) -> tuple[Float[np.ndarray, "row column"], tuple[float, ...]]:
+def _rounds(rgb, fore, back, limb, before: Colours, common: Colours, manner: Manner, draw) -> tuple[Float[np.ndarray, "row column"], tuple[float, ...]]:
     """(alpha, the course) of one manner."""
-    clear, wood = _first(rgb, before, common, manner.first), np.full(fore.shape, manner.first)
+    clear, wood = _first(rgb, before, common, manner.first), _raised(np.full(fore.shape, manner.first), limb)
     alpha, course = 1.0 - clear, []
     for turn in range(ROUNDS):
-        weight = clear**manner.surely
+        weight = clear**manner.surely * (1.0 - limb)
         weight[back], weight[fore] = 1.0, 0.0
         if turn:
             common = _common_again(rgb, weight, back, draw)
         chance, prior = posterior(rgb, before, look_behind(rgb, weight, common), wood), wood
         clear = chance[0].astype(np.float64)
-        wood = np.clip(_near(chance), manner.least, MOST)
+        wood = _raised(np.clip(_near(chance), manner.least, MOST), limb)
         found = _kept(mean(chance), fore, back)
         course.append(float(np.abs(found - alpha).sum() / max(found.sum(), 1e-9)))
         alpha = found
-    return _kept(mean(_last(chance, prior)), fore, back), tuple(course)
+    return _kept(mean(_last(chance, prior, limb)), fore, back), tuple(course)
 
 
-def _last(chance, prior) -> Float[np.ndarray, "alpha row column"]:
+def _last(chance, prior, limb) -> Float[np.ndarray, "alpha row column"]:
     """The posterior with a prior that starts low, and rises where tree is near by."""
-    wood = np.full(prior.shape, LAST[0])
+    wood = _raised(np.full(prior.shape, LAST[0]), limb)
     for _ in range(_SETTLED):
         lowered = chance * (wood / prior)
         lowered[0] = chance[0] * ((1 - wood) / (1 - prior))
         lowered /= lowered.sum(axis=0)
-        wood = np.clip(_near(lowered), LAST[1], MOST)
+        wood = _raised(np.clip(_near(lowered), LAST[1], MOST), limb)
     return lowered
+
+
+def _raised(wood, limb) -> Float[np.ndarray, "row column"]:
+    """A prior that is `HELD` where a limb is held for sure."""
+    return np.maximum(wood, HELD * limb)
 
 
 def _near(chance) -> Float[np.ndarray, "row column"]:

@@ -1,4 +1,8 @@
-"""Which pixels are the trunk? Those at least half opaque, of one connected piece.
+"""Which pixels are the trunk? Those at least half opaque, and more than what is round them, of one connected piece.
+
+Twigs finer than a pixel make a veil, all of it half opaque, before which a limb is more opaque still. In a veil the threshold is the mean alpha of what is not clear (ours, under a Gaussian of σ `NEAR_BY` pixels),
+at most `VEIL`. A veil it is where what is not clear is half opaque, by the mean of 4 α (1 − α): from `EDGES` on, which limbs with their soft edges have, wholly from `VEILED` on; and
+where that is dense, `THIN` to `DENSE` of all near by: a thin limb by itself is none. Elsewhere the threshold is ½.
 
 Pieces are counted over all eight neighbours, so that a twig one pixel wide holds together. Kept is the piece that holds the root, or else the largest; the others are left out, and a warning says how
 many. Where `gap` is more than 0, ours, pieces that lie so near to the trunk, or to one that was joined, belong to it: thin twigs fall apart where they are half transparent. Holes of less than `SMALL_HOLE` of the piece, or in which no square of three pixels finds room, are filled; a warning says how many. Larger ones stay: a hole between two limbs that cross is seen through.
@@ -14,6 +18,11 @@ from sketchtree.errors import OptionError, SketchError
 from sketchtree.photo.photo import at_pixels
 
 HALF = 0.5
+VEIL = 0.75
+EDGES, VEILED = 0.35, 0.6
+THIN, DENSE = 0.33, 0.43  # of the pixels near by
+_CLEAR = 0.05  # alpha that counts as none
+NEAR_BY = 6.0  # pixels
 SMALL_HOLE = 0.002  # of the piece's area
 LEAST = 12  # pixels that a trunk has
 _BRIDGE = 2.0  # gaps round the nearest place of a piece, and eight pixels, within which a bridge lies
@@ -36,7 +45,7 @@ def binary_trunk(alpha: Float[np.ndarray, "row column"], root: tuple[float, floa
     alpha = np.asarray(alpha, np.float64)
     if alpha.ndim != 2 or not np.isfinite(alpha).all():
         raise SketchError("A matte is one channel of finite numbers from 0 to 1.", remedy="Save it as a grey picture.")
-    padded = np.pad(np.clip(alpha, 0.0, 1.0), 1)
+    padded = np.pad(unveiled(np.clip(alpha, 0.0, 1.0)), 1)
     labels, count = ndimage.label(padded >= HALF, structure=_EIGHT)
     sizes = np.bincount(labels.ravel(), minlength=count + 1)[1:]
     if count == 0 or sizes.max() < LEAST:
@@ -48,12 +57,21 @@ def binary_trunk(alpha: Float[np.ndarray, "row column"], root: tuple[float, floa
     told += _of_pieces(left, chosen)
     mask, filled, holes = _without_small_holes(labels == chosen)
     told += [f"{filled} small {'hole' if filled == 1 else 'holes'} in the trunk {'was' if filled == 1 else 'were'} filled."] if filled else []
-    told += [f"The trunk has {holes} {'hole' if holes == 1 else 'holes'}; the loop round each is cut where it is thinnest."] if holes else []
+    told += [f"The trunk has {holes} {'hole' if holes == 1 else 'holes'}; the loop round each is cut where the ways round it meet."] if holes else []
     mask = _without_pinches(mask, padded)
     thin = ndimage.binary_dilation(mask & ~ndimage.binary_opening(mask, structure=np.ones((2, 2))), structure=_EIGHT)
     least = np.where(thin, _THIN, HALF + 1e-3)
     level = np.where(mask, np.maximum(padded, least), np.minimum(padded, HALF - 1e-3))
     return Binary(level, mask, tuple(told))
+
+
+def unveiled(alpha: Float[np.ndarray, "row column"]) -> Float[np.ndarray, "row column"]:
+    """Alpha less what the threshold near by is above ½."""
+    seen = (alpha > _CLEAR).astype(np.float64)
+    much = ndimage.gaussian_filter(seen, NEAR_BY, mode="constant") + 1e-6
+    mean, partly = (ndimage.gaussian_filter(seen * part, NEAR_BY, mode="constant") / much for part in (alpha, 4 * alpha * (1 - alpha)))
+    veil = np.clip((partly - EDGES) / (VEILED - EDGES), 0.0, 1.0) * np.clip((much - THIN) / (DENSE - THIN), 0.0, 1.0)
+    return np.clip(alpha - veil * (np.clip(mean, HALF, VEIL) - HALF), 0.0, 1.0)
 
 
 def _holding(labels, root) -> int:

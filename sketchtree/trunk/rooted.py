@@ -1,7 +1,7 @@
-"""Which way does the axis grow? A rooted tree of it: loops cut where they are thinnest, the rest walked from the root.
+"""Which way does the axis grow? A rooted tree of it: every node is reached from the root the shortest way, where what is wide is short; loops are cut where two such ways meet.
 
-Loops come from holes, mostly of limbs that cross. Of each the edge with the smallest circle goes: what is left is the spanning tree whose edges are widest (Kruskal's rule), so that from the root every node is
-reached the widest way.
+Loops come from holes, mostly of limbs that cross. The length of an edge counts over the radius of its smaller circle (Dijkstra): sap goes straight up thick wood and doesn't wander from limb to limb, as it would
+if only the widest edges were kept.
 """
 
 from dataclasses import dataclass
@@ -9,9 +9,12 @@ from dataclasses import dataclass
 import numpy as np
 from jaxtyping import Float, Int
 from scipy.sparse import coo_array
-from scipy.sparse.csgraph import breadth_first_order, minimum_spanning_tree
+from scipy.sparse.csgraph import breadth_first_order, dijkstra
 
 from sketchtree.axes import NULL
+
+_THIN = 0.25  # pixels: a radius at least
+_STEP = 1e-9  # of an edge of no length
 
 
 @dataclass(frozen=True, eq=False)
@@ -33,9 +36,11 @@ def rooted(xy: Float[np.ndarray, "node 2"], edges: Int[np.ndarray, "edge 2"], ra
     """(the tree that is left from `root`, how many loops were cut)."""
     count = len(xy)
     wide = np.minimum(radius[edges[:, 0]], radius[edges[:, 1]])
-    graph = coo_array((wide.max() + 1.0 - wide, (edges.min(axis=1), edges.max(axis=1))), shape=(count, count)).tocsr()
-    tree = minimum_spanning_tree(graph)
-    order, before = breadth_first_order(tree, root, directed=False)
+    far = np.hypot(*(xy[edges[:, 0]] - xy[edges[:, 1]]).T) / np.maximum(wide, _THIN) + _STEP
+    graph = coo_array((far, (edges.min(axis=1), edges.max(axis=1))), shape=(count, count)).tocsr()
+    _, way = dijkstra(graph, directed=False, indices=root, return_predecessors=True)
+    found = np.flatnonzero(way >= 0)
+    order, before = breadth_first_order(coo_array((np.ones(len(found)), (way[found], found)), shape=(count, count)).tocsr(), root, directed=True)
     number = np.full(count, NULL)
     number[order] = np.arange(len(order))
     parent = np.where(before[order] < 0, NULL, number[np.maximum(before[order], 0)])

@@ -21,6 +21,7 @@ from sketchtree.trunk.rooted import Rooted, chains, rooted
 from sketchtree.trunk.segments import convex, segments
 from sketchtree.trunk.trunk_skeleton import TrunkSkeleton
 
+GAP = 3.0  # pixels: the gap to give for the matte of a photo; thin twigs fall apart there
 _LEAST_RADIUS = 0.5  # pixels
 _PROTRUDES, _ROUGH = 2.0, 4.0  # pixels, and of the contour's roughness: what a branch stands out, at least
 _LOST = 5.0  # pixels of axis that are left out unremarked

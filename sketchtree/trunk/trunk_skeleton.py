@@ -46,7 +46,7 @@ class TrunkSkeleton:
                 break
             reached |= more
         if len(edges) >= count:
-            raise SkeletonError(f"The trunk's graph has a cycle: {len(edges)} edges join {count} nodes.", remedy="Cut every loop; `trunk_skeleton` does so where it is thinnest.")
+            raise SkeletonError(f"The trunk's graph has a cycle: {len(edges)} edges join {count} nodes.", remedy="Cut every loop; `trunk_skeleton` does so where two ways from the root meet.")
         if not reached.all() or len(edges) != count - 1:
             raise SkeletonError("The trunk's graph has a cycle, or is in pieces.", row=int(np.argmin(reached)), remedy="Direct every edge away from the root, one to each node.")
 

@@ -13,6 +13,7 @@ from sketchtree.matting.layered import layered
 from sketchtree.matting.laplacian import laplacian, volume
 from sketchtree.matting.matte import DEFAULT, MATTINGS, find_matte
 from sketchtree.matting.normalised import normalised
+from sketchtree.matting.reach import held
 from sketchtree.matting.scribbles import Scribbles
 from sketchtree.photo.photo import Photo
 
@@ -156,3 +157,15 @@ def test_what_cannot_be_matted_is_named():
     with pytest.raises(SketchError, match="tiny has 2 × 2 pixels; 3 × 3 are the least. Give a larger photo."):
         find_matte(Photo(np.zeros((2, 2, 3), np.uint8), None, "tiny"), Scribbles(([[0.5, 0.5]],), ([[1.5, 1.5]],), 0.5), key=KEY)
     assert DEFAULT in MATTINGS
+
+
+def test_a_marked_limb_is_held_up_to_its_edge_whatever_its_surroundings_colours():
+    """A trunk whose colours are those of the bushes behind it: what is marked along its middle is learnt as tree, never as what is behind."""
+    rgb = np.full((40, 60, 3), 0.3)
+    rgb[:, [24, 35]] = 0.5  # the edges of a trunk of the same grey as its surroundings
+    fore, back = np.zeros((40, 60), bool), np.zeros((40, 60), bool)
+    fore[5:35, 30], back[5:35, [5, 55]] = True, True
+    surely = held(rgb, fore, back)
+    assert surely[20, 30] == 1.0 and surely[20, 27] > 0.9
+    assert surely[20, 21] < 0.5 * surely[20, 27]
+    assert surely[20, 6] == 0.0

@@ -185,7 +185,7 @@ def test_small_holes_are_filled_and_large_ones_cut():
     alpha = ring()
     alpha[110, 50] = 0.0
     skeleton = trunk_skeleton(alpha)
-    assert skeleton.warnings == ("1 small hole in the trunk was filled.", "The trunk has 1 hole; the loop round each is cut where it is thinnest.")
+    assert skeleton.warnings == ("1 small hole in the trunk was filled.", "The trunk has 1 hole; the loop round each is cut where the ways round it meet.")
 
 
 def test_a_loop_is_cut_where_it_is_thinnest():
@@ -205,7 +205,7 @@ def test_of_a_cycle_the_edge_with_the_smallest_circle_goes():
 
 def test_a_graph_with_a_cycle_is_no_trunk():
     xy = np.array([[0.0, 0.0], [1.0, 0.0], [1.0, 1.0]])
-    with pytest.raises(SkeletonError, match=re.escape("The trunk's graph has a cycle: 3 edges join 3 nodes. Cut every loop; `trunk_skeleton` does so where it is thinnest.")):
+    with pytest.raises(SkeletonError, match=re.escape("The trunk's graph has a cycle: 3 edges join 3 nodes. Cut every loop; `trunk_skeleton` does so where two ways from the root meet.")):
         TrunkSkeleton(xy, np.array([[0, 1], [1, 2], [2, 0]]), np.ones(3), 0)
     with pytest.raises(SkeletonError, match="in pieces"):
         TrunkSkeleton(np.zeros((4, 2)), np.array([[0, 1], [2, 3], [3, 2]]), np.ones(4), 0)
@@ -214,3 +214,19 @@ def test_a_graph_with_a_cycle_is_no_trunk():
 def test_the_same_matte_gives_the_same_skeleton():
     one, other = trunk_skeleton(forked()), trunk_skeleton(forked())
     assert one.xy.tobytes() == other.xy.tobytes() and one.radius.tobytes() == other.radius.tobytes()
+
+
+def test_a_limb_is_found_before_a_veil_of_twigs_that_is_half_opaque():
+    y, x = np.mgrid[:80, :80]
+    alpha = np.where(np.hypot(x - 40, y - 30) < 28, 0.6, 0.0)
+    alpha[8:, 38:43] = 1.0
+    skeleton = trunk_skeleton(alpha)
+    assert len(skeleton.tips) == 1
+    assert np.abs(skeleton.xy[:, 0] - 40.5).max() < 2.0
+
+
+def test_a_silhouettes_contour_stays_where_it_was():
+    alpha = forked()
+    ring = outline(binary_trunk(alpha)).polygons[0]
+    inside = np.pad(alpha, 1) >= 0.5
+    assert np.abs(signed_area(ring) - inside.sum()) < 0.03 * inside.sum()
