@@ -34,6 +34,8 @@ def measured(case: Case, methods) -> tuple[dict, dict[str, Matte]]:
         seconds = time.perf_counter() - begun
         mattes[method] = matte
         row[method] = {"seconds": round(seconds, 2), "objective": normalised_objective(matrix, matte.alpha), "falls": bool((np.diff(matte.course) <= 0).all())}
+        flat = matte.alpha.ravel().astype(np.float64)
+        row[method]["energy"] = float(flat @ (matrix @ flat))
         if case.truth is not None:
             row[method] |= {"sad": float(np.abs(matte.alpha - case.truth).sum() / case.truth.sum()), "mse": float(((matte.alpha - case.truth) ** 2).mean())}
     if case.truth is not None:

@@ -63,6 +63,13 @@ def _newton(matrix, weight, ratio: float, slope, moving, precondition) -> Float[
     residual = np.where(moving, -slope, 0.0)
     found = np.zeros_like(residual)
     ready = np.where(moving, precondition(residual), 0.0)
+    if float(residual @ ready) <= 0:  # the factors of a nearly singular system may be too inexact to precondition with
+        scale = np.maximum(matrix.diagonal(), 1e-6)
+
+        def precondition(right):
+            return right / scale
+
+        ready = np.where(moving, residual / scale, 0.0)
     search, size = ready, float(residual @ ready)
     least = 1e-6 * size
     for k in range(_INNER):

@@ -14,7 +14,7 @@ from scipy.ndimage import gaussian_gradient_magnitude
 from skimage.graph import MCP_Geometric
 
 STEP = 0.01  # cost of a pixel where all is even
-FAR = 0.4
+FAR = 0.25
 
 
 def held(rgb: Float[np.ndarray, "row column 3"], fore: Bool[np.ndarray, "row column"], back: Bool[np.ndarray, "row column"]) -> Float[np.ndarray, "row column"]:

@@ -55,6 +55,7 @@ def binary_trunk(alpha: Float[np.ndarray, "row column"], root: tuple[float, floa
     left = np.bincount(labels.ravel(), minlength=count + 1)[1:]
     told = [f"{joined} {'piece' if joined == 1 else 'pieces'} of the matte {'was' if joined == 1 else 'were'} joined to the trunk over gaps of at most {gap:g} pixels."] if joined else []
     told += _of_pieces(left, chosen)
+    told += ["The matte is opaque all over: the whole picture was taken for the trunk. Draw a background scribble beside the tree."] if (labels[1:-1, 1:-1] == chosen).all() else []
     mask, filled, holes = _without_small_holes(labels == chosen)
     told += [f"{filled} small {'hole' if filled == 1 else 'holes'} in the trunk {'was' if filled == 1 else 'were'} filled."] if filled else []
     told += [f"The trunk has {holes} {'hole' if holes == 1 else 'holes'}; the loop round each is cut where the ways round it meet."] if holes else []

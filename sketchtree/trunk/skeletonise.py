@@ -38,6 +38,8 @@ def trunk_skeleton(
     asked = edits.vertices if vertices is None else vertices
     if asked is not None and asked < 3:
         raise OptionError(f"The contour can't be evolved to {asked} vertices: a polygon has at least 3.", remedy="Ask for 3 or more, or let the number be found.")
+    if not 0.0 <= gap < float("inf"):
+        raise OptionError(f"A gap of {gap:g} pixels can't be bridged.", remedy="Give pixels from 0 on.")
     binary = binary_trunk(alpha, root, gap)
     shape = outline(binary)
     polygon, told = _evolved(shape, asked)

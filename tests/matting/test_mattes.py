@@ -12,8 +12,8 @@ from sketchtree.matting.dissection import dissected
 from sketchtree.matting.layered import layered
 from sketchtree.matting.laplacian import laplacian, volume
 from sketchtree.matting.matte import DEFAULT, MATTINGS, find_matte
-from sketchtree.matting.normalised import normalised
-from sketchtree.matting.reach import held
+from sketchtree.matting.normalised import least_ratio, normalised
+from sketchtree.matting.reach import FAR, STEP, held
 from sketchtree.matting.scribbles import Scribbles
 from sketchtree.photo.photo import Photo
 
@@ -166,6 +166,13 @@ def test_a_marked_limb_is_held_up_to_its_edge_whatever_its_surroundings_colours(
     fore, back = np.zeros((40, 60), bool), np.zeros((40, 60), bool)
     fore[5:35, 30], back[5:35, [5, 55]] = True, True
     surely = held(rgb, fore, back)
-    assert surely[20, 30] == 1.0 and surely[20, 27] > 0.9
+    assert surely[20, 30] == 1.0 and surely[20, 27] == pytest.approx(np.exp(-3 * STEP / FAR), rel=0.02)
     assert surely[20, 21] < 0.5 * surely[20, 27]
     assert surely[20, 6] == 0.0
+
+
+def test_eq4_falls_too_where_the_preconditioner_is_of_no_use():
+    matrix, known = laplacian(flat(SKY)), SCRIBBLES.masks(SKY)[0] | SCRIBBLES.masks(SKY)[1]
+    start = np.where(SCRIBBLES.masks(SKY)[0], 1.0, np.where(known, 0.0, 0.5)).ravel()
+    _, course = least_ratio(matrix, volume(known.shape), start, ~known.ravel(), lambda right: -right)
+    assert (np.diff(course) < 0).all() and course[-1] < 0.5 * course[0]

@@ -230,3 +230,14 @@ def test_a_silhouettes_contour_stays_where_it_was():
     ring = outline(binary_trunk(alpha)).polygons[0]
     inside = np.pad(alpha, 1) >= 0.5
     assert np.abs(signed_area(ring) - inside.sum()) < 0.03 * inside.sum()
+
+
+def test_a_gap_that_is_none_is_refused():
+    for gap, said in ((-1.0, "-1"), (float("nan"), "nan")):
+        with pytest.raises(OptionError, match=re.escape(f"A gap of {said} pixels can't be bridged. Give pixels from 0 on.")):
+            trunk_skeleton(forked(), gap=gap)
+
+
+def test_a_matte_that_is_opaque_all_over_is_told():
+    told = "The matte is opaque all over: the whole picture was taken for the trunk. Draw a background scribble beside the tree."
+    assert told in trunk_skeleton(np.ones((50, 50))).warnings
