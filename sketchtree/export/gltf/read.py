@@ -77,7 +77,7 @@ def _asset(document: Document) -> Asset:
     coverage = next((node["extras"][COVERAGE] for node in nodes if COVERAGE in node.get("extras", {})), [0.0] * len(levels))
     levels = tuple(Level(parts, float(share)) for parts, share in zip(levels, coverage, strict=False))
     name = scene.get("name") or (nodes[scene["nodes"][0]].get("name", "tree") if scene.get("nodes") else "tree")
-    return Asset(levels, _skeleton(extras), name, _armature(document.content), capsules, extras.get("about", {}))
+    return Asset(levels, _skeleton(extras), name, _armature(document.content), capsules, about=extras.get("about", {}))
 
 
 def _drawn(part: Mesh | Instances) -> bool:

@@ -34,7 +34,7 @@ def read_usd(path: str | os.PathLike) -> Asset:
     skeleton = skeleton_from_extras(json.loads(told["skeleton"])) if "skeleton" in told else None
     capsules = capsules_from_json(json.loads(told["capsules"])) if "capsules" in told else None
     about = {name: value for name, value in told.items() if name not in ("skeleton", "capsules", "creator", "lod_coverage")}
-    return Asset(levels, skeleton, top.GetName() or "tree", read_bones(stage), capsules, about)
+    return Asset(levels, skeleton, top.GetName() or "tree", read_bones(stage), capsules, about=about)
 
 
 def _levels(stage, top, coverage: list[float]) -> tuple[Level, ...]:
