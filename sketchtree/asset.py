@@ -58,6 +58,16 @@ class Keys:
 
 
 @dataclass(frozen=True, eq=False)
+class Morph:
+    """How a mesh changes its shape with time: vertices stand at position + weight · offset, before joints move them; 0 at rest."""
+
+    part: int  # which of the finest level's parts
+    offset: Float[np.ndarray, "vertex 3"]  # metres
+    time: Float[np.ndarray, " key"]  # seconds, rising
+    weight: Float[np.ndarray, " key"]  # linear between keys
+
+
+@dataclass(frozen=True, eq=False)
 class Animation:
     """How the joints of an armature move. Values are relative to a joint's parent, as in glTF and USD; a joint without a track stays as at rest."""
 
@@ -66,6 +76,7 @@ class Animation:
     translation: Keys  # metres, 3 channels
     rotation: Keys  # unit quaternions x y z w
     scale: Keys  # along the joint's axes, 3 channels
+    morphs: tuple[Morph, ...] = ()
 
 
 @dataclass(frozen=True, eq=False)

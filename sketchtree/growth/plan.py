@@ -110,8 +110,9 @@ class GrowthPlan:
         first = self.straight.last - np.diff(self.tree.curve_start)
         return np.flatnonzero((self._grown(_checked([time]))[first, 0] > 0) | self.tree.is_base)
 
-    def poses(self, times, *, pieces: bool = False, dtype=np.float32) -> Poses:
-        """All segments at all times (each 0-1). `pieces`: those of `straight.pieces`, every drawn point a row of its own, instead of the tree's rows."""
+    def poses(self, times, *, pieces: bool = False, whole: bool = True, dtype=np.float32) -> Poses:
+        """All segments at all times (each 0-1). `pieces`: those of `straight.pieces`, every drawn point a row of its own, instead of the tree's rows.
+        Not `whole`: as they are before the whole is made as large as `size`."""
         times = _checked(times)
         rows = np.arange(len(self.straight.row)) if pieces else self.straight.last
         parent = self.straight.pieces.parent if pieces else self.tree.parent
@@ -120,7 +121,7 @@ class GrowthPlan:
         step = max(1, _AT_ONCE // max(len(self.straight.row), 1))
         for low in range(0, len(times), step):
             now = slice(low, low + step)
-            places, thick, share, size[now] = self._pieces(times[now], dtype)
+            places, thick, share, size[now] = self._pieces(times[now], dtype, whole)
             if not pieces and len(rows) < len(self.straight.row):
                 places, thick, share = places[:, rows], thick[:, rows], self._of_rows(share)
             tip[now], radius[now], grown[now] = places, thick, share
@@ -134,7 +135,7 @@ class GrowthPlan:
     def _grown(self, times):
         return np.where(times > 0, np.ones((len(self.straight.row), 1)), 0.0) if self.mode == "scale" else self.times.grown(self._clock(times))
 
-    def _pieces(self, times, dtype):
+    def _pieces(self, times, dtype, whole=True):
         """(tip (time, piece, 3), radius (time, piece), grown (time, piece), size (time)) of the straight pieces."""
         pieces, layers, order = self.straight.pieces, self.layers, self.layers.order
         grown = self._grown(times).astype(dtype, copy=False)[order]
@@ -145,7 +146,7 @@ class GrowthPlan:
         tip = self._tips(grown, share, dtype)
         base = self._ground()[order].astype(dtype)
         size = size.astype(dtype)
-        if self.mode != "age":
+        if self.mode != "age" and whole:
             small = size < 1
             tip[:, :, small] = base.T[:, :, None] + size[small] * (tip[:, :, small] - base.T[:, :, None])
             radius = radius * np.where(size > 0, size, 1e-6)

@@ -1,0 +1,1 @@
+"""A finished tree that moves: joints, keys and morphs for the growth of its meshes."""
