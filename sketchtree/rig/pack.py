@@ -62,7 +62,7 @@ def game_pack(model: Model, levels: Sequence[Level], impostor: Mesh | None = Non
     rigging = Rigging.of(model.skeleton)
     rigged = tuple(Level(tuple(_rigged(rigging, model, part) for part in level.parts if part.triangle_count), level.coverage) for level in levels)
     fitted = capsules(rigging.lines, rigging.limbs, rigging.bones)
-    asset = Asset(rigged, model.skeleton, name, rigging.bones.armature, fitted.capsules, about or {})
+    asset = Asset(rigged, model.skeleton, name, rigging.bones.armature, fitted.capsules, about=about or {})
     far = None if impostor is None else rigging.impostor(dataclasses.replace(impostor, material=even_material(impostor.material)))
     roles = pack_roles(name, len(rigged), far is not None)
     return Pack(asset, far, rigging, manifest(asset, rigging, fitted, roles, None if far is None else far.triangle_count))
@@ -86,7 +86,7 @@ def pack_files(pack: Pack) -> dict[str, bytes]:
     made = []
     for number, level in enumerate(asset.levels):
         whole = number == 0
-        made.append(asset_bytes(Asset((level,), asset.skeleton if whole else None, name, asset.armature, asset.capsules if whole else None, asset.about)))
+        made.append(asset_bytes(Asset((level,), asset.skeleton if whole else None, name, asset.armature, asset.capsules if whole else None, about=asset.about)))
     if pack.impostor is not None:
         made.append(asset_bytes(Asset.of([pack.impostor], name=name, about=asset.about)))
     made.append(_collision_bytes(pack))
