@@ -4,7 +4,7 @@
     full     the whole tree; meanwhile, of the last one, what pages that join need and the undrawn limb that is picked
     side     everything else: pictures, other readings, glances, files in and out
 
-and, once a photo lies under the page, three more (`tracer`, `grower`).
+and, once a photo lies under the page, three more (`tracer`, `grower`). One more while somebody looks at the tree as it grows (`growth`).
 
 Each begins when it is first needed, and is begun again should it end. The newest request wins; a hurried answer goes before the full tree of the same revision.
 """
@@ -23,6 +23,7 @@ from sketchtree.errors import SketchTreeError
 from sketchtree.studio import messages
 from sketchtree.studio.engine import Fault, Outcome
 from sketchtree.studio.grower import Grower
+from sketchtree.studio.growth import Ageing, Ager
 from sketchtree.studio.hand import Ended, Hand
 from sketchtree.studio.laid_photo import LaidPhoto
 from sketchtree.studio.making.basis import Basis
@@ -79,6 +80,7 @@ class Crew:
         laid = LaidPhoto()
         self._grower = Grower(grow, laid, lambda outcome: self.on_outcome(outcome), self._run)
         self._tracer = Tracer(*photo, laid, lambda revision, event: self.on_outcome(Outcome(revision, event)), self._grower.seen, self._run)
+        self._ager = Ager(lambda: Hand("age", self._database, lambda number, value: None, partial(self._ended, "age")))
         self._begun = 1
         self._empty: bytes | None = None  # the tree of a page without a stroke, if that was told last
         self._hands["full"].begin()  # the others once there is a tree, or when they are asked
@@ -93,10 +95,11 @@ class Crew:
             hand.end()
         self._tracer.end()
         self._grower.end()
+        self._ager.end()
 
     def make(self, revision: int, document: Document) -> None:
         """As `Engine.make`."""
-        self._revision, self._document, self._cancelled = revision, document.replace(underlay=None), False  # no tree hangs on the picture, which may be large
+        self._revision, self._document, self._cancelled = revision, document.drawn, False
         self._hands["full"].stop()
         self._say(messages.Working(state="working", revision=revision, stage="read"))
         if not self._hurrying:
@@ -287,6 +290,10 @@ class Crew:
     async def export(self, document: Document, name: str, options: dict) -> dict[str, bytes]:
         """As `Engine.export`."""
         return await self._hands["side"].ask("export", document, name, options)[1]
+
+    async def aged(self, document: Document, ageing: Ageing) -> bytes:
+        """As `Engine.aged`."""
+        return await self._ager.made(document, ageing)
 
     async def project(self, document: Document) -> bytes:
         """As `Engine.project`."""

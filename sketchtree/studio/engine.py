@@ -6,12 +6,15 @@ wins, and what comes of an older one is not told.
 
 from collections.abc import Callable
 from dataclasses import dataclass
-from typing import Any, Protocol
+from typing import TYPE_CHECKING, Any, Protocol
 
 from sketchtree.editing.document import Document
 from sketchtree.editing.settled import Settled
 from sketchtree.errors import SketchTreeError
 from sketchtree.studio import messages
+
+if TYPE_CHECKING:
+    from sketchtree.studio.growth import Ageing
 
 
 class Fault(SketchTreeError):
@@ -96,6 +99,9 @@ class Engine(Protocol):
 
     async def export(self, document: Document, name: str, options: dict) -> dict[str, bytes]:
         """The files that this tree becomes, by name. Raises SketchTreeError."""
+
+    async def aged(self, document: Document, ageing: "Ageing") -> bytes:
+        """The growth of this tree, as an animated GLB; nothing else waits for it. Raises SketchTreeError. Whoever does not want it any more cancels it."""
 
     async def project(self, document: Document) -> bytes:
         """The bytes of a project file."""

@@ -7,6 +7,7 @@
     /underlay/DIGEST                      the picture to trace over
     POST /upload?name=&as=                a drawing or project to open; a picture to trace over, to mark a tree in, or to read strokes from
     POST /export                          the tree, as files
+    POST /growth                          the tree as it grows, an animated GLB; hanging up stops its making
     /download  /marks  /command           the project; the strokes that mark the photo, as SVG; the command line that makes the same tree
 """
 
@@ -27,12 +28,14 @@ from starlette.websockets import WebSocket, WebSocketDisconnect
 from sketchtree.errors import SketchTreeError
 from sketchtree.studio import exports, filing, messages
 from sketchtree.studio.folder import PROJECT, is_name
+from sketchtree.studio.growth import Ageing
 from sketchtree.studio.security import Guard, Guarded
 from sketchtree.studio.session import Session
 from sketchtree.studio.underlays import kind_of
 
 _REQUEST = msgspec.json.Decoder(messages.Request)
 _EXPORT = msgspec.json.Decoder(exports.Export)
+_AGEING = msgspec.json.Decoder(Ageing)
 _SMALL = 10_000  # bytes of a request that says what to export
 _KEY = re.compile(r"[A-Za-z0-9_.:-]{1,120}")
 _KINDS = {
@@ -58,6 +61,7 @@ class Studio:
             Route("/underlay/{digest}", self._underlay),
             Route("/upload", self._upload, methods=["POST"]),
             Route("/export", self._export, methods=["POST"]),
+            Route("/growth", self._growth, methods=["POST"]),
             Route("/download", self._download),
             Route("/marks", self._marks),
             Route("/command", self._command),
@@ -165,6 +169,17 @@ class Studio:
             return _attachment(name, data)
         return _attachment(document.name + ".zip", await asyncio.to_thread(exports.zipped, files))
 
+    async def _growth(self, request: Request) -> Response:
+        try:
+            wanted = _AGEING.decode(await _body(request, _SMALL))
+        except (msgspec.MsgspecError, UnicodeError, RecursionError) as error:
+            return _json({"message": f"How the tree is to grow can't be read: {str(error)[:300]}.", "remedy": "Load the page again."}, 400)
+        desk = self._session.desk
+        await desk.ready.wait()
+        revision = desk.revision
+        data = await _while_heard(request, desk.engine.aged(desk.document, wanted))
+        return Response(data, media_type="model/gltf-binary", headers={"X-Revision": str(revision)})
+
     async def _download(self, request: Request) -> Response:
         await self._session.desk.ready.wait()
         document = self._session.document
@@ -205,6 +220,25 @@ def _aside(work) -> None:
     task = asyncio.get_running_loop().create_task(work)
     _asides.add(task)
     task.add_done_callback(_asides.discard)
+
+
+async def _while_heard(request: Request, work):
+    """What comes of the work, which ends when whoever asked hangs up."""
+    working = asyncio.ensure_future(work)
+    gone = asyncio.ensure_future(_hangs_up(request))
+    try:
+        await asyncio.wait((working, gone), return_when=asyncio.FIRST_COMPLETED)
+        if not working.done():
+            raise HTTPException(499)
+        return working.result()
+    finally:
+        gone.cancel()
+        working.cancel()
+
+
+async def _hangs_up(request: Request) -> None:
+    while (await request.receive())["type"] != "http.disconnect":
+        pass
 
 
 async def _body(request: Request, most: int) -> bytes:

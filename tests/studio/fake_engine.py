@@ -116,6 +116,11 @@ class FakeEngine:
             raise OptionError("`--solid` needs a package.", remedy="Install it.")
         return {name: b"one"} if options["levels"] != "apart" else {name: b"one", "räum/tree.png": b"two"}
 
+    async def aged(self, document, ageing):
+        if not document.strokes:
+            raise SketchError("There is no tree that could grow.", remedy="Draw a trunk first.")
+        return f"{ageing.mode} {ageing.bend:g}".encode()
+
     async def project(self, document):
         return json.dumps({"strokes": list(document.strokes)}).encode()
 

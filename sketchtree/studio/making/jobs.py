@@ -57,6 +57,13 @@ class Jobs:
         return Growth(self.templates, self.photo_bench)
 
     @cached_property
+    def growths(self):
+        """How the tree of a drawing grows."""
+        from sketchtree.studio.making.growth import Growths
+
+        return Growths(self._model)
+
+    @cached_property
     def photo_answers(self):
         """What is answered about it."""
         from sketchtree.studio.making import photo_answers
@@ -163,6 +170,9 @@ class Jobs:
 
     def _grown_files(self, number, watch, wish, foliages: dict[str, bytes], name: str, options: dict):
         return self.growth.files(wish, foliages, name, options, watch)
+
+    def _age(self, number, watch, document: Document, mode: str, bend: float):
+        return self.growths.glb(document, mode, bend, watch)
 
     def _read(self, number, watch, data: bytes, name: str):
         from sketchtree.studio.making.documents import document_of
