@@ -17,7 +17,7 @@ from sketchtree.options import DrawingOptions
 from sketchtree.sketch.formats import read_sketch
 from sketchtree.sketch.graph import SketchGraph
 from sketchtree.sketch.reading import sketch_graph
-from sketchtree.sketch.strokes import Sketch, StrokeKind
+from sketchtree.sketch.strokes import SCRIBBLES, Sketch, StrokeKind
 from sketchtree.watch import Watch, shared
 
 _FILE = 0.5  # of the work, about: the file's own part of reading a large drawing
@@ -55,12 +55,12 @@ def read_hand_work(source: Sketch | str | Path) -> HandWork:
 
 def front_graph(sketch: Sketch, crown: str) -> SketchGraph:
     """The segment tree of the strokes of the front page; strokes are numbered as in the whole sketch. Raises SketchError."""
-    front = [k for k, stroke in enumerate(sketch.strokes) if stroke.view_deg % 360.0 == 0.0]
+    front = [k for k, stroke in enumerate(sketch.strokes) if stroke.view_deg % 360.0 == 0.0 and stroke.kind not in SCRIBBLES]
     if len(front) == len(sketch.strokes):
         return sketch_graph(sketch, crown=crown)
     graph = sketch_graph(dataclasses.replace(sketch, strokes=tuple(sketch.strokes[k] for k in front)), crown=crown)
     number = np.array(front, np.int64)
-    aside = [stroke.id for stroke in sketch.strokes if stroke.view_deg % 360.0 != 0.0 and stroke.kind != StrokeKind.BRANCH]
+    aside = [stroke.id for stroke in sketch.strokes if stroke.view_deg % 360.0 != 0.0 and stroke.kind in (StrokeKind.CROWN, StrokeKind.OBSTACLE)]
     told = tuple(f"Stroke {name} is a crown or an obstacle on a turned page; only those of the front page count." for name in aside)
     return graph.replace(
         stroke=np.where(graph.stroke == NULL, NULL, number[graph.stroke]),

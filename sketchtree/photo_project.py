@@ -63,7 +63,7 @@ def read_photo_project(path: str | Path, limits: DrawingOptions = DrawingOptions
     underlay, wanted = _underlay(path)
     photo = photo_in(underlay.picture, path.name, max_megapixels=limits.max_megapixels)
     sketch = read_sketch(path, max_strokes=limits.max_strokes, max_mb=limits.max_mb)
-    front = [stroke for stroke in sketch.strokes if stroke.view_deg % 360.0 == 0.0 and stroke.kind != StrokeKind.OBSTACLE]
+    front = [stroke for stroke in sketch.strokes if stroke.view_deg % 360.0 == 0.0 and stroke.kind in (StrokeKind.BRANCH, StrokeKind.CROWN)]
     laid = (photo.width / underlay.width, photo.height / underlay.height)
     strokes = tuple(dataclasses.replace(stroke, points=(stroke.points - (underlay.x, underlay.y)) * laid) for stroke in front)
     return PhotoProject(photo, marked_trees(dataclasses.replace(sketch, strokes=strokes, page=None), photo), wanted)

@@ -8,7 +8,7 @@ from sketchtree.editing.edits import Edits
 from sketchtree.editing.settled import Settled
 from sketchtree.options import ReadingOptions, TreeOptions
 from sketchtree.photo.wanted import PhotoOptions
-from sketchtree.sketch.strokes import Sketch, Stroke
+from sketchtree.sketch.strokes import SCRIBBLES, Sketch, Stroke
 
 
 @dataclass(frozen=True)
@@ -52,6 +52,14 @@ class Document:
     def sketch(self) -> Sketch:
         """The drawing; strokes of turned pages too (`Stroke.view_deg`)."""
         return Sketch(tuple(self.strokes.values()), name=self.name, units=self.units, page=self.page, warnings=self.warnings)
+
+    @property
+    def drawn(self) -> "Document":
+        """What the drawn tree hangs on: not the picture, which may be large, nor what is scribbled on it."""
+        strokes = self.strokes
+        if any(stroke.kind in SCRIBBLES for stroke in strokes.values()):
+            strokes = {name: stroke for name, stroke in strokes.items() if stroke.kind not in SCRIBBLES}
+        return self.replace(strokes=strokes, underlay=None)
 
     @classmethod
     def blank(cls, **fields) -> "Document":

@@ -83,7 +83,7 @@ def _placed(sketch: Sketch, photo: Photo) -> tuple[float, Float[np.ndarray, "2"]
 
 def _sorted(sketch: Sketch) -> tuple[list[Stroke], list[Stroke]]:
     """(crowns, the others)."""
-    strokes = [stroke for stroke in sketch.strokes if stroke.kind != StrokeKind.OBSTACLE]
+    strokes = [stroke for stroke in sketch.strokes if stroke.kind in (StrokeKind.BRANCH, StrokeKind.CROWN)]
     crowns = [stroke for stroke in strokes if stroke.kind == StrokeKind.CROWN]
     if not crowns:
         crowns = [stroke for stroke in strokes if not stroke.labelled and _closes(stroke)]

@@ -19,7 +19,7 @@ from sketchtree.sketch.files.quickdraw import read_quickdraw
 from sketchtree.sketch.files.recognise import EXCALIDRAW, INKML, PICTURES, QUICKDRAW, SKETCH, SVG, WEBP, Unreadable, recognise
 from sketchtree.sketch.files.sketch_json import read_sketch_json, sketch_json
 from sketchtree.sketch.files.svg import read_svg
-from sketchtree.sketch.strokes import Sketch, StrokeKind
+from sketchtree.sketch.strokes import SCRIBBLES, Sketch, StrokeKind
 
 READABLE = {  # extension → what such a file holds
     ".svg": SVG,
@@ -132,6 +132,11 @@ def check_writable(sketch: Sketch) -> None:
         raise SketchError(f"{sketch.name} has a view or page that is not finite.", remedy=_WHOLE)
 
 
+def _held(sketch: Sketch) -> str:
+    """What a sketch without branches holds."""
+    return "scribbles over a photo" if any(stroke.kind in SCRIBBLES for stroke in sketch.strokes) else "labelled crown or obstacle"
+
+
 def check_sketch(sketch: Sketch) -> None:
     """Raise SketchError for a sketch that no tree could be made of: no branch strokes, or coordinates beyond what can be told apart."""
     if not sketch.strokes:
@@ -141,7 +146,7 @@ def check_sketch(sketch: Sketch) -> None:
         )
     if all(stroke.kind != StrokeKind.BRANCH for stroke in sketch.strokes):
         raise SketchError(
-            f"{sketch.name} has no branch strokes: all it holds is labelled crown or obstacle.",
+            f"{sketch.name} has no branch strokes: all it holds is {_held(sketch)}.",
             remedy="Draw at least a trunk, outside the crown's layer.",
         )
     low = np.min([stroke.points.min(0) for stroke in sketch.strokes], axis=0)

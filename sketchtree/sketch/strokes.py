@@ -15,6 +15,14 @@ class StrokeKind(StrEnum):
     BRANCH = "branch"
     CROWN = "crown"
     OBSTACLE = "obstacle"
+    FOREGROUND = "foreground"  # a scribble over a photo: this is tree (`sketchtree.matting`)
+    BACKGROUND = "background"  # and this is not
+    MATTE_ADD = "matte_add"  # painted into the matte that comes of the scribbles (`trunk.edit_matte`)
+    MATTE_ERASE = "matte_erase"  # and out of it
+
+
+SCRIBBLES = frozenset({StrokeKind.FOREGROUND, StrokeKind.BACKGROUND, StrokeKind.MATTE_ADD, StrokeKind.MATTE_ERASE})
+"""What is said about a photo with a brush: no part of a drawn tree."""
 
 
 @dataclass(frozen=True, eq=False)

@@ -27,7 +27,7 @@ Name = Annotated[str, Meta(min_length=1, max_length=120, pattern=r"^[^/\\\x00-\x
 Coordinate = Annotated[float, Meta(ge=-1e6, le=1e6)]
 Share = Annotated[float, Meta(ge=0, le=1)]
 Degrees = Annotated[float, Meta(ge=-360, le=360)]
-Kind = Literal["branch", "crown", "obstacle"]
+Kind = Literal["branch", "crown", "obstacle", "foreground", "background", "matte_add", "matte_erase"]  # the last four: scribbles that say what is tree in a photo
 Season = Literal["spring", "summer", "autumn", "bare"]
 
 

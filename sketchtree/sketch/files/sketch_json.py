@@ -97,7 +97,7 @@ def _stroke(row: Any, k: int, name: str, up: bool) -> Stroke:
     columns = _columns(row.get("points"), stroke_id, name)
     kind = row.get("kind")
     if kind is not None and kind not in tuple(StrokeKind):
-        raise SketchError(f"in {name}, its kind is {kind!r}; branch, crown or obstacle was expected.", stroke=stroke_id, remedy=_REMEDY)
+        raise SketchError(f"in {name}, its kind is {kind!r}; one of {', '.join(StrokeKind)} was expected.", stroke=stroke_id, remedy=_REMEDY)
     width = row.get("width")
     if width is not None and not (_is_number(width) and 0 <= width < np.inf):
         raise SketchError(f"in {name}, its width is {width!r}; a number of at least 0 was expected.", stroke=stroke_id, remedy=_REMEDY)

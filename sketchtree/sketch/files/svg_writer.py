@@ -17,8 +17,14 @@ from sketchtree.sketch.strokes import Sketch, Stroke, StrokeKind
 
 MARGIN = 0.05  # around a drawing without a page, of its size
 PEN = 0.004  # width of a line that has none, of the drawing's size
-_INK = {StrokeKind.BRANCH: "#4a3a2c", StrokeKind.CROWN: "#4f8a3a", StrokeKind.OBSTACLE: "#8a8a92"}
-_LAYER = {StrokeKind.BRANCH: "branches", StrokeKind.CROWN: "crown", StrokeKind.OBSTACLE: "obstacles"}
+_INK = {
+    StrokeKind.BRANCH: "#4a3a2c", StrokeKind.CROWN: "#4f8a3a", StrokeKind.OBSTACLE: "#8a8a92",
+    StrokeKind.FOREGROUND: "#2f9e63", StrokeKind.BACKGROUND: "#c8452f", StrokeKind.MATTE_ADD: "#2f9e63", StrokeKind.MATTE_ERASE: "#c8452f",
+}  # fmt: skip
+_LAYER = {
+    StrokeKind.BRANCH: "branches", StrokeKind.CROWN: "crown", StrokeKind.OBSTACLE: "obstacles",
+    StrokeKind.FOREGROUND: "foreground", StrokeKind.BACKGROUND: "background", StrokeKind.MATTE_ADD: "add", StrokeKind.MATTE_ERASE: "erase",  # as `matting` and `trunk` name them
+}  # fmt: skip
 _NAME = re.compile(r"[A-Za-z_][A-Za-z0-9_.-]*")
 _UNPRINTABLE = re.compile("[\x00-\x1f\x7f-\x9f\ud800-\udfff\ufffe\uffff]")
 

@@ -31,7 +31,7 @@ export interface Welcome {
 /** One line of the pen. */
 export interface Stroke {
   id: string;
-  kind: "branch" | "crown" | "obstacle";
+  kind: "background" | "branch" | "crown" | "foreground" | "matte_add" | "matte_erase" | "obstacle";
   xy: number[]; // x, y, x, y …; the page's units, y down
   pressure: number[] | null; // one a point
   time: number[] | null; // milliseconds since the pen went down
@@ -324,7 +324,7 @@ export interface Hello {
 /** One line of the pen. */
 export interface SentStroke {
   id: string;
-  kind: "branch" | "crown" | "obstacle";
+  kind: "background" | "branch" | "crown" | "foreground" | "matte_add" | "matte_erase" | "obstacle";
   xy: number[]; // x, y, x, y …; the page's units, y down
   pressure?: number[] | null; // one a point
   time?: number[] | null; // milliseconds since the pen went down

@@ -2,6 +2,7 @@
 
 import type { Stroke } from "../../messages";
 import { outline, widths } from "../line/outline";
+import { isScribble, paintScribble } from "../trunk/scribbles";
 import type { Palette } from "./palette";
 
 export interface Look {
@@ -37,6 +38,11 @@ export function paintStroke(on: CanvasRenderingContext2D, stroke: Stroke, look: 
     on.lineWidth = shape.width + (2 * HALO) / scale;
     on.stroke(shape.line);
     on.globalAlpha = 1;
+  }
+  if (isScribble(stroke)) {
+    paintScribble(on, stroke, shape.line, palette, Math.max(shape.width, LEAST / scale));
+    on.globalAlpha = 1;
+    return;
   }
   if (look.cased && state !== "faint") paintCasing(on, shape, stroke.kind === "branch" ? shape.width : 2 / scale, look);
   if (stroke.kind === "branch") paintBranch(on, shape, state === "wrong" ? palette.wrong : palette.ink, scale);

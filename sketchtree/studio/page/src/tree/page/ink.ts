@@ -1,12 +1,15 @@
 // How does the drawing lie on the tree? Its strokes as thin lines on the plane of the page each was drawn on, fading as that page is seen from its edge.
 
 import { Group, Vector2, type BufferGeometry, type Mesh, type Scene, type ShaderMaterial } from "three";
+import { isScribble } from "../../draw/trunk/scribbles";
 import type { Stroke } from "../../messages";
 import { thinLines } from "./line";
 import { shortest } from "../eye/eye";
 import { onPage, type PagePlane } from "./plane";
 
-const COLOURS: Record<"light" | "dark", Record<Stroke["kind"], string>> = {
+type Inked = "branch" | "crown" | "obstacle"; // what is scribbled on a photo has no place in space
+
+const COLOURS: Record<"light" | "dark", Record<Inked, string>> = {
   light: { branch: "#23251f", crown: "#3f7d55", obstacle: "#6d6a86" },
   dark: { branch: "#f2f0ea", crown: "#8fce9f", obstacle: "#b1add0" },
 };
@@ -17,7 +20,7 @@ const FADES = 9; // a power: from its own side a drawing lies on the tree; from 
 
 interface Sheet {
   view: number; // degrees
-  kind: Stroke["kind"];
+  kind: Inked;
   strokes: Stroke[]; // of which it was made
   lines: Mesh<BufferGeometry, ShaderMaterial>;
 }
@@ -44,6 +47,7 @@ export class Ink {
 
   private add(name: string, strokes: Stroke[], plane: PagePlane): void {
     const { kind, view_deg: view } = strokes[0]!;
+    if (!isInked(kind)) return;
     const lines = thinLines(segments(strokes, plane), kind === "branch" ? 1.6 : 1.3, this.size);
     lines.renderOrder = kind === "branch" ? 6 : 5;
     this.group.add(lines);
@@ -84,10 +88,15 @@ export class Ink {
   }
 }
 
+function isInked(kind: Stroke["kind"]): kind is Inked {
+  return !isScribble({ kind });
+}
+
 /** Strokes of a kind and page together. */
 export function bySheet(strokes: Iterable<Stroke>): Map<string, Stroke[]> {
   const sheets = new Map<string, Stroke[]>();
   for (const stroke of strokes) {
+    if (!isInked(stroke.kind)) continue;
     const name = `${stroke.kind} ${stroke.view_deg}`;
     const own = sheets.get(name);
     if (own) own.push(stroke);
