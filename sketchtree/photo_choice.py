@@ -76,6 +76,20 @@ def choose_for_photo(
     return Choice(dataclasses.replace(reading, template=name, height=height), leaf, about, about_leaf)
 
 
+def choose_for_trunk(graph: SketchGraph, templates: Database | None, reading: ReadingOptions) -> Choice:
+    """The same for a bare trunk that was taken from a picture: the likeliest broadleaf, a neutral one where too few limbs show."""
+    if templates is None or reading.template != "auto":
+        return Choice(reading)
+    found = _of_family(match(graph.above_ground(), templates, count=_RANKED), templates, "broadleaf")
+    says_enough = len(graph.limb_id) >= LIMBS
+    is_sure = says_enough and _share_of_first(found) >= SURE
+    name = found[0].name if says_enough and found else _neutral(found, templates, "broadleaf")
+    if name is None or is_sure:
+        return Choice(reading if name is None else dataclasses.replace(reading, template=name))
+    height = reading.height or PLAUSIBLE
+    return Choice(dataclasses.replace(reading, template=name, height=height), told=(_told(name, "broadleaf", height if reading.height is None else None),))
+
+
 def _family(foliage: Foliage, marked: Marked, traced: Traced) -> str:
     """conifer or broadleaf: a tree without leaves is none of the former."""
     shape = None if foliage.bare else CrownShape.of(foliage.mask, marked, traced)

@@ -5,7 +5,6 @@ import click
 from sketchtree.errors import OptionError
 
 COMMANDS = {
-    "grow": "A trunk from scribbles, and a tree that grows",
     "views": "Many photos, or a point cloud",
     "cloud": "Many photos, or a point cloud",
 }
