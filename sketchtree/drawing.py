@@ -13,6 +13,7 @@ from sketchtree.axes import NULL
 from sketchtree.editing.edits import Edits
 from sketchtree.editing.project import hand_work
 from sketchtree.editing.settled import Settled
+from sketchtree.errors import SketchError
 from sketchtree.options import DrawingOptions
 from sketchtree.sketch.formats import read_sketch
 from sketchtree.sketch.graph import SketchGraph
@@ -58,6 +59,8 @@ def front_graph(sketch: Sketch, crown: str) -> SketchGraph:
     front = [k for k, stroke in enumerate(sketch.strokes) if stroke.view_deg % 360.0 == 0.0 and stroke.kind not in SCRIBBLES]
     if len(front) == len(sketch.strokes):
         return sketch_graph(sketch, crown=crown)
+    if all(stroke.kind in SCRIBBLES for stroke in sketch.strokes):
+        raise SketchError(f"{sketch.name} has no branch strokes: all it holds is scribbles over a photo.", remedy="Draw at least a trunk.")
     graph = sketch_graph(dataclasses.replace(sketch, strokes=tuple(sketch.strokes[k] for k in front)), crown=crown)
     number = np.array(front, np.int64)
     aside = [stroke.id for stroke in sketch.strokes if stroke.view_deg % 360.0 != 0.0 and stroke.kind in (StrokeKind.CROWN, StrokeKind.OBSTACLE)]

@@ -20,6 +20,7 @@ from sketchtree.photo.photo import Photo
 from sketchtree.sketch.files.json_text import parse_json
 from sketchtree.sketch.files.limits import MAX_MB, inflate, read_bytes
 from sketchtree.sketch.formats import read_sketch
+from sketchtree.sketch.strokes import SCRIBBLES, StrokeKind
 
 BRUSH = 3.0  # pixels across, where a file doesn't say
 SIDES = ("foreground", "background")
@@ -112,12 +113,13 @@ def read_scribbles(path: str | os.PathLike, photo: Photo, *, max_mb: float = MAX
     """The scribbles in a file, in the photo's pixels. Raises SketchError, naming the file, for what holds none."""
     path = Path(path)
     data = inflate(read_bytes(path, max_mb=max_mb), path.name, max_mb=max_mb)
-    found = _of_json(data, path.name) if data.lstrip(b"\xef\xbb\xbf \t\r\n").startswith((b"{", b"[")) else _of_drawing(path, photo, max_mb)
+    document = parse_json(data, path.name) if data.lstrip(b"\xef\xbb\xbf \t\r\n").startswith((b"{", b"[")) else None
+    drawing = document is None or isinstance(document, dict) and "sketchtree" in document
+    found = _of_drawing(path, photo, max_mb) if drawing else _of_json(document, path.name)
     return Scribbles(found.foreground, found.background, found.brush, path.name, found.warnings + found.leaving(photo))
 
 
-def _of_json(data: bytes, name: str) -> Scribbles:
-    document = parse_json(data, name)
+def _of_json(document: Any, name: str) -> Scribbles:
     if not isinstance(document, dict) or not any(side in document for side in SIDES):
         raise SketchError(f"{name} is JSON, but holds no scribbles: it has neither a key 'foreground' nor 'background'.", remedy="Compare it with docs/formats.md.")
     brush = document.get("brush", BRUSH)
@@ -156,11 +158,12 @@ def _of_drawing(path: Path, photo: Photo, max_mb: float) -> Scribbles:
     scale, shift = placed
     sides: dict[str, list] = {side: [] for side in SIDES}
     nameless = 0
-    for stroke in sketch.strokes:
-        said = next((side for word in (stroke.id, stroke.layer) for side in SIDES if side in (word or "").lower()), None)
+    strokes = [stroke for stroke in sketch.strokes if stroke.kind not in (StrokeKind.MATTE_ADD, StrokeKind.MATTE_ERASE)]  # those edit the matte (`trunk.edit_matte`)
+    for stroke in strokes:
+        said = stroke.kind.value if stroke.kind in SCRIBBLES else next((side for word in (stroke.id, stroke.layer) for side in SIDES if side in (word or "").lower()), None)
         nameless += said is None
         if said is not None:
             sides[said].append(stroke.points * [scale, -scale] + shift)
-    widths = [stroke.width for stroke in sketch.strokes if stroke.width]
+    widths = [stroke.width for stroke in strokes if stroke.width]
     told = (f"{path.name}: {nameless} lines are in no layer called foreground or background; they were left out.",) if nameless else ()
     return Scribbles(tuple(sides["foreground"]), tuple(sides["background"]), float(np.median(widths)) * scale if widths else BRUSH, path.name, told)

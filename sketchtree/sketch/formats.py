@@ -132,21 +132,16 @@ def check_writable(sketch: Sketch) -> None:
         raise SketchError(f"{sketch.name} has a view or page that is not finite.", remedy=_WHOLE)
 
 
-def _held(sketch: Sketch) -> str:
-    """What a sketch without branches holds."""
-    return "scribbles over a photo" if any(stroke.kind in SCRIBBLES for stroke in sketch.strokes) else "labelled crown or obstacle"
-
-
 def check_sketch(sketch: Sketch) -> None:
-    """Raise SketchError for a sketch that no tree could be made of: no branch strokes, or coordinates beyond what can be told apart."""
+    """Raise SketchError for a sketch that no tree could be made of: neither branch strokes nor scribbles over a photo, or coordinates beyond what can be told apart."""
     if not sketch.strokes:
         raise SketchError(
             f"{sketch.name} holds no strokes.",
             remedy="Draw the branches as lines (paths); text, pictures and hidden layers are not read.",
         )
-    if all(stroke.kind != StrokeKind.BRANCH for stroke in sketch.strokes):
+    if all(stroke.kind != StrokeKind.BRANCH and stroke.kind not in SCRIBBLES for stroke in sketch.strokes):
         raise SketchError(
-            f"{sketch.name} has no branch strokes: all it holds is {_held(sketch)}.",
+            f"{sketch.name} has no branch strokes: all it holds is labelled crown or obstacle.",
             remedy="Draw at least a trunk, outside the crown's layer.",
         )
     low = np.min([stroke.points.min(0) for stroke in sketch.strokes], axis=0)

@@ -18,11 +18,12 @@ from sketchtree.photo.page_over import page_over
 from sketchtree.photo.photo import turned_over
 from sketchtree.photo.read_photo import read_photo
 from sketchtree.sketch.formats import read_sketch
-from sketchtree.sketch.strokes import Sketch, Stroke
+from sketchtree.sketch.strokes import Sketch, Stroke, StrokeKind
 
 BRUSH = 4.0  # pixels
 _PICTURES = (".png", ".jpg", ".jpeg", ".tif", ".tiff", ".webp", ".bmp")
 _NAMED = re.compile(r"(?<![a-z])(add|erase)(?![a-z])", re.IGNORECASE)
+_KINDS = {StrokeKind.MATTE_ADD: "add", StrokeKind.MATTE_ERASE: "erase"}  # as the studio draws them
 _LEAVES = 4  # of 255, off middle grey: still grey
 _REMEDY = "Draw strokes over the picture in layers named `add` and `erase`."
 
@@ -47,7 +48,9 @@ def sketched(alpha: Float[np.ndarray, "row column"], sketch: Sketch) -> Float32[
     scale, shift = _placed(sketch, rows, columns)
     result, did = np.array(alpha, np.float64), False
     for stroke in sketch.strokes:
-        what = _named(stroke)
+        if stroke.kind in (StrokeKind.FOREGROUND, StrokeKind.BACKGROUND):
+            continue  # the matte was found by those (`matting.scribbles`)
+        what = _KINDS.get(stroke.kind) or _named(stroke)
         if what is None:
             raise SketchError("it says neither `add` nor `erase`.", stroke=stroke.id, remedy=_REMEDY)
         width = stroke.width * scale if stroke.width else BRUSH

@@ -8,7 +8,7 @@ from sketchtree.editing.document import Document
 from sketchtree.errors import SketchError
 from sketchtree.sketch.files.svg_writer import sketch_svg
 from sketchtree.sketch.files.sketch_json import sketch_json
-from sketchtree.sketch.formats import check_sketch, read_sketch
+from sketchtree.sketch.formats import read_sketch
 from sketchtree.sketch.strokes import SCRIBBLES, Sketch, Stroke, StrokeKind
 
 TRUNK = Stroke("trunk", np.array([(50.0, 0.0), (50.0, 40.0), (52.0, 90.0)]), width=4.0)
@@ -39,7 +39,12 @@ def test_the_drawn_tree_is_the_same_with_scribbles_and_without():
 
 def test_scribbles_alone_draw_no_tree():
     with pytest.raises(SketchError, match="has no branch strokes: all it holds is scribbles over a photo"):
-        check_sketch(Sketch(scribbled()))
+        front_graph(Sketch(scribbled()), "auto")
+
+
+def test_a_file_of_scribbles_alone_can_be_read(tmp_path):
+    (tmp_path / "kept.json").write_text(sketch_json(Sketch(scribbled())))
+    assert [stroke.kind for stroke in read_sketch(tmp_path / "kept.json").strokes] == sorted(SCRIBBLES)
 
 
 def test_what_a_drawn_tree_hangs_on_has_no_scribbles():
