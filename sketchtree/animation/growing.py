@@ -15,6 +15,8 @@ from sketchtree.animation.influences import influences
 from sketchtree.animation.keys import fewest_keys, one_sided
 from sketchtree.animation.motion import Motion, motion_of
 from sketchtree.animation.posing import posed
+from sketchtree.animation.rims import rims
+from sketchtree.animation.seams import parted
 from sketchtree.animation.unfolding import cohorts
 from sketchtree.asset import Animation, Armature, Asset, Keys
 from sketchtree.axes import NULL
@@ -24,10 +26,8 @@ from sketchtree.geometry.mesh import Mesh
 from sketchtree.growth.plan import GrowthPlan
 from sketchtree.levels.make import Model
 from sketchtree.rig.boughs import Boughs, boughs
-from sketchtree.rig.collar import collar
 from sketchtree.rig.islands import mesh_places
 from sketchtree.rig.leaf_rows import leaf_rows
-from sketchtree.rig.place import Places
 from sketchtree.rig.weights import Weights, whole
 from sketchtree.rig.wind import leaf_places
 
@@ -95,7 +95,9 @@ class Growing:
                 continue
             worn = self._leaves_of(mesh)
             if worn is None:
-                parts.append(_bound(mesh, self._wood_weights(mesh), first))
+                mesh, place = parted(mesh, self.lines, self.limbs, mesh_places(self.lines, self.limbs, mesh))
+                rim = rims(self.lines, self.limbs, self.hosts, place, mesh.position)
+                parts.append(_bound(mesh, influences(self.lines, self.limbs, self.nodes, self.hosts, place, rim), first))
                 continue
             weights = influences(self.lines, self.limbs, self.nodes, self.hosts, leaf_places(self.plan.tree, self.lines, worn))
             weights = Weights(*(column[leaf_rows(mesh, worn).leaf] for column in weights))
@@ -103,10 +105,6 @@ class Growing:
                 parts.append(piece)
                 morphs.append(morph)
         return tuple(parts), tuple(morphs)
-
-    def _wood_weights(self, mesh: Mesh) -> Weights:
-        place: Places = mesh_places(self.lines, self.limbs, mesh)
-        return influences(self.lines, self.limbs, self.nodes, self.hosts, place, collar(self.lines, self.limbs, place, mesh.position))
 
     def _leaves_of(self, mesh: Mesh):
         """The leaves, or blossoms, that a mesh shows; None: it is wood."""

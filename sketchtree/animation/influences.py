@@ -4,40 +4,38 @@ Between two nodes of a limb a and b the joints of both, evenly by the way along 
 
     w_b = (s − s_a) / (s_b − s_a)        w_a = 1 − w_b
 
-so that a straight limb with joints of different size stays straight and runs evenly from one thickness to the other. In a collar
-what is beside the vertex on the parent joins in, as in `rig.collar`.
+so that a straight limb with joints of different size stays straight and runs evenly from one thickness to the other; what of a limb is
+buried in what bears it, its foot alone. Bark round the foot of a branch goes with that foot too (`rims`).
 """
 
 import numpy as np
 from jaxtyping import Float, Int
 
 from sketchtree.animation.hosts import Hosts, Nodes, hosted
+from sketchtree.animation.rims import Rim
 from sketchtree.geometry.limbs import CentreLines
 from sketchtree.rig.boughs import Boughs
-from sketchtree.rig.collar import Collar
 from sketchtree.rig.place import Places
 from sketchtree.rig.weights import Weights, strongest
 
 
-def influences(lines: CentreLines, limbs: Boughs, nodes: Nodes, hosts: Hosts, place: Places, over: Collar | None = None) -> Weights:
-    """Joints (counted from 0) and weights of the places; `over` are those that are in collars."""
-    own = _along(nodes, hosts, hosted(lines, limbs, hosts, place))
+def influences(lines: CentreLines, limbs: Boughs, nodes: Nodes, hosts: Hosts, place: Places, rim: Rim | None = None) -> Weights:
+    """Joints (counted from 0) and weights of the places."""
+    own = _along(limbs, nodes, hosts, hosted(lines, limbs, hosts, place))
     joint, weight = np.pad(own.joint, ((0, 0), (0, 2))), np.pad(own.weight, ((0, 0), (0, 2)))
-    if over is not None and len(over.vertex):
-        beside = _along(nodes, hosts, hosted(lines, limbs, hosts, over.place))
-        share = over.share[:, None]
-        joint[over.vertex, 2:] = beside.joint
-        weight[over.vertex] = np.hstack([(1.0 - share) * own.weight[over.vertex], share * beside.weight])
+    if rim is not None and len(rim.vertex):
+        joint[rim.vertex, 2] = hosts.first[rim.limb]
+        weight[rim.vertex, :2] *= 1.0 - rim.share[:, None]
+        weight[rim.vertex, 2] = rim.share
     return strongest(joint, weight)
 
 
-def _along(nodes: Nodes, hosts: Hosts, place: Places) -> Weights:
+def _along(limbs: Boughs, nodes: Nodes, hosts: Hosts, place: Places) -> Weights:
     """Two joints a place."""
     first, joints = hosts.first[place.limb], hosts.joints[place.limb]
-    passed = _passed(nodes, place.limb, place.s)  # nodes at or below the place
-    passed = np.minimum(passed, joints - 1)
+    passed = np.minimum(_passed(nodes, place.limb, place.s), joints - 1)  # nodes at or below the place
     low, high = first + passed, first + np.minimum(passed + 1, joints - 1)
-    below = np.where(passed > 0, _s(nodes, place.limb, passed - 1), 0.0)
+    below = np.where(passed > 0, _s(nodes, place.limb, passed - 1), limbs.buried[place.limb])
     above = _s(nodes, place.limb, np.minimum(passed, joints - 2))
     share = np.where(high > low, np.clip((place.s - below) / np.maximum(above - below, 1e-12), 0.0, 1.0), 0.0)
     return Weights(np.column_stack([low, high]), np.column_stack([1.0 - share, share]))

@@ -27,12 +27,12 @@ def mesh_places(lines: CentreLines, limbs: Boughs, mesh: Mesh) -> Places:
     if not len(mesh.triangle) or not len(lines):
         return place
     a, b = mesh.triangle.ravel(), np.roll(mesh.triangle, -1, axis=1).ravel()
-    if not _foreign(lines, limbs, place, a, b).any():
+    if not foreign_edges(lines, limbs, place, a, b).any():
         return place
     one = welded(mesh.position)
     a, b = one[a], one[b]
     for rank in range(2 * _ROUNDS):
-        foreign = _foreign(lines, limbs, place, a, b)
+        foreign = foreign_edges(lines, limbs, place, a, b)
         if not foreign.any():
             break
         apart = foreign if rank < _ROUNDS else place.limb[a] != place.limb[b]
@@ -50,8 +50,8 @@ def welded(position: Float[np.ndarray, "vertex 3"]) -> Int[np.ndarray, " vertex"
     return one
 
 
-def _foreign(lines: CentreLines, limbs: Boughs, place: Places, a, b) -> Bool[np.ndarray, " edge"]:
-    """Edges between limbs that do not grow from each other."""
+def foreign_edges(lines: CentreLines, limbs: Boughs, place: Places, a, b) -> Bool[np.ndarray, " edge"]:
+    """Which of the edges from vertices `a` to `b` lie between limbs that do not grow from each other, or far from where they do."""
     foreign = np.zeros(len(a), bool)
     edge = np.flatnonzero(place.limb[a] != place.limb[b])
     a, b = a[edge], b[edge]
