@@ -2,6 +2,7 @@
 
 import json
 import shutil
+import sys
 from pathlib import Path
 
 import jsonschema
@@ -202,7 +203,8 @@ def test_options_out_of_range_or_without_effect_are_refused(folder, capsys, more
 
 def test_a_movie_without_its_encoder_is_refused_before_the_work(folder, capsys, monkeypatch):
     monkeypatch.setattr("shutil.which", lambda name: None)
-    refused(capsys, folder, "tree.swc", "--movie", "@m.mp4", says="`ffmpeg` was not found")
+    monkeypatch.setitem(sys.modules, "imageio_ffmpeg", None)
+    refused(capsys, folder, "tree.swc", "--movie", "@m.mp4", says="ffmpeg")
 
 
 def test_outputs_that_hold_no_tree_or_another_series_are_refused(folder, capsys):
