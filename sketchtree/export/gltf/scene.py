@@ -14,6 +14,7 @@ from collections.abc import Sequence
 from sketchtree.asset import Asset, Level
 from sketchtree.export.capsules import capsule_meshes, capsules_as_json
 from sketchtree.export.checks import check_asset
+from sketchtree.export.gltf.animation import animation_entry
 from sketchtree.export.gltf.instancing import instancing
 from sketchtree.export.gltf.skin import add_skin, joint_nodes
 from sketchtree.export.gltf.tables import Tables
@@ -40,6 +41,8 @@ def scene_content(tables: Tables, asset: Asset, *, collision: Sequence[str] = ()
         inside.append(scene.joint)
     if inside:
         scene.nodes[root]["children"] = inside
+    if asset.animation is not None and scene.joint is not None:
+        tables.animations.append(animation_entry(tables, asset.animation, scene.joint, scene.morphed))
     told = _extras(asset) | (extras or {})
     return {"scene": 0, "scenes": [{"name": asset.name, "nodes": [root, *beside]} | ({"extras": told} if told else {})], "nodes": scene.nodes}
 
@@ -53,6 +56,9 @@ class _Nodes:
         self.bones = asset.armature
         self.bends = asset.armature is not None
         self.joint = self.skin = None
+        morphs = asset.animation.morphs if asset.animation is not None else ()
+        self.targets = {id(asset.parts[morph.part]): morph for morph in morphs}
+        self.morphed: dict[int, int] = {}  # the node of each part that has a morph
 
     def add(self, node: dict) -> int:
         self.nodes.append(node)
@@ -101,7 +107,10 @@ class _Nodes:
         if isinstance(part, Instances):
             return self.add({"name": name, "mesh": mesh_number(self.tables, part.mesh, name), "extensions": instancing(self.tables, part)})
         skinned = self.joint is not None and is_skinned(part)
-        node = {"name": name, "mesh": mesh_number(self.tables, part, name, skinned=skinned)}
+        morph = self.targets.get(id(part))
+        node = {"name": name, "mesh": mesh_number(self.tables, part, name, skinned=skinned, target=None if morph is None else morph.offset)}
+        if morph is not None:
+            self.morphed[morph.part] = len(self.nodes)
         if skinned and self.skin is None:
             self.skin = add_skin(self.tables, self.bones, self.joint)
         return self.add(node | ({"skin": self.skin} if skinned else {}))

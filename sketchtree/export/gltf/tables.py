@@ -37,6 +37,7 @@ class Tables:
     textures: list = field(default_factory=list)
     pictures: list[Picture] = field(default_factory=list)
     skins: list = field(default_factory=list)
+    animations: list = field(default_factory=list)
     used: set = field(default_factory=set)  # extensions
     required: set = field(default_factory=set)
     known: dict = field(default_factory=dict)  # what was stored already, by its content
@@ -49,7 +50,7 @@ class Tables:
         if normalized:
             entry["normalized"] = True
         if bounds:
-            entry |= {"min": array.min(axis=0).astype(float).tolist(), "max": array.max(axis=0).astype(float).tolist()}
+            entry |= {name: np.atleast_1d(bound.astype(float)).tolist() for name, bound in (("min", array.min(axis=0)), ("max", array.max(axis=0)))}
         self.accessors.append(entry)
         return len(self.accessors) - 1
 
@@ -86,6 +87,7 @@ class Tables:
             "extensionsRequired": sorted(self.required),
             "meshes": self.meshes,
             "skins": self.skins,
+            "animations": self.animations,
             "materials": self.materials,
             "textures": self.textures,
             "samplers": [sampler] if self.textures else [],

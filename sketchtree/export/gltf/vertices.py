@@ -20,8 +20,8 @@ _NARROW = 65535  # the last index of 16 bits restarts a strip
 _JOINTS = re.compile(r"(JOINTS|WEIGHTS)_\d+")
 
 
-def mesh_number(tables: Tables, mesh: Mesh, name: str, *, skinned: bool = False) -> int:
-    """Its place in the table of meshes. Joints and weights are left out unless it is `skinned`."""
+def mesh_number(tables: Tables, mesh: Mesh, name: str, *, skinned: bool = False, target=None) -> int:
+    """Its place in the table of meshes. Joints and weights are left out unless it is `skinned`. `target`: how far a morph moves each vertex, [vertex 3]."""
     key = ("mesh", id(mesh), name)
     if key in tables.known:
         return tables.known[key]
@@ -32,7 +32,11 @@ def mesh_number(tables: Tables, mesh: Mesh, name: str, *, skinned: bool = False)
         "material": material_number(tables, mesh.material),
         "mode": 4,
     }
-    tables.meshes.append({"name": name, "primitives": [primitive]})
+    entry = {"name": name, "primitives": [primitive]}
+    if target is not None:
+        primitive["targets"] = [{"POSITION": tables.column(np.asarray(target, "<f4"), bounds=True)}]
+        entry["weights"] = [0.0]
+    tables.meshes.append(entry)
     tables.known[key] = len(tables.meshes) - 1
     return tables.known[key]
 
