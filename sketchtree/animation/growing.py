@@ -23,7 +23,7 @@ from sketchtree.axes import NULL
 from sketchtree.errors import OptionError
 from sketchtree.geometry.limbs import CentreLines, centre_lines
 from sketchtree.geometry.mesh import Mesh
-from sketchtree.growth.plan import GrowthPlan
+from sketchtree.growth.plan import GrowthPlan, checked_times
 from sketchtree.levels.make import Model
 from sketchtree.rig.boughs import Boughs, boughs
 from sketchtree.rig.islands import mesh_places
@@ -63,8 +63,8 @@ class Growing:
         return cls(model, plan, most_joints, lines, limbs, nodes, choose_hosts(lines, limbs, nodes, most_joints))
 
     def at(self, time: float) -> tuple[Mesh, ...]:
-        """The meshes at a time, 0-1, as the animated file shows them; what is not there yet has no triangles."""
-        return posed(self._unit, float(time))
+        """The meshes at a time, 0-1, as the animated file shows them; what is not there yet has no triangles. Raises OptionError."""
+        return posed(self._unit, float(checked_times([time])[0]))
 
     def asset(self, *, seconds: float = 10.0, about: dict | None = None) -> Asset:
         """The tree as a file holds it: at rest the final tree; its animation takes so many seconds."""

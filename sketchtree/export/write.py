@@ -92,6 +92,8 @@ def _left_out(path: Path, asset: Asset) -> tuple[str, ...]:
         said.append(f"{path} holds the finest of {len(asset.levels)} levels of detail; `{suffix}` has no place for more.")
     if asset.armature is not None or asset.capsules is not None:
         said.append(f"{path} holds no bones and nothing to collide with; `{suffix}` has no place for them.")
+    if asset.animation is not None:
+        said.append(f"{path} does not move; `{suffix}` has no place for an animation, so it shows the tree at rest.")
     leaves = sum(part.triangle_count for part in asset.parts if part.name.startswith("leaf"))
     if suffix == ".3mf" and leaves:
         said.append(f"{path} holds the wood alone: leaves are sheets without thickness, which can't be printed.")

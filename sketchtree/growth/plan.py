@@ -99,7 +99,7 @@ class GrowthPlan:
 
     def at(self, time: float) -> TreeSkeleton:
         """The tree at a time, 0-1: those rows that have begun, in order."""
-        clock = _checked([time])
+        clock = checked_times([time])
         tip, radius, grown, _ = self._pieces(clock, np.float64)
         if grown.min(initial=1.0) >= 1 and self.bend == 0 and clock[0] == 1:
             return self.tree
@@ -108,12 +108,12 @@ class GrowthPlan:
     def rows_at(self, time: float) -> Int[np.ndarray, " kept"]:
         """Which rows of the tree those of `at(time)` are."""
         first = self.straight.last - np.diff(self.tree.curve_start)
-        return np.flatnonzero((self._grown(_checked([time]))[first, 0] > 0) | self.tree.is_base)
+        return np.flatnonzero((self._grown(checked_times([time]))[first, 0] > 0) | self.tree.is_base)
 
     def poses(self, times, *, pieces: bool = False, whole: bool = True, dtype=np.float32) -> Poses:
         """All segments at all times (each 0-1). `pieces`: those of `straight.pieces`, every drawn point a row of its own, instead of the tree's rows.
         Not `whole`: as they are before the whole is made as large as `size`."""
-        times = _checked(times)
+        times = checked_times(times)
         rows = np.arange(len(self.straight.row)) if pieces else self.straight.last
         parent = self.straight.pieces.parent if pieces else self.tree.parent
         tip, radius, grown = (np.empty((len(times), len(rows), *tail), dtype) for tail in ((3,), (), ()))
@@ -130,7 +130,7 @@ class GrowthPlan:
     def leaf_scale(self, time: float, *, falling: bool = False) -> Float[np.ndarray, " segment"]:
         """How large the leaves on each row are at a time, 0-1: all at 1 in the end. `falling`: those of old inner wood are shed as it ages, as
         where leaves were put on all wood that once bore some."""
-        return unfolded(float(_checked([time])[0]), self.end, falling=falling)
+        return unfolded(float(checked_times([time])[0]), self.end, falling=falling)
 
     def _grown(self, times):
         return np.where(times > 0, np.ones((len(self.straight.row), 1)), 0.0) if self.mode == "scale" else self.times.grown(self._clock(times))
@@ -195,7 +195,8 @@ class GrowthPlan:
         return np.zeros_like(clock) if self.mode == "scale" else clock**2 / WHOLE if self.mode == "full" else clock
 
 
-def _checked(times) -> Float[np.ndarray, " time"]:
+def checked_times(times) -> Float[np.ndarray, " time"]:
+    """The times as numbers. Raises OptionError where one is not from 0 to 1."""
     times = np.asarray(times, float)
     if times.ndim != 1 or not ((times >= 0) & (times <= 1)).all():
         raise OptionError("A time of growth is not a number from 0 to 1.", remedy="0 is before the seed, 1 the tree that was given.")

@@ -1,7 +1,7 @@
 """What a glTF file of ours holds, read back: meshes, places, levels of detail, bones, the skeleton.
 
 The same features are read of files from elsewhere: plain accessors, metallic-roughness materials, node transforms as a matrix or as
-translation, rotation and scale. Morph targets, sparse accessors and compressed meshes are not.
+translation, rotation and scale, the first animation. Sparse accessors and compressed meshes are not, and of morph targets only what an animation moves.
 """
 
 import os
@@ -18,6 +18,7 @@ from sketchtree.export.capsules import capsules_from_json
 from sketchtree.export.gltf.document import Document, read_glb_json
 from sketchtree.export.gltf.instancing import EXTENSION
 from sketchtree.export.gltf.materials import TRANSMISSION
+from sketchtree.export.gltf.read_animation import read_animation
 from sketchtree.export.gltf.scene import COVERAGE, LOD
 from sketchtree.export.skeletons.packed import skeleton_from_extras
 from sketchtree.geometry.instances import Instances
@@ -70,14 +71,18 @@ def _asset(document: Document) -> Asset:
     extras = scene.get("extras", {})
     capsules = capsules_from_json(extras["capsules"]) if extras.get("capsules") else None
     materials: dict = {}
-    levels = []
+    levels, drawn_by = [], []
     for roots in _levels(nodes, scene.get("nodes", [])):
-        parts = [part for row, matrix in _walk(nodes, roots) for part in _parts(document, nodes[row], matrix, materials)]
-        levels.append(tuple(part for part in parts if capsules is None or _drawn(part)))
+        parts = [(row, part) for row, matrix in _walk(nodes, roots) for part in _parts(document, nodes[row], matrix, materials)]
+        parts = [(row, part) for row, part in parts if capsules is None or _drawn(part)]
+        levels.append(tuple(part for _, part in parts))
+        drawn_by.append([row for row, _ in parts])
     coverage = next((node["extras"][COVERAGE] for node in nodes if COVERAGE in node.get("extras", {})), [0.0] * len(levels))
     levels = tuple(Level(parts, float(share)) for parts, share in zip(levels, coverage, strict=False))
     name = scene.get("name") or (nodes[scene["nodes"][0]].get("name", "tree") if scene.get("nodes") else "tree")
-    return Asset(levels, _skeleton(extras), name, _armature(document.content), capsules, about=extras.get("about", {}))
+    armature, joints = _armature(document.content)
+    moves = None if armature is None else read_animation(document, joints, drawn_by[0])
+    return Asset(levels, _skeleton(extras), name, armature, capsules, moves, about=extras.get("about", {}))
 
 
 def _drawn(part: Mesh | Instances) -> bool:
@@ -187,23 +192,25 @@ def _material(document: Document, number: int | None) -> Material:
     )
 
 
-def _armature(content: dict) -> Armature | None:
-    """The first skin's bones, parents first. None without a skin."""
+def _armature(content: dict) -> tuple[Armature | None, list[int]]:
+    """The first skin's bones, parents first, and the node of each. None without a skin."""
     nodes, skins = content.get("nodes", []), content.get("skins")
     if not skins:
-        return None
+        return None, []
     joints = set(skins[0]["joints"])
     above = {child: row for row in joints for child in nodes[row].get("children", []) if child in joints}
     order = [row for row, _ in _walk(nodes, [row for row in skins[0]["joints"] if row not in above]) if row in joints]
     world = {row: matrix for row, matrix in _walk(nodes, _scene(content).get("nodes", [])) if row in joints}
     matrices = np.array([world[row] for row in order])
-    return Armature(
+    number = {row: i for i, row in enumerate(order)}
+    bones = Armature(
         tuple(nodes[row].get("name", f"joint_{i}") for i, row in enumerate(order)),
-        np.array([order.index(above[row]) if row in above else NULL for row in order]),
+        np.array([number[above[row]] if row in above else NULL for row in order]),
         matrices[:, :3, 3],
         Rotation.from_matrix(matrices[:, :3, :3]).as_quat(canonical=True),
         np.array([nodes[row].get("extras", {}).get("length", 0.0) for row in order], float),
     )
+    return bones, order
 
 
 def _flat_normals(position, triangle):
