@@ -25,6 +25,7 @@ _EXTRAS = (
     ("photo", "sklearn", "scikit-learn", "sketchtree photo"),
     ("photo", "ortools", "ortools", "sketchtree photo"),
     ("growth", "pymatting", "pymatting", "mattes as the papers make them"),
+    ("video", "imageio_ffmpeg", "imageio-ffmpeg", "films as .mp4, where the machine has no ffmpeg of its own"),
 )  # extra, module, distribution, for what
 
 

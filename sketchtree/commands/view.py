@@ -12,7 +12,7 @@ from sketchtree.commands.progress import Progress
 @click.command("view")
 @click.argument("tree", type=click.Path(path_type=Path))
 @click.option("--screenshot", type=click.Path(path_type=Path), metavar="P.png", help="Draw a picture instead of opening a window.")
-@click.option("--turntable", type=click.Path(path_type=Path), metavar="FILM", help="Draw the tree turning once: .gif .webp .apng, or .mp4 (needs ffmpeg).")
+@click.option("--turntable", type=click.Path(path_type=Path), metavar="FILM", help="Draw the tree turning once: .gif .webp .apng, or .mp4 (needs ffmpeg, or the extra `video`).")
 @click.option("--view", "sides", multiple=True, metavar="SIDE", help="front, side, back, top or three-quarter (the default); several make a sheet.")
 @click.option("--size", default="", metavar="WxH", help="Pixels (default: 1200x900, of a film 640x640).")
 @click.option("--frames", type=int, default=48, show_default=True, help="Pictures of the film.")

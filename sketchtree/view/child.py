@@ -1,9 +1,12 @@
-"""Draws one picture in a process of its own: `python -P child.py REQUEST.npz OUT.png`, or opens a window: `… REQUEST.npz window`.
+"""Draws one picture in a process of its own: `python -P child.py REQUEST.npz OUT.png`, opens a window: `… REQUEST.npz window`, or draws a film: `… REQUEST.npz film`.
 
 VTK ends the process where no OpenGL can be had, so `picture.py` and `window.py` run this file as a child. It imports nothing
 of the package. The request holds, for each mesh k, `k.position`, `k.normal`, `k.uv`, `k.triangle`, `k.tint`,
 `k.light` (sun and sky, 0-1), `k.albedo` (sRGB, 4 channels), `k.normal_map`, `k.look` (cutoff, leaf, gloss), the
 ground's light, and the cameras; `parallel`, the height of what is seen, where there is to be no perspective.
+
+Each line that a film is told names a file of changes, a tab, and the PNG to draw; the line comes back when it is drawn. Changes are a `camera`, the light
+on the `ground`, and of any mesh its `position`, `normal`, `triangle` and `light`, as in the request.
 """
 
 import sys
@@ -76,21 +79,19 @@ def main(request_path: str, png_path: str) -> None:
 
     with np.load(request_path) as file:
         request = dict(file)
-    if png_path == "window":
-        _window(request)
+    if png_path in ("window", "film"):
+        {"window": _window, "film": _film}[png_path](request)
         return
     width, height = (int(n) for n in request["size"])
     scale = int(request["supersample"])
-    plotter, shaders = _stage(request, (scale * width, scale * height))
+    plotter, shaders, _ = _stage(request, (scale * width, scale * height))
     pictures = []
     for camera in request["camera"]:
         _aim(plotter, shaders, camera, request["sun"])
         if "parallel" in request:
             plotter.camera.parallel_projection, plotter.camera.parallel_scale = True, float(request["parallel"]) / 2
             plotter.reset_camera_clipping_range()
-        plotter.render()
-        picture = Image.fromarray(plotter.screenshot(None, return_img=True)[..., :3])
-        pictures.append(picture.reduce(scale) if scale > 1 else picture)
+        pictures.append(_taken(plotter, scale))
     columns = int(request["columns"])
     rows = -(-len(pictures) // columns)
     sheet = Image.new("RGB", (columns * width, rows * height), "white")
@@ -99,9 +100,47 @@ def main(request_path: str, png_path: str) -> None:
     sheet.save(png_path, format="PNG")
 
 
+def _taken(plotter, scale: int):
+    """The picture, so many times smaller than it is drawn."""
+    from PIL import Image
+
+    plotter.render()
+    picture = Image.fromarray(plotter.screenshot(None, return_img=True)[..., :3])
+    return picture.reduce(scale) if scale > 1 else picture
+
+
+def _film(request) -> None:
+    """A picture for every line that is read."""
+    scale = int(request["supersample"])
+    plotter, shaders, actors = _stage(request, tuple(scale * int(n) for n in request["size"]))
+    for line in sys.stdin:
+        changes_path, png_path = line.rstrip("\n").split("\t")
+        with np.load(changes_path) as file:
+            changes = dict(file)
+        for k in range(int(request["meshes"])):
+            _move(actors[k], {name.split(".", 1)[1]: value for name, value in changes.items() if name.startswith(f"{k}.")})
+        if "ground" in changes:
+            actors[-1].GetProperty().SetTexture("surfaceAlbedo", _texture(changes["ground"], repeat=False))
+        _aim(plotter, shaders, changes["camera"], request["sun"])
+        _taken(plotter, scale).save(png_path, format="PNG", compress_level=1)
+        print(line, end="", flush=True)
+
+
+def _move(actor, part: dict) -> None:
+    """The mesh of an actor with other places, normals, light and triangles."""
+    if not part:
+        return
+    actor.SetVisibility(bool(len(part["triangle"])))
+    if len(part["triangle"]):
+        mesh = actor.GetMapper().GetInput()
+        mesh.points = part["position"]
+        mesh.faces = _faces(part["triangle"])
+        mesh.point_data["outward"], mesh.point_data["light"] = part["normal"], part["light"]
+
+
 def _window(request) -> None:
     """A window to turn the tree in; ends when it is closed (or `q` is pressed)."""
-    plotter, shaders = _stage(request, tuple(int(n) for n in request["size"]), window=True)
+    plotter, shaders, _ = _stage(request, tuple(int(n) for n in request["size"]), window=True)
     _aim(plotter, shaders, request["camera"][0], request["sun"])
     plotter.renderer.AddObserver("StartEvent", lambda *_: _look(plotter, shaders))
     plotter.enable_terrain_style(mouse_wheel_zooms=True)
@@ -115,7 +154,7 @@ def _look(plotter, shaders) -> None:
 
 
 def _stage(request, size, *, window: bool = False):
-    """A plotter with every mesh and the ground, lit by our own shaders, and the shaders' properties."""
+    """A plotter with every mesh and, last, the ground, lit by our own shaders; the shaders' properties, and the actors."""
     import pyvista
 
     pyvista.OFF_SCREEN = not window
@@ -123,33 +162,34 @@ def _stage(request, size, *, window: bool = False):
     plotter.render_window.SetMultiSamples(4 if window else 0)
     horizon, zenith, earth = request["horizon"], request["zenith"], request["earth"]
     plotter.set_background(tuple(horizon), top=tuple(zenith))
-    shaders = []
+    shaders, actors = [], []
     for k in range(int(request["meshes"])):
         part = {name.split(".", 1)[1]: value for name, value in request.items() if name.startswith(f"{k}.")}
         cutoff, leaf, gloss = (float(value) for value in part["look"])
         textures = {"surfaceAlbedo": part["albedo"], "surfaceNormal": part["normal_map"]}
-        shader = _add(plotter, part, textures, _SURFACE, repeat=not leaf)
+        shader, actor = _add(plotter, part, textures, _SURFACE, repeat=not leaf)
+        actors.append(actor)
         for name, value in (("cutoff", cutoff), ("leaf", leaf), ("gloss", gloss)):
             shader.GetFragmentCustomUniforms().SetUniformf(name, value)
         shaders.append(shader)
     if "ground" in request:
-        shader = _add(plotter, _disc(float(request["reach"])), {"surfaceAlbedo": request["ground"]}, _GROUND, repeat=False)
+        shader, actor = _add(plotter, _disc(float(request["reach"])), {"surfaceAlbedo": request["ground"]}, _GROUND, repeat=False)
         uniforms = shader.GetFragmentCustomUniforms()
         uniforms.SetUniformf("picture_height", float(size[1]))
         for name, colour in (("horizon", horizon), ("zenith", zenith), ("earth", earth)):
             uniforms.SetUniform3f(name, [float(c) for c in colour])
         shaders.append(shader)
-    return plotter, shaders
+        actors.append(actor)
+    return plotter, shaders, actors
 
 
 def _add(plotter, part, textures, fragment, *, repeat):
-    """One mesh as an actor whose colour is `fragment`'s; returns its shader property."""
+    """One mesh as an actor whose colour is `fragment`'s; returns its shader property and the actor."""
     import pyvista
     from vtkmodules.vtkCommonDataModel import vtkDataObject
     from vtkmodules.vtkRenderingCore import vtkActor, vtkPolyDataMapper
 
-    triangle = part["triangle"]
-    mesh = pyvista.PolyData(part["position"], np.column_stack([np.full(len(triangle), 3), triangle]).ravel())
+    mesh = pyvista.PolyData(part["position"], _faces(part["triangle"]))
     mesh.active_texture_coordinates = np.column_stack([part["uv"][:, 0], 1 - part["uv"][:, 1]]).astype(np.float32)
     for name, column in (("outward", "normal"), ("tint", "tint"), ("light", "light")):
         mesh.point_data[name] = part[column]
@@ -161,9 +201,7 @@ def _add(plotter, part, textures, fragment, *, repeat):
     actor.SetMapper(mapper)
     actor.ForceOpaqueOn()
     for name, pixels in textures.items():
-        texture = pyvista.Texture(np.ascontiguousarray(pixels))
-        texture.repeat, texture.interpolate, texture.mipmap = repeat, True, repeat
-        actor.GetProperty().SetTexture(name, texture)
+        actor.GetProperty().SetTexture(name, _texture(pixels, repeat=repeat))
     for name in ("outward", "tint", "light"):
         mapper.MapDataArrayToVertexAttribute(name, name, vtkDataObject.FIELD_ASSOCIATION_POINTS, -1)
     shader = actor.GetShaderProperty()
@@ -172,7 +210,20 @@ def _add(plotter, part, textures, fragment, *, repeat):
     shader.AddFragmentShaderReplacement("//VTK::Normal::Dec", True, _FRAGMENT_DEC, False)
     shader.AddFragmentShaderReplacement("//VTK::TCoord::Impl", True, fragment, False)
     plotter.add_actor(actor, reset_camera=False, render=False)
-    return shader
+    return shader, actor
+
+
+def _faces(triangle):
+    """Triangles as VTK counts them: 3, a, b, c, 3 …"""
+    return np.column_stack([np.full(len(triangle), 3), triangle]).ravel()
+
+
+def _texture(pixels, *, repeat: bool):
+    import pyvista
+
+    texture = pyvista.Texture(np.ascontiguousarray(pixels))
+    texture.repeat, texture.interpolate, texture.mipmap = repeat, True, repeat
+    return texture
 
 
 def _disc(reach: float) -> dict:

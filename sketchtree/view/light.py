@@ -8,6 +8,8 @@ sorted into a grid aligned with a light; summed along the light they give the op
     a   area of the surfaces in a cell      A   cross-section of a cell      G   mean projection, 1/2
 """
 
+from collections.abc import Sequence
+
 import numpy as np
 from jaxtyping import Float
 from scipy import ndimage
@@ -20,32 +22,41 @@ Points = Float[np.ndarray, "_ 3"]
 
 
 def baked_light(
-    points: list[Points], centroid: Points, area: Float[np.ndarray, " triangle"], sun: Float[np.ndarray, " 3"]
+    points: list[Points], centroid: Points, area: Float[np.ndarray, " triangle"], sun: Float[np.ndarray, " 3"], *, box: Float[np.ndarray, "2 3"] | None = None
 ) -> list[Float[np.ndarray, "point 2"]]:
     """For each array of points the light (0-1) from the sun and the openness (0-1) to the sky, read from a
-    grid laid over the surfaces (centroids in metres, areas in m²)."""
-    low = np.minimum(centroid.min(axis=0), np.min([p.min(axis=0) for p in points], axis=0))
-    size = np.maximum(np.maximum(centroid.max(axis=0), np.max([p.max(axis=0) for p in points], axis=0)) - low, 1e-6)
+    grid laid over the surfaces (centroids in metres, areas in m²). `box`, which holds all, keeps the grid the same in every picture of a film."""
+    low, high = extent_of([*points, centroid]) if box is None else box
+    size = np.maximum(high - low, 1e-6)
     cell = size.max() / _CELLS
     shape = np.ceil(size / cell).astype(int) + 1
     flat = np.ravel_multi_index(tuple((np.minimum((centroid - low) / cell, shape - 1)).astype(int).T), tuple(shape))
     held = np.bincount(flat, area, minlength=int(np.prod(shape)))
     grid = low + (np.stack(np.unravel_index(np.arange(len(held)), tuple(shape)), axis=1) + 0.5) * cell
     full = held > 0
-    field = [transmittance(grid, grid[full], held[full], np.asarray(direction)) for direction in (sun, *_SKY)]
+    field = [transmittance(grid, grid[full], held[full], np.asarray(direction), box=box) for direction in (sun, *_SKY)]
     volumes = [field[0].reshape(shape), np.mean(field[1:], axis=0).reshape(shape)]
     read = lambda volume, at: ndimage.map_coordinates(volume, at, order=1, mode="nearest")  # noqa: E731
     places = [((p - low) / cell - 0.5).T for p in points]
     return [np.column_stack([read(volume, at) for volume in volumes]) for at in places]
 
 
-def transmittance(point: Points, centroid: Points, area: Float[np.ndarray, " triangle"], towards: Float[np.ndarray, " 3"]) -> Float[np.ndarray, " point"]:
+def extent_of(places: Sequence[Points]) -> Float[np.ndarray, "2 3"]:
+    """The least and greatest coordinates of all points."""
+    held = [points for points in places if len(points)]
+    return np.stack([np.min([points.min(axis=0) for points in held], axis=0), np.max([points.max(axis=0) for points in held], axis=0)])
+
+
+def transmittance(
+    point: Points, centroid: Points, area: Float[np.ndarray, " triangle"], towards: Float[np.ndarray, " 3"], *, box: Float[np.ndarray, "2 3"] | None = None
+) -> Float[np.ndarray, " point"]:
     """The share (0-1) of the light from direction `towards` that reaches each point through the
-    surfaces given by their centroids (metres) and areas (m²)."""
+    surfaces given by their centroids (metres) and areas (m²), all within the `box` if there is one."""
     axes = aligned(towards)
     place, seen = centroid @ axes.T, point @ axes.T
-    low = np.minimum(place.min(axis=0), seen.min(axis=0))
-    size = np.maximum(np.maximum(place.max(axis=0), seen.max(axis=0)) - low, 1e-6)
+    corners = [] if box is None else [np.stack(np.meshgrid(*box.T), axis=-1).reshape(-1, 3) @ axes.T]
+    low, high = extent_of([seen, *corners] if corners else [place, seen])
+    size = np.maximum(high - low, 1e-6)
     cell = size.max() / _CELLS
     shape = np.ceil(size / cell).astype(int) + 1
     index = np.minimum(((place - low) / cell).astype(int), shape - 1)

@@ -32,7 +32,7 @@ _FIELD = 26.0  # degrees, vertical
 _MARGIN = 0.06  # of the picture, free on every side
 _CHILD = Path(__file__).with_name("child.py")
 _FRAGMENTS = 4e8  # surface pixels drawn on top of each other, at most, before a picture is drawn less smoothly
-_SKY = {"horizon": (0.925, 0.930, 0.915), "zenith": (0.690, 0.775, 0.850), "earth": (0.700, 0.690, 0.630)}  # sRGB
+SKY = {"horizon": (0.925, 0.930, 0.915), "zenith": (0.690, 0.775, 0.850), "earth": (0.700, 0.690, 0.630)}  # sRGB
 
 
 def preview(
@@ -79,12 +79,11 @@ def request_of(
     """What the child is to draw: one picture of `size` pixels for each azimuth and elevation (degrees). Each shows all meshes, or the
     ball of a `focus` (place and radius, metres), or the points `around` (metres)."""
     points = np.vstack([mesh.position[np.unique(mesh.triangle)] for mesh in meshes])
-    centroid, area = (np.concatenate(column) for column in zip(*map(_surfaces, meshes), strict=True))
-    base = float(points[:, 1].min())
-    shift = np.array([0.5 * (points[:, 0].min() + points[:, 0].max()), base, 0.5 * (points[:, 2].min() + points[:, 2].max())])
-    sun = _direction(angles[0][0] - 48.0, 47.0)
+    centroid, area = (np.concatenate(column) for column in zip(*map(surfaces, meshes), strict=True))
+    shift = footing(points)
+    sun = sun_of(angles[0][0])
     request = {"size": np.array(size), "meshes": np.array(len(meshes)), "sun": sun}
-    request |= {name: np.array(colour) for name, colour in _SKY.items()}
+    request |= {name: np.array(colour) for name, colour in SKY.items()}
     request["columns"] = np.array(int(np.ceil(np.sqrt(len(angles)))))
     if around is None:
         around = points if focus is None else np.asarray(focus[0]) + focus[1] * _ball()
@@ -92,21 +91,41 @@ def request_of(
     request["camera"] = np.array([frame_camera(around, *angle, size[0] / size[1]) for angle in angles])
     drawn = max(fragments(centroid - shift, area, camera, size) for camera in request["camera"])
     request["supersample"] = np.array(affordable(supersample, drawn))
-    lights = baked_light([_lifted(mesh) for mesh in meshes], centroid, area, sun)
+    lights = baked_light([lifted(mesh) for mesh in meshes], centroid, area, sun)
     for k, (mesh, light) in enumerate(zip(meshes, lights, strict=True)):
-        request |= {f"{k}.{name}": value for name, value in _part(mesh, light, shift).items()}
+        request |= {f"{k}.{name}": value for name, value in (moved_part(mesh, light, shift) | _still_part(mesh)).items()}
     if ground:
-        reach = 2.2 * float(np.linalg.norm(np.ptp(points, axis=0)))
-        light = ground_light(centroid - shift, area, sun, reach, pixels=512)
-        request["reach"] = np.array(reach)
-        request["ground"] = np.repeat(np.round(255 * light).astype(np.uint8)[..., None], 3, axis=2)
+        request["reach"] = np.array(reach_of(points))
+        request["ground"] = ground_picture(centroid - shift, area, sun, float(request["reach"]))
     return request
+
+
+def footing(points: Float[np.ndarray, "point 3"]) -> Float[np.ndarray, " 3"]:
+    """The place on the ground under the middle of all: the origin of what is drawn."""
+    low, high = points.min(axis=0), points.max(axis=0)
+    return np.array([0.5 * (low[0] + high[0]), low[1], 0.5 * (low[2] + high[2])])
+
+
+def sun_of(azimuth: float) -> Float[np.ndarray, " 3"]:
+    """Where the sun stands for a camera at that azimuth: to its left, above."""
+    return direction(azimuth - 48.0, 47.0)
+
+
+def reach_of(points: Float[np.ndarray, "point 3"]) -> float:
+    """How far the ground is drawn, metres."""
+    return 2.2 * float(np.linalg.norm(np.ptp(points, axis=0)))
+
+
+def ground_picture(centroid, area, sun, reach: float) -> np.ndarray:
+    """The light on the ground, for the child."""
+    light = ground_light(centroid, area, sun, reach, pixels=512)
+    return np.repeat(np.round(255 * light).astype(np.uint8)[..., None], 3, axis=2)
 
 
 def frame_camera(points: Float[np.ndarray, "point 3"], azimuth: float, elevation: float, aspect: float) -> Float[np.ndarray, " 10"]:
     """Eye, target, up and field of view (degrees) of the nearest camera in that direction that sees all points
     with a margin."""
-    back = _direction(azimuth, elevation)
+    back = direction(azimuth, elevation)
     right = np.array([np.cos(np.radians(azimuth)), 0.0, -np.sin(np.radians(azimuth))])
     up = np.cross(back, right)
     across, along, depth = points @ right, points @ up, points @ back
@@ -150,7 +169,7 @@ def _middle(value) -> float:
     return float(value.min() + value.max()) / 2
 
 
-def _surfaces(mesh: Mesh):
+def surfaces(mesh: Mesh) -> tuple[Float[np.ndarray, "triangle 3"], Float[np.ndarray, " triangle"]]:
     """Centroid and area (m²; a leaf card counts as the part its drawing fills) of every triangle."""
     a, b, c = (mesh.position[mesh.triangle[:, i]] for i in range(3))
     area = np.linalg.norm(np.cross(b - a, c - a), axis=1) / 2
@@ -162,22 +181,28 @@ def _surfaces(mesh: Mesh):
     return (a + b + c) / 3, area
 
 
-def _lifted(mesh: Mesh) -> Float[np.ndarray, "vertex 3"]:
+def lifted(mesh: Mesh) -> Float[np.ndarray, "vertex 3"]:
     """Where a mesh's light is read: wood a little above its surface, so as not to lie in its own shade."""
     return mesh.position + (0.0 if mesh.material.alpha_cutoff is not None else 0.02) * mesh.normal
 
 
-def _part(mesh: Mesh, light, shift) -> dict[str, np.ndarray]:
+def moved_part(mesh: Mesh, light, shift) -> dict[str, np.ndarray]:
+    """What of a mesh is another in every picture of a film."""
+    return {
+        "position": (mesh.position - shift).astype(np.float32),
+        "normal": mesh.normal.astype(np.float32),
+        "triangle": mesh.triangle.astype(np.int64),
+        "light": light.astype(np.float32),
+    }
+
+
+def _still_part(mesh: Mesh) -> dict[str, np.ndarray]:
     material = mesh.material
     tint = np.ones((len(mesh.position), 3)) if mesh.color is None else mesh.color[:, :3]
     leaf = material.alpha_cutoff is not None
     return {
-        "position": (mesh.position - shift).astype(np.float32),
-        "normal": mesh.normal.astype(np.float32),
         "uv": mesh.uv.astype(np.float32),
-        "triangle": mesh.triangle.astype(np.int64),
         "tint": (tint * material.base_color[:3]).astype(np.float32),
-        "light": light.astype(np.float32),
         "albedo": _four(material.base_color_texture),
         "normal_map": np.full((2, 2, 3), (128, 128, 255), np.uint8) if material.normal_texture is None else material.normal_texture,
         "look": np.array([material.alpha_cutoff or 0.0, float(leaf), 0.25 * (1 - material.roughness)]),
@@ -221,7 +246,7 @@ def reason_of(child: subprocess.CompletedProcess) -> str:
     return f"No picture could be drawn: {lines[-1] if lines else f'the drawing process ended with status {child.returncode}'}."
 
 
-def _direction(azimuth: float, elevation: float) -> Float[np.ndarray, " 3"]:
+def direction(azimuth: float, elevation: float) -> Float[np.ndarray, " 3"]:
     a, e = np.radians(azimuth), np.radians(elevation)
     return np.array([np.sin(a) * np.cos(e), np.sin(e), np.cos(a) * np.cos(e)])
 

@@ -107,9 +107,9 @@ def test_wrong_choices_are_refused_and_nothing_is_written(glb, tmp_path, capsys,
 
 
 def test_mp4_needs_ffmpeg(glb, tmp_path, capsys, monkeypatch):
-    monkeypatch.setattr("shutil.which", lambda _: None)
+    monkeypatch.setattr("sketchtree.view.film._programs", lambda: iter(()))
     assert app.run(["view", str(glb), "--turntable", str(tmp_path / "t.mp4")]) == 2
-    assert "the program `ffmpeg` was not found. Install it, or ask for a .gif, .webp or .apng." in capsys.readouterr().err
+    assert "t.mp4: no ffmpeg was found. Install one, `pip install 'sketchtree[video]'`, or ask for a .gif, .webp or .apng." in capsys.readouterr().err
 
 
 def test_a_file_that_is_no_tree_is_refused(tmp_path, capsys):
