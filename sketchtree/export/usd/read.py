@@ -1,7 +1,7 @@
 """What a USD file of ours holds, read back: meshes, places, levels of detail, materials, the skeleton.
 
 Of files from elsewhere what our writer uses is read: triangles without subdivision (polygons are cut into fans), `primvars:st`,
-UsdPreviewSurface with textures, PointInstancers, the first UsdSkel skeleton; transforms are applied.
+UsdPreviewSurface with textures, PointInstancers, the first UsdSkel skeleton and how it moves; transforms are applied.
 """
 
 import json
@@ -16,6 +16,7 @@ from sketchtree.export.capsules import capsules_from_json
 from sketchtree.export.images import decode
 from sketchtree.export.skeletons.packed import skeleton_from_extras
 from sketchtree.export.usd.bones import influences, read_bones
+from sketchtree.export.usd.moving import read_animation
 from sketchtree.geometry.instances import Instances
 from sketchtree.geometry.mesh import Material, Mesh
 
@@ -34,7 +35,9 @@ def read_usd(path: str | os.PathLike) -> Asset:
     skeleton = skeleton_from_extras(json.loads(told["skeleton"])) if "skeleton" in told else None
     capsules = capsules_from_json(json.loads(told["capsules"])) if "capsules" in told else None
     about = {name: value for name, value in told.items() if name not in ("skeleton", "capsules", "creator", "lod_coverage")}
-    return Asset(levels, skeleton, top.GetName() or "tree", read_bones(stage), capsules, about=about)
+    bones = read_bones(stage)
+    moves = None if bones is None else read_animation(stage, bones, _part_prims(stage, top))
+    return Asset(levels, skeleton, top.GetName() or "tree", bones, capsules, moves, about)
 
 
 def _levels(stage, top, coverage: list[float]) -> tuple[Level, ...]:
@@ -48,6 +51,21 @@ def _levels(stage, top, coverage: list[float]) -> tuple[Level, ...]:
             top.GetVariantSet("LOD").SetVariantSelection(name)
             levels.append(Level(tuple(_parts(stage, top, materials)), coverage[number] if number < len(coverage) else 0.0))
     return tuple(levels)
+
+
+def _part_prims(stage, top) -> list:
+    """The prim of each part of the finest level, as `_parts` finds them."""
+    levels = top.GetVariantSet("LOD").GetVariantNames() if top.HasVariantSets() else []
+    with Usd.EditContext(stage, stage.GetSessionLayer()):
+        if levels:
+            top.GetVariantSet("LOD").SetVariantSelection(min(levels))
+    found, prims = [], iter(Usd.PrimRange(top))
+    for prim in prims:
+        if prim.IsA(UsdGeom.PointInstancer):
+            prims.PruneChildren()
+        if prim.IsA(UsdGeom.PointInstancer) or prim.IsA(UsdGeom.Mesh):
+            found.append(prim)
+    return found
 
 
 def _parts(stage, top, materials: dict) -> list[Mesh | Instances]:

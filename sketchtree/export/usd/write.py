@@ -1,7 +1,7 @@
 """A tree as USD: `.usda` text, `.usd` and `.usdc` binary, `.usdz` one packed file.
 
 Metres, y up. The default prim is the tree, kind `component`, with its parts, a scope `Materials` and, of several levels of detail, a variant set
-`LOD`. Textures lie in a folder NAME_textures beside the file, or in the package. Seed and version stand in `customLayerData`; no
+`LOD`; what moves has time samples. Textures lie in a folder NAME_textures beside the file, or in the package. Seed and version stand in `customLayerData`; no
 date, no path: the same asset gives the same bytes.
 """
 
@@ -56,38 +56,46 @@ def _stage(asset: Asset, folder: str):
     materials = Materials(stage, f"{root}/Materials", folder, palettes(part for level in asset.levels for part in level.parts if part.triangle_count))
     skeleton = define_bones(stage, f"{root}/bones", asset.armature) if asset.armature is not None else None
     if len(asset.levels) == 1:
-        _parts(stage, root, asset.levels[0], materials, skeleton)
+        named = _parts(stage, root, asset.levels[0], materials, skeleton)
     else:
-        _variants(stage, top, root, asset, materials, skeleton)
+        named = _variants(stage, top, root, asset, materials, skeleton)
+    if asset.animation is not None and skeleton is not None:
+        from sketchtree.export.usd.moving import define_animation
+
+        define_animation(stage, skeleton, asset, named)
     box = UsdGeom.BBoxCache(Usd.TimeCode.Default(), UsdGeom.Imageable.GetOrderedPurposeTokens())
     model = UsdGeom.ModelAPI.Apply(top)
     model.SetExtentsHint(model.ComputeExtentsHint(box))
     return stage, materials.files
 
 
-def _variants(stage, top, root: str, asset: Asset, materials, skeleton) -> None:
-    """A variant a level; the finest is chosen."""
+def _variants(stage, top, root: str, asset: Asset, materials, skeleton) -> dict[int, str]:
+    """A variant a level; the finest is chosen. The paths of its parts."""
+    named = []
     levels = top.GetVariantSets().AddVariantSet("LOD")
     for number, level in enumerate(asset.levels):
         levels.AddVariant(f"LOD{number}")
         levels.SetVariantSelection(f"LOD{number}")
         with levels.GetVariantEditContext():
-            _parts(stage, root, level, materials, skeleton)
+            named.append(_parts(stage, root, level, materials, skeleton))
     levels.SetVariantSelection("LOD0")
+    return named[0]
 
 
-def _parts(stage, root: str, level: Level, materials, skeleton) -> None:
+def _parts(stage, root: str, level: Level, materials, skeleton) -> dict[int, str]:
+    """The path of each part that is drawn."""
     from sketchtree.export.usd.parts import define_mesh, define_places
 
-    taken = {"Materials", "bones"}
-    for part in level.parts:
+    taken, named = {"Materials", "bones"}, {}
+    for number, part in enumerate(level.parts):
         if not part.triangle_count:
             continue
-        path = f"{root}/{prim_name(part.name, taken)}"
+        named[number] = path = f"{root}/{prim_name(part.name, taken)}"
         if isinstance(part, Instances):
             define_places(stage, path, part, materials)
         else:
             define_mesh(stage, path, part, materials, skeleton=skeleton)
+    return named
 
 
 def _told(asset: Asset) -> dict:
