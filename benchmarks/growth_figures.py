@@ -10,7 +10,7 @@ import argparse
 from pathlib import Path
 
 import numpy as np
-from PIL import Image, ImageDraw
+from PIL import Image, ImageDraw, ImageFont
 from scipy.ndimage import gaussian_filter
 
 from benchmarks import matting, trunk_noise
@@ -70,8 +70,7 @@ def figure_4(case: Case, folder: Path) -> None:
     """Figure 4, top to bottom; the last row of a photo or of our drawn tree."""
     one = trunk_noise.trunk(1000)
     sheet = trunk_noise.vertices_picture(one, trunk_noise.noisy(one, 1.0, 7))
-    sheet = sheet.resize((sheet.width // 3, sheet.height // 3), Image.Resampling.LANCZOS)
-    sheet.quantize(64).save(folder / "trunk.png", optimize=True)
+    _in_rows(sheet, ("thinning", "medial axis", "ours, 20 vertices", "ours, as many as noise allows", "ours, leftmost limb merged by hand")).quantize(64).save(folder / "trunk.png", optimize=True)
     panels = []
     for vertices in (24, None):
         skeleton = trunk_skeleton(find_matte(case.photo, case.scribbles, key=root_key(0)).alpha, vertices=vertices, gap=GAP)
@@ -87,6 +86,19 @@ def figure_4(case: Case, folder: Path) -> None:
     for k, panel in enumerate(panels):
         row.paste(panel, (sum(before.width for before in panels[:k]), row.height - panel.height))
     row.save(folder / "trunks.png")
+
+
+def _in_rows(sheet: Image.Image, titles: tuple[str, ...], columns: int = 3, shrink: float = 0.5) -> Image.Image:
+    """The panels of a strip, two rows of them, with their titles."""
+    wide, high, caption = round(shrink * sheet.width / len(titles)), round(shrink * sheet.height), 22
+    strip = sheet.resize((wide * len(titles), high), Image.Resampling.LANCZOS)
+    rows = Image.new("RGB", (columns * wide, -(-len(titles) // columns) * (high + caption)), "white")
+    pen, font = ImageDraw.Draw(rows), ImageFont.load_default(14)
+    for k, title in enumerate(titles):
+        x, y = k % columns * wide, k // columns * (high + caption)
+        rows.paste(strip.crop((k * wide, 0, (k + 1) * wide, high)), (x, y))
+        pen.text((x + wide / 2, y + high + caption / 2), title, fill="black", font=font, anchor="mm")
+    return rows
 
 
 def main() -> None:

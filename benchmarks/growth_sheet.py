@@ -1,8 +1,8 @@
 """What does a tree that grows look like, with its leaves? Pictures like Figures 6 to 9 of the single-image growth paper, and a film.
 
-    python -m benchmarks.growth_sheet -o FOLDER [modes] [crowns] [bends] [film]
+    python -m benchmarks.growth_sheet -o FOLDER [photo] [modes] [crowns] [bends] [film]
 
-All of `examples/oak.svg`. `growth_modes.png`: every mode at even times. `growth_crowns.png`: branches grafted on the drawn limbs alone, two to four levels deep, from the front and above,
+`growth_photo.png`: from `examples/photo/sugar_maple.jpg` with lines on it to a tree. All others are of `examples/oak.svg`. `growth_modes.png`: every mode at even times. `growth_crowns.png`: branches grafted on the drawn limbs alone, two to four levels deep, from the front and above,
 and other crowns on the same limbs. `growth_bends.png`: the strengths of Figure 8 at the end, and one of them as it grows. `growth.gif`: the film of the README.
 """
 
@@ -12,19 +12,22 @@ from collections.abc import Sequence
 from pathlib import Path
 
 import numpy as np
-from PIL import Image, ImageDraw, ImageFont
+from PIL import Image, ImageDraw, ImageFont, ImageOps
 
 from sketchtree.animation.growing import Growing
 from sketchtree.drawn_tree import draw_out
 from sketchtree.growth.plan import MODES
-from sketchtree.growth_tree import Beginning, GrowthOptions, grown_tree, of_drawing, of_skeleton
+from sketchtree.growth_tree import Beginning, GrowthOptions, find_trunk, grown_tree, of_drawing, of_picture, of_skeleton
 from sketchtree.keys import root_key
+from sketchtree.matting.scribbles import read_scribbles
 from sketchtree.options import ReadingOptions, TreeOptions
+from sketchtree.photo.read_photo import read_photo
 from sketchtree.templates.store.database import Database
 from sketchtree.view.growth_film import growth_film
 from sketchtree.view.picture import preview
 
 DRAWING = Path("examples/oak.svg")
+PHOTO, MARKS = Path("examples/photo/sugar_maple.jpg"), Path("examples/photo/sugar_maple_marks.json")
 SIDE, CAPTION = 230, 24  # pixels
 STRENGTHS = (20, 0, -7, -14, -25)  # degrees, Figure 8
 LEVELS, CROWNS = (2, 3, 4), 4
@@ -49,6 +52,26 @@ def growing(beginning: Beginning, mode: str = "full", bend: float = 0.0, levels:
     """The tree that moves."""
     grown = grown_tree(beginning, GrowthOptions(levels, mode, bend))
     return Growing.of(grown.model, grown.plan)
+
+
+def photo(templates: Database, path: Path) -> None:
+    """Photo and lines, matte, trunk, and the tree of it from the front and from the side."""
+    shown = read_photo(PHOTO)
+    scribbles = read_scribbles(MARKS, shown)
+    found = find_trunk(shown, scribbles, templates, key=root_key(0))
+    meshes = grown_tree(of_picture(found, TreeOptions(), templates, key=root_key(0)), GrowthOptions()).model.meshes
+    marked, traced = Image.fromarray(shown.rgb), Image.fromarray(shown.rgb)
+    for lines, ink in ((scribbles.foreground, (220, 30, 30)), (scribbles.background, (235, 190, 0))):
+        for line in lines:
+            ImageDraw.Draw(marked).line([tuple(point) for point in line], fill=ink, width=4)
+    skeleton, pen = found.skeleton, ImageDraw.Draw(traced)
+    for a, b in skeleton.edges:
+        pen.line([*skeleton.xy[a], *skeleton.xy[b]], fill=(220, 30, 30), width=max(2, round(skeleton.radius[b])))
+    matte = Image.fromarray(np.round(255 * found.matte.alpha).astype(np.uint8))
+    pictures = [("photo, lines on the tree and beside it", marked), ("matte", matte), ("trunk", traced)]
+    widest = around(meshes)
+    seen = [(f"the tree, {view}", shot(meshes, widest, view)) for view in ("front", "side")]
+    save(path, [[*((name, ImageOps.pad(one.convert("RGB"), (SIDE, SIDE), color="white")) for name, one in pictures), *seen]])
 
 
 def modes(templates: Database, path: Path) -> None:
@@ -128,7 +151,7 @@ def save(path: Path, rows: Sequence[Row]) -> None:
 
 
 def main() -> None:
-    kinds = {"modes": (modes, "growth_modes.png"), "crowns": (crowns, "growth_crowns.png"), "bends": (bends, "growth_bends.png"), "film": (film, "growth.gif")}
+    kinds = {"photo": (photo, "growth_photo.png"), "modes": (modes, "growth_modes.png"), "crowns": (crowns, "growth_crowns.png"), "bends": (bends, "growth_bends.png"), "film": (film, "growth.gif")}
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
     parser.add_argument("kinds", nargs="*", default=list(kinds), metavar="KIND", help=", ".join(kinds))
     parser.add_argument("-o", "--out", type=Path, required=True)
