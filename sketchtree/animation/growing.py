@@ -8,7 +8,7 @@ from dataclasses import dataclass, replace
 from functools import cached_property
 
 import numpy as np
-from jaxtyping import Float
+from jaxtyping import Array, Float, Key
 
 from sketchtree.animation.hosts import Hosts, Nodes, choose_hosts
 from sketchtree.animation.influences import influences
@@ -18,12 +18,14 @@ from sketchtree.animation.posing import posed
 from sketchtree.animation.rims import rims
 from sketchtree.animation.seams import parted
 from sketchtree.animation.unfolding import cohorts
+from sketchtree.animation.young_leaves import with_shoots, young_leaves
 from sketchtree.asset import Animation, Armature, Asset, Keys
 from sketchtree.axes import NULL
 from sketchtree.errors import OptionError
 from sketchtree.geometry.limbs import CentreLines, centre_lines
 from sketchtree.geometry.mesh import Mesh
 from sketchtree.growth.plan import GrowthPlan, checked_times
+from sketchtree.keys import root_key
 from sketchtree.levels.make import Model
 from sketchtree.rig.boughs import Boughs, boughs
 from sketchtree.rig.islands import mesh_places
@@ -50,17 +52,18 @@ class Growing:
     limbs: Boughs
     nodes: Nodes
     hosts: Hosts
+    key: Key[Array, ""]
 
     @classmethod
-    def of(cls, model: Model, plan: GrowthPlan, *, most_joints: int = MOST_JOINTS) -> "Growing":
-        """Raises `OptionError` for fewer joints than `LEAST_JOINTS`, or a tree without a limb."""
+    def of(cls, model: Model, plan: GrowthPlan, *, most_joints: int = MOST_JOINTS, key: Key[Array, ""] | None = None) -> "Growing":
+        """`key` is for the leaves that only young trees bear; one of its own if there is none. Raises `OptionError` for fewer joints than `LEAST_JOINTS`, or a tree without a limb."""
         if most_joints < LEAST_JOINTS:
             raise OptionError(f"A growing tree can't do with {most_joints} joints.", remedy=f"Ask for {LEAST_JOINTS} or more; {MOST_JOINTS} are usual.")
         lines = centre_lines(plan.tree)
         if not len(lines):
             raise OptionError("The tree has no branch that could grow.", remedy="Give one with a trunk of some length.")
         limbs, nodes = boughs(plan.tree, lines), Nodes.of(plan.straight, lines)
-        return cls(model, plan, most_joints, lines, limbs, nodes, choose_hosts(lines, limbs, nodes, most_joints))
+        return cls(model, plan, most_joints, lines, limbs, nodes, choose_hosts(lines, limbs, nodes, most_joints), root_key(0) if key is None else key)
 
     def at(self, time: float) -> tuple[Mesh, ...]:
         """The meshes at a time, 0-1, as the animated file shows them; what is not there yet has no triangles. Raises OptionError."""
@@ -81,11 +84,16 @@ class Growing:
         """The asset whose animation takes one second."""
         time = np.linspace(0.0, 1.0, _MOMENTS)
         poses = self.plan.poses(time, pieces=True, whole=False, dtype=np.float64)
-        motion = motion_of(self.plan, self.lines, self.limbs, self.nodes, self.hosts, poses)
+        motion = with_shoots(motion_of(self.plan, self.lines, self.limbs, self.nodes, self.hosts, poses), self.hosts)
         ground = np.unique(motion.base)
         armature = _armature(self.plan, motion, ground)
-        parts, morphs = self._parts(1 + len(ground))
+        first = 1 + len(ground)
+        parts, morphs = self._parts(first)
         animation = _animation(self.plan, motion, ground, time, poses.size, self.plan.tree.height)
+        young = young_leaves(
+            self.plan, self.lines, self.nodes, self.hosts, self.model.dress, self.model.leaves, armature, animation, first, len(parts), key=self.key
+        )
+        parts, morphs = (*parts, *(mesh for mesh, _ in young)), (*morphs, *(morph for _, morph in young))
         return Asset.of(parts, skeleton=self.model.skeleton, name="tree", armature=armature, animation=replace(animation, morphs=morphs))
 
     def _parts(self, first: int):

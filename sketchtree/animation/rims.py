@@ -21,6 +21,7 @@ from sketchtree.rig.collar import smoothstep
 from sketchtree.rig.place import Places
 
 NEAR, FAR = 2.4, 4.0
+SLIGHT = 0.2  # of the radius of what bears it: thinner branches have no rim, twice as thick ones a whole one; theirs would stay large on a thin young stem
 
 
 class Rim(NamedTuple):
@@ -39,6 +40,11 @@ def rims(lines: CentreLines, limbs: Boughs, hosts: Hosts, place: Places, positio
     if not len(child) or not len(position):
         return Rim(np.zeros(0, np.int64), np.zeros(0, np.int64), np.zeros(0))
     out, radius = lines.at(child, limbs.buried[child])
+    slight = radius / lines.at(lines.parent[child], limbs.exit_s[child])[1]
+    counts = smoothstep((slight - SLIGHT) / SLIGHT)
+    child, out, radius, counts = (column[slight > SLIGHT] for column in (child, out, radius, counts))
+    if not len(child):
+        return Rim(np.zeros(0, np.int64), np.zeros(0, np.int64), np.zeros(0))
     found = cKDTree(position).query_ball_point(out, FAR * radius, workers=-1)
     which = np.repeat(np.arange(len(child)), [len(rows) for rows in found])
     vertex = np.concatenate([np.asarray(rows, np.int64) for rows in found])
@@ -47,7 +53,7 @@ def rims(lines: CentreLines, limbs: Boughs, hosts: Hosts, place: Places, positio
     which, vertex, own = which[both], vertex[both], own[both]
     away = np.linalg.norm(position[vertex] - out[which], axis=1) / radius[which]
     axis = lines.at(place.limb[vertex], place.s[vertex])[0]
-    share = (1.0 - smoothstep((away - NEAR) / (FAR - NEAR))) * np.where(own, 1.0, smoothstep(2.0 * _cosine(position[vertex] - axis, out[which] - axis)))
+    share = counts[which] * (1.0 - smoothstep((away - NEAR) / (FAR - NEAR))) * np.where(own, 1.0, smoothstep(2.0 * _cosine(position[vertex] - axis, out[which] - axis)))
     order = np.lexsort((which, -share, vertex))
     first = order[np.r_[True, np.diff(vertex[order]) != 0][: len(order)] & (share[order] > 0)]
     return Rim(vertex[first], child[which[first]], share[first])

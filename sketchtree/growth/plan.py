@@ -127,6 +127,10 @@ class GrowthPlan:
             tip[now], radius[now], grown[now] = places, thick, share
         return Poses(times, tip, radius, grown, size, parent)
 
+    def size_at(self, time: float) -> float:
+        """M: how large the whole is at a time; 1 where it does not grow."""
+        return 1.0 if self.mode == "age" else float(self.times.size(self._clock(checked_times([time])))[0])
+
     def leaf_scale(self, time: float, *, falling: bool = False) -> Float[np.ndarray, " segment"]:
         """How large the leaves on each row are at a time, 0-1: all at 1 in the end. `falling`: those of old inner wood are shed as it ages, as
         where leaves were put on all wood that once bore some."""

@@ -59,13 +59,28 @@ def test_at_the_beginning_there_is_nothing(mode):
 
 
 @pytest.mark.parametrize("mode", MODES)
-def test_bark_and_leaves_only_become_more(mode):
+def test_bark_and_the_final_leaves_only_become_more(mode):
     tree = growing(mode)
     times = np.linspace(0, 1, 13)
-    for kind in ("wood", "leaf"):
-        course = [sum(area(mesh) for mesh in tree.at(time) if mesh.name.startswith(kind)) for time in times]
+    for of in (lambda name: name.startswith("wood"), lambda name: name.startswith("leaf") and "young" not in name):
+        course = [sum(area(mesh) for mesh in tree.at(time) if of(mesh.name)) for time in times]
         assert (np.diff(course) >= -0.01 * course[-1]).all(), course
         assert course[-1] > course[len(course) // 2] > 0
+
+
+@pytest.mark.parametrize("bend", [0.0, -20.0])
+def test_a_young_tree_has_leaves_on_wood_that_is_bare_later_and_sheds_them(bend):
+    tree = growing("full", bend)
+    young = [mesh for mesh in tree.at(0.3) if mesh.name.startswith("leaf_young")]
+    assert sum(map(area, young)) > 0
+    feet = np.vstack([mesh.position[np.unique(mesh.triangle)] for mesh in young if mesh.triangle_count])
+    top = tree.plan.at(0.34).tip.max(axis=0) + 0.3
+    assert (feet <= top).all() and (feet[:, 1] > 0).all()
+    assert not any(mesh.triangle_count for mesh in tree.at(1.0) if mesh.name.startswith("leaf_young"))
+    rest = [mesh for mesh in tree.asset().parts if mesh.name.startswith("leaf_young")]
+    assert sum(map(area, rest)) < 1e-9
+    again = growing("full", bend)
+    assert all(np.array_equal(one.position, other.position) for one, other in zip(tree.at(0.3), again.at(0.3), strict=True))
 
 
 def test_bark_is_smooth_where_a_branch_is_yet_to_come():
@@ -81,10 +96,11 @@ def test_bark_is_smooth_where_a_branch_is_yet_to_come():
 def test_leaves_unfold_from_their_feet_and_not_before_their_wood():
     tree = growing("age")
     asset = tree.asset(seconds=1.0)
-    for morph in asset.animation.morphs:
+    final = [morph for morph in asset.animation.morphs if "young" not in asset.parts[morph.part].name]
+    for morph in final:
         assert morph.weight[0] == 1.0 and morph.weight[-1] == 0.0
         assert (np.diff(morph.weight) <= 0).all()
-    held = [morph.time[np.flatnonzero(morph.weight == 1.0)[-1]] for morph in asset.animation.morphs]
+    held = [morph.time[np.flatnonzero(morph.weight == 1.0)[-1]] for morph in final]
     assert min(held) >= tree.plan.end[tree.model.leaves.segment].min() - 1e-9
     assert len({mesh.name for mesh in asset.parts}) == len(asset.parts)
 
