@@ -35,7 +35,10 @@ class Stocked:
         self._first = asyncio.Event()  # the first tree is there
         self._crew_has_it = asyncio.Event()  # the tree that is shown was made by the crew that runs
         self._puts: set[asyncio.Task] = set()
-        for name in ("cancel", "refresh", "ghost", "glance", "alternatives", "read", "export", "project", "trace", "with_traced", "grow", "stop_growing", "grown", "marks", "proposed"):
+        for name in (
+            "cancel", "refresh", "ghost", "glance", "alternatives", "read", "export", "project", "trace", "with_traced", "grow", "stop_growing", "grown", "marks", "proposed",
+            "aged",
+        ):  # fmt: skip
             setattr(self, name, getattr(crew, name))
 
     async def start(self) -> None:

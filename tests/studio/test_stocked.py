@@ -11,7 +11,7 @@ from sketchtree.options import ReadingOptions, TreeOptions
 from sketchtree.sketch.strokes import Stroke
 from sketchtree.studio import messages
 from sketchtree.studio.crew import Crew
-from sketchtree.studio.engine import Outcome
+from sketchtree.studio.engine import Engine, Outcome
 from sketchtree.studio.kept_tree import KeptTree, is_whole
 from sketchtree.studio.making.basis import Basis
 from sketchtree.studio.making.frames import Arrays, beheaded, opened
@@ -47,7 +47,10 @@ class FakeCrew:
     def __init__(self, digests=None):
         self.on_outcome = lambda outcome: None
         self.shown, self.digests, self.asked, self.had = ({}, None), digests or {}, [], []
-        for name in ("cancel", "refresh", "ghost", "glance", "alternatives", "read", "export", "project", "trace", "with_traced", "grow", "stop_growing", "grown", "marks", "proposed"):
+        for name in (
+            "cancel", "refresh", "ghost", "glance", "alternatives", "read", "export", "project", "trace", "with_traced", "grow", "stop_growing", "grown", "marks", "proposed",
+            "aged",
+        ):  # fmt: skip
             setattr(self, name, None)
 
     def make(self, revision, document):
@@ -101,6 +104,14 @@ async def _kept(folder, document=DOCUMENT) -> None:
 
 def _said(told) -> list:
     return ["tree" if isinstance(one.event, bytes) else getattr(one.event, "state", type(one.event).__name__) for one in told]
+
+
+def test_it_does_all_that_an_engine_does(tmp_path):
+    async def made():
+        engine, _ = _started(tmp_path, FakeCrew())
+        assert [name for name, what in vars(Engine).items() if callable(what) and not name.startswith("_") and not hasattr(engine, name)] == []
+
+    _run(made())
 
 
 def test_a_drawing_that_was_opened_before_has_its_tree_at_once_with_where_its_depths_are(tmp_path):
