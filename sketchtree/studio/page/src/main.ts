@@ -7,6 +7,7 @@ import { mountLink } from "./link/mount";
 import { mountPanels } from "./panel/mount";
 import { Store } from "./store";
 import { mountTheme } from "./style/theme";
+import { mountGrowth } from "./tree/growth/mount";
 import { mountTree } from "./tree/mount";
 
 function region(id: string): HTMLElement {
@@ -22,6 +23,7 @@ mountTools(region("tools"), store);
 mountDraw(region("page"), store);
 const views = mountTree(region("tree"), store);
 mountLink(store);
+if (views.stand) mountGrowth(views.stand, store);
 const roots = { side: region("side"), strip: region("strip"), status: region("status"), page: region("page"), tree: region("tree") };
 mountPanels(roots, store, views); // after the link: it times what is sent
 document.querySelector(".opening")?.remove();

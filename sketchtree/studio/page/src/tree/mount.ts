@@ -23,6 +23,7 @@ import { Scenery } from "./plant/scenery";
 import { topOf } from "./plant/spots";
 import { Sky, type Lighting } from "./plant/surface";
 import { Textures } from "./plant/textures";
+import { Wardrobe } from "./plant/wardrobe";
 import { mountBench } from "./show/bench";
 import { filmOf, pictureOf, type PictureWish, type Tidy } from "./show/capture";
 import { firstTouch } from "./show/first_touch";
@@ -40,6 +41,17 @@ import "./tree.css";
 export interface TreeViews {
   screenshot: (wish?: PictureWish) => Promise<Blob>; // PNG
   turntable: () => Promise<Blob>; // a film, or an archive of pictures
+  stand: Stand | null; // null: there is no 3D here
+}
+
+/** Where another plant may take the tree's place for a while. */
+export interface Stand {
+  view: View;
+  bar: HTMLElement; // the buttons at the foot
+  scenery: Scenery;
+  lighting: Lighting;
+  textures: Textures;
+  aside: (is: boolean) => void; // the tree, with what hangs on its limbs, is not seen
 }
 
 const THINNED = 0.3; // of the leaves, while the view moves and no graphics card draws it
@@ -55,7 +67,7 @@ export function mountTree(root: HTMLElement, store: Store): TreeViews {
     if (!(error instanceof Error) || !/webgl/i.test(error.message)) throw error;
     noWebgl(box);
     const none = (): Promise<Blob> => Promise.reject(new Error("There is no 3D here."));
-    return { screenshot: none, turntable: none };
+    return { screenshot: none, turntable: none, stand: null };
   }
 }
 
@@ -68,7 +80,7 @@ function fill(view: View, store: Store): TreeViews {
   const ghosts = new Ghosts(stage.scene);
   const lighting: Lighting = { sky: new Sky(), marks: new Marks(), doubt: { value: 0 }, sunByGrid: stage.pace.software, leafShare: { value: 1 } };
   const textures = new Textures((key, kind) => store.address(`./texture/${key}/${kind}.png`), stage.pace.software ? 1 : Math.min(8, stage.renderer.capabilities.getMaxAnisotropy()));
-  const scenery = new Scenery(lighting, textures, stage.pace.software, () => stage.shadows());
+  const scenery = new Scenery(lighting, new Wardrobe(lighting, textures, stage.pace.software, () => stage.shadows()), stage.pace.software, () => stage.shadows());
   stage.scene.add(scenery.group);
   if (stage.pace.software) stage.whileMoving = (moving) => scenery.thin(Math.min(moving ? THINNED : 1, lighting.leafShare.value));
   const chosen = new Chosen(view, scenery, lighting.marks, store);
@@ -76,7 +88,8 @@ function fill(view: View, store: Store): TreeViews {
   const toolbar = new Toolbar(view, chosen, store);
   const labels = new Labels(view, figure, store);
   const shown = { ink: true, grid: false };
-  viewBar(view, store, shown, () => { ink.visible = shown.ink; ground.grid(shown.grid); stage.draw(); });
+  const inked = (): boolean => shown.ink && !view.grows; // over a young tree the drawing would hang in the air
+  const bar = viewBar(view, store, shown, () => { ink.visible = inked(); ground.grid(shown.grid); stage.draw(); });
   turnDial(view, store);
   legend(view.root, store);
   firstTouch(view.root, store);
@@ -96,11 +109,18 @@ function fill(view: View, store: Store): TreeViews {
     if (transparent) weather.visible = ground.visible = ink.visible = figure.group.visible = false;
     return () => {
       weather.visible = ground.visible = true;
-      ink.visible = shown.ink;
+      ink.visible = inked();
       figure.wanted = store.ui.figure;
     };
   };
-  return { screenshot: (wish) => pictureOf(view, tidy, wish), turntable: () => filmOf(view, tidy) };
+  const aside = (is: boolean): void => {
+    view.grows = is;
+    scenery.group.visible = !is;
+    ink.visible = inked();
+    view.root.toggleAttribute("data-grows", is);
+  };
+  const stand: Stand = { view, bar, scenery, lighting, textures, aside };
+  return { screenshot: (wish) => pictureOf(view, tidy, wish), turntable: () => filmOf(view, tidy), stand };
 }
 
 interface Standing {
@@ -219,11 +239,11 @@ function followHand(view: View, store: Store, chosen: Chosen): void {
     near: (factor, x, y) => view.look(zoomed(view.eye, factor, x, y, view.stage.high)),
     flung: (right, down) => { view.flight.fling(view.eye, right, down, performance.now()); view.stage.draw(true); },
     taken: () => { view.flight.stop(); view.root.focus({ preventScroll: true }); },
-    clicked: (event) => store.set("selected", store.known.photoTree ? null : chosen.at(...within(event))),
+    clicked: (event) => store.set("selected", store.known.photoTree || view.grows ? null : chosen.at(...within(event))),
     hovered: (event) => {
       const onView = event.target === view.root || event.target === view.stage.canvas;
       const slow = view.stage.pace.software && store.ui.tool !== "select" && !event.altKey && !store.ui.uncertainty; // each limb passed over would cost a picture
-      const id = onView && !slow && !store.known.photoTree && event.pointerType !== "touch" ? chosen.at(...within(event)) : null;
+      const id = onView && !slow && !store.known.photoTree && !view.grows && event.pointerType !== "touch" ? chosen.at(...within(event)) : null;
       store.set("pointed", id);
       view.root.toggleAttribute("data-pointing", id !== null);
     },

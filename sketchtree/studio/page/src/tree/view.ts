@@ -20,6 +20,7 @@ export class View {
   overPage: (() => { page: PageOnScreen; plane: PagePlane; azimuth: number } | null) = () => null; // while the page lies over the tree
   top: () => Point = () => [0, 0, 0]; // of the tree
   foot = 0; // pixels at the lower end over which buttons stand
+  grows = false; // what is seen is the tree while it grows: there are no limbs to take
   private seesAll = true;
   private readonly cameras = new Cameras();
   private camera: Camera | null = null;

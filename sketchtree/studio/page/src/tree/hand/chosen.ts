@@ -46,7 +46,7 @@ export class Chosen {
 
   private show(): void {
     const { selected, pointed } = this.store.ui;
-    const hinted = pointed === selected ? null : this.store.known.limbs.find((limb) => limb.id === pointed);
+    const hinted = pointed === selected || this.view.grows ? null : this.store.known.limbs.find((limb) => limb.id === pointed);
     this.marks.clear();
     if (pointed) this.marks.set(pointed, POINTED);
     if (selected) for (const id of borne(selected, this.store)) this.marks.set(id, BORNE);

@@ -1,6 +1,6 @@
 // What of the plant stands in the scene? A mesh a material of wood, a mesh a card of leaves; made anew from what frames brought.
 
-import { BufferAttribute, BufferGeometry, Box3, Group, InstancedBufferAttribute, InstancedBufferGeometry, Mesh, MeshStandardMaterial, Sphere, type Texture } from "three";
+import { BufferAttribute, BufferGeometry, Box3, Group, InstancedBufferAttribute, InstancedBufferGeometry, Mesh, MeshStandardMaterial, Sphere } from "three";
 import type { Material } from "../../messages";
 import { baked, type BakedLeaves } from "./bake";
 import { merged, type Merged, type MergedLeaves, type MergedWood } from "./merge";
@@ -8,16 +8,8 @@ import type { CardShape, Plant } from "./plant";
 import { spotsOf } from "./spots";
 import { SUN } from "../stage/weather";
 import { shadeOf } from "./shade";
-import { leafMaterial, leafShadow, woodMaterial, type Lighting } from "./surface";
-import type { MapKind, Textures } from "./textures";
-
-const BARE = "#7d6c59"; // wood whose bark is still on its way
-
-interface Worn {
-  of: string; // the material as the frame said it, to see whether it is another now
-  surface: MeshStandardMaterial;
-  shadow: ReturnType<typeof leafShadow> | null;
-}
+import type { Lighting } from "./surface";
+import type { Wardrobe } from "./wardrobe";
 
 export class Scenery {
   readonly group = new Group();
@@ -25,13 +17,14 @@ export class Scenery {
   spots: Float32Array = new Float32Array(); // places of what stands
   now: Merged = { wood: [], leaves: [], limbs: [], number: new Map() };
   private shaded = false;
-  private readonly worn = new Map<string, Worn>();
+  private materials: Plant["materials"] = new Map();
 
-  constructor(private readonly lighting: Lighting, private readonly textures: Textures, private readonly software: boolean, private readonly changed: () => void) {}
+  constructor(private readonly lighting: Lighting, private readonly wardrobe: Wardrobe, private readonly software: boolean, private readonly changed: () => void) {}
 
   /** Show this plant, where it was another. `quick`: the crown's shade may stay as it was for the moment. */
   show(plant: Plant, quick: boolean): void {
     this.now = merged(plant);
+    this.materials = plant.materials;
     this.spots = spotsOf(this.now);
     this.lighting.marks.renumber(this.now.limbs, this.now.number);
     if (!quick || !this.shaded) this.lighting.sky.take(shadeOf(this.now.leaves, SUN.toArray()));
@@ -57,6 +50,11 @@ export class Scenery {
       const { corners } = geometry.userData;
       if (corners) geometry.setDrawRange(0, share >= 1 ? Infinity : corners * Math.floor((share * geometry.index!.count) / corners));
     }
+  }
+
+  /** What the part of a file wears here, by the name of its material: leaves have a material for each of their cards. */
+  materialOf(name: string): Material | undefined {
+    return this.materials.get(name) ?? [...this.materials.values()].find((one) => one.key.startsWith(`${name}.`));
   }
 
   get meshes(): Mesh<BufferGeometry, MeshStandardMaterial>[] {
@@ -85,7 +83,7 @@ export class Scenery {
     geometry.setAttribute("limb", new BufferAttribute(wood.limb, 1));
     geometry.setIndex(new BufferAttribute(wood.index, 1));
     geometry.computeBoundingBox();
-    const mesh = new Mesh(geometry, this.surface(plant.materials.get(wood.material)!, "wood").surface);
+    const mesh = new Mesh(geometry, this.wardrobe.wear(plant.materials.get(wood.material)!, "wood").surface);
     mesh.userData.wood = true;
     return mesh;
   }
@@ -94,49 +92,13 @@ export class Scenery {
     const card = plant.cards.get(leaves.card)!;
     const geometry = this.software ? bakedGeometry(baked(leaves, card)) : placedGeometry(leaves, card);
     geometry.boundingBox = new Box3().setFromArray(leaves.place).expandByScalar(Math.max(...leaves.scale.subarray(0, 3)));
-    const worn = this.surface(plant.materials.get(card.material)!, "leaf");
+    const worn = this.wardrobe.wear(plant.materials.get(card.material)!, this.software ? "baked" : "placed");
     const mesh = new Mesh(geometry, worn.surface);
     mesh.customDepthMaterial = worn.shadow ?? undefined;
     let shown = Infinity;
     mesh.onBeforeShadow = () => { shown = geometry.drawRange.count; geometry.setDrawRange(0, Infinity); };
     mesh.onAfterShadow = () => geometry.setDrawRange(0, shown);
     return mesh;
-  }
-
-  private surface(of: Material, what: "wood" | "leaf"): Worn {
-    const name = `${what} ${of.key}`;
-    const said = JSON.stringify(of);
-    const had = this.worn.get(name);
-    if (had?.of === said) return had;
-    const passing: { value: Texture | null } = { value: null };
-    const surface = what === "wood" ? woodMaterial(of, this.lighting) : leafMaterial(of, this.lighting, passing, this.software);
-    const shadow = what === "leaf" ? leafShadow(of, this.software) : null;
-    surface.customProgramCacheKey = () => what;
-    shadow && (shadow.customProgramCacheKey = () => "leaf shadow");
-    const worn = { of: said, surface, shadow };
-    this.worn.set(name, worn);
-    this.dress(of, worn, passing);
-    return worn;
-  }
-
-  private dress(of: Material, { surface, shadow }: Worn, passing: { value: Texture | null }): void {
-    const put: Record<MapKind, (map: Texture) => void> = {
-      color: (map) => { surface.map = map; surface.color.setRGB(of.color[0]!, of.color[1]!, of.color[2]!); if (shadow) { shadow.map = map; shadow.needsUpdate = true; } },
-      normal: (map) => { surface.normalMap = map; },
-      roughness: (map) => { surface.roughnessMap = map; surface.roughness = 1; },
-      translucency: (map) => { passing.value = map; },
-    };
-    if (shadow) surface.visible = false; // until its colours are there: cards without them are squares
-    else if (of.maps.includes("color")) surface.color.set(BARE); // wood stands at once, as plain wood
-    const shown = (): void => {
-      surface.visible = surface.needsUpdate = true;
-      this.changed();
-    };
-    const worth = this.software && shadow ? ["color", "translucency"] : of.maps; // a leaf's veins are not worth their time there
-    const bring = (kind: MapKind): Promise<void> => this.textures.get(of.key, kind, of.cutoff).then((map) => put[kind](map));
-    const kinds = (of.maps as MapKind[]).filter((kind) => worth.includes(kind));
-    const first = kinds.filter((kind) => kind === "color").map((kind) => bring(kind).then(shown));
-    void Promise.allSettled([...first, ...kinds.filter((kind) => kind !== "color").map(bring)]).then(shown); // of what the program has not, the plain colour stays
   }
 }
 

@@ -82,10 +82,10 @@ export function woodMaterial(of: Material, lighting: Lighting): MeshStandardMate
   return material;
 }
 
-/** The material of a card that is drawn at many places, or `baked` into one mesh. */
-export function leafMaterial(of: Material, lighting: Lighting, passing: { value: Texture | null }, isBaked: boolean): MeshStandardMaterial {
+/** The material of a card that is drawn at many places, or `baked` into one mesh. `sampled`: a pixel has several samples, which its edge may cover. */
+export function leafMaterial(of: Material, lighting: Lighting, passing: { value: Texture | null }, isBaked: boolean, sampled: boolean): MeshStandardMaterial {
   const material = standard(of);
-  material.alphaToCoverage = of.cutoff !== null && !isBaked; // where leaves are baked there are no samples to cover
+  material.alphaToCoverage = of.cutoff !== null && sampled;
   material.onBeforeCompile = (shader) => {
     share(shader, lighting, true);
     shader.uniforms.uPassing = passing;
@@ -97,7 +97,7 @@ export function leafMaterial(of: Material, lighting: Lighting, passing: { value:
       + shader.fragmentShader
         .replace("#include <lights_physical_pars_fragment>", passingLight(ShaderChunk.lights_physical_pars_fragment))
         .replace("#include <aomap_fragment>", SKY_FALLS)
-        .replace("#include <alphatest_fragment>", isBaked ? "#include <alphatest_fragment>" : COVERED)
+        .replace("#include <alphatest_fragment>", sampled ? COVERED : "#include <alphatest_fragment>")
         .replace("#include <map_fragment>", `#include <map_fragment>\ndiffuseColor.rgb *= vTint;
 #ifdef USE_MAP
 passed = uPasses * vTint * texture2D(uPassing, vMapUv).rgb;
