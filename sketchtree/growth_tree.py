@@ -48,7 +48,7 @@ from sketchtree.trunk.as_tree import as_tree
 from sketchtree.trunk.edit_matte import edit_matte
 from sketchtree.trunk.edits import VertexEdits
 from sketchtree.trunk.limbs import trunk_drawing
-from sketchtree.trunk.skeletonise import trunk_skeleton
+from sketchtree.trunk.skeletonise import GAP, trunk_skeleton
 from sketchtree.trunk.trunk_skeleton import TrunkSkeleton
 from sketchtree.watch import Watch
 
@@ -79,8 +79,8 @@ class TrunkOptions:
 
     matting: str = DEFAULT  # of `matting.matte.MATTINGS`
     lift: str = "siblings"  # of `trunk.as_tree.LIFTS`
-    gap: float = 0.0  # pixels over which pieces of the matte belong together, ≥ 0
-    root: tuple[float, float] | None = None  # a point where the trunk stands, pixels, y down; None: its lowest
+    gap: float = GAP  # pixels over which pieces of the matte belong together, ≥ 0
+    root: tuple[float, float] | None = None  # a point where the trunk stands, pixels, y down; None: the middle of its foot
 
     def __post_init__(self):
         if not 0 <= self.gap <= 10_000:

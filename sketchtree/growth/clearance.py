@@ -1,4 +1,4 @@
-"""Where would a new branch run through thick wood, or into the ground?"""
+"""Where would a new branch run through thick wood, into the ground, or hang far below the crown?"""
 
 from dataclasses import dataclass
 
@@ -6,11 +6,13 @@ import numpy as np
 from jaxtyping import Bool, Float
 from scipy.spatial import cKDTree
 
+from sketchtree.growth.crown_base import crown_base
 from sketchtree.growth.straight import radius_at_start
 from sketchtree.skeleton import TreeSkeleton
 
 THICK = 0.2  # of the radius at the ground: wood that nothing may run through
 _ABOVE = 0.02  # of the tree's height: as near as new wood comes to the ground
+_HANGS = 0.2  # of the height at which the crown begins: so far below may new wood hang
 _NEAREST = 6  # samples asked
 
 
@@ -20,7 +22,7 @@ class Clearance:
 
     tree: cKDTree | None
     radius: Float[np.ndarray, " sample"]
-    ground: float  # metres
+    lowest: float  # metres: height below which no new wood goes down
 
     @classmethod
     def of(cls, tree: TreeSkeleton) -> "Clearance":
@@ -32,13 +34,15 @@ class Clearance:
         share = (np.arange(len(row)) - np.repeat(np.cumsum(count) - count, count)) / np.repeat(np.maximum(count - 1, 1), count)
         radius = (1 - share) * radius_at_start(tree)[row] + share * tree.radius[row]
         points = tree.start[row] + share[:, None] * tree.vector[row]
-        return cls(cKDTree(points) if len(points) else None, radius, low + _ABOVE * tree.height)
+        base = crown_base(tree) if len(tree) else None
+        lowest = _ABOVE * tree.height if base is None else max(_ABOVE * tree.height, (1 - _HANGS) * (base - low))
+        return cls(cKDTree(points) if len(points) else None, radius, low + lowest)
 
     def blocked(
         self, start: Float[np.ndarray, "piece 3"], end: Float[np.ndarray, "piece 3"], foot: Float[np.ndarray, "piece 3"], near: Float[np.ndarray, " piece"]
     ) -> Bool[np.ndarray, " piece"]:
-        """Pieces that go below the ground's margin, or whose middle or end lies in thick wood farther than `near` metres from their foot."""
-        bad = (end[:, 1] < self.ground) & (end[:, 1] < start[:, 1])
+        """Pieces that go down below the lowest height, or whose middle or end lies in thick wood farther than `near` metres from their foot."""
+        bad = (end[:, 1] < self.lowest) & (end[:, 1] < start[:, 1])
         if self.tree is None or len(start) == 0:
             return bad
         for point in (0.5 * (start + end), end):

@@ -6,6 +6,7 @@ import numpy as np
 from jaxtyping import Bool, Float, Int
 
 from sketchtree.growth.across import any_across, turned, unit
+from sketchtree.growth.crown_base import crown_base
 from sketchtree.growth.library import BranchUnit
 from sketchtree.growth.manner import Manner, Spread
 from sketchtree.keys import normal, uniform
@@ -103,7 +104,9 @@ def _tip_feet(host: TreeSkeleton, tips, size, chance: Chance) -> Feet:
 def _side_feet(host: TreeSkeleton, wood, run, length, tall: float, chance: Chance) -> Feet:
     scale, turn = chance.manner.scale, chance.manner.turn
     size = np.clip(scale.mean * (length - run + 0.25 * length), SHORTEST * tall, LONGEST * tall)
-    free = wood & (child_count(host.parent) == 1) & (run > BARE * length) & (host.radius < SLENDER * host.radius.max())
+    base = crown_base(host)
+    above = True if base is None else host.tip[:, 1] >= base
+    free = wood & (child_count(host.parent) == 1) & (run > BARE * length) & (host.radius < SLENDER * host.radius.max()) & above
     rows = np.flatnonzero(free)
     rows = rows[_spaced(host.limb[rows], run[rows], APART * size[rows])]
     limb, way, rank = host.limb[rows], unit(host.vector[rows]), _rank_of(host.limb[rows])

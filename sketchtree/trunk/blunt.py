@@ -2,9 +2,9 @@
 
 Evolution keeps both corners of a limb that is cut straight across, and the axis forks into them. Ours, beside the paper: a branch from a fork f to its tip t stays if it protrudes,
 
-    |t − f| + r_t − r_f  ≥  max(least, share · r_f)
+    |t − f| + r_t − r_f  ≥  max(least, share · r_f, `SPUR` · r_own)
 
-r the radius of the largest circle. Where that at the fork reaches the ground, so do the corners of the foot and the roots, and `FEET` is the share. The one that protrudes least goes first, and its fork is none any more. Tips that a person asked for stay in any case.
+r the radius of the largest circle, r_own the median of those along the branch outside the fork's: a spur shorter than it is thick is no limb. Where that at the fork reaches the ground, so do the corners of the foot and the roots, and `FEET` is the share. The one that protrudes least goes first, and its fork is none any more. Tips that a person asked for stay in any case.
 """
 
 import heapq
@@ -17,6 +17,7 @@ from sketchtree.axes import NULL
 from sketchtree.trunk.rooted import Rooted
 
 SHARE = 0.5
+SPUR = 2.0
 FEET = 4.0  # at a fork whose circle reaches the ground: length of a corner of the foot, or of a root that spreads, in radii of the circle
 _GROUND = 2.0  # pixels above the root
 
@@ -68,7 +69,18 @@ class _Alive:
             return None
         (x, y), (fx, fy), wide = self.xy[tip], self.xy[fork], self.radius[fork]
         foot = fy + wide >= self.xy[0][1] - _GROUND and y > fy
-        return math.hypot(x - fx, y - fy) + self.radius[tip] - wide - max(self.least, (FEET if foot else self.share) * wide), tip, fork
+        must = max(self.least, (FEET if foot else self.share) * wide, SPUR * self.thickness(tip, fork))
+        return math.hypot(x - fx, y - fy) + self.radius[tip] - wide - must, tip, fork
+
+    def thickness(self, tip: int, fork: int) -> float:
+        """The median radius of a branch outside the circle of its fork."""
+        (fx, fy), found, at = self.xy[fork], [], tip
+        while at != fork:
+            x, y = self.xy[at]
+            if math.hypot(x - fx, y - fy) > self.radius[fork]:
+                found.append(self.radius[at])
+            at = self.parent[at]
+        return float(np.median(found)) if found else 0.0
 
     def remove(self, tip: int, fork: int) -> int | None:
         """Take a branch away; returns the tip that its fork's other child leads to without another fork, if one does."""

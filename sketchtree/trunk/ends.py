@@ -43,8 +43,8 @@ def clear_of_end(line: Line, radius: Float[np.ndarray, " point"]) -> Bool[np.nda
 
 
 def clear_of_ground(line: Line, radius: Float[np.ndarray, " point"]) -> Bool[np.ndarray, " point"]:
-    """Whose circles do not reach down to the chain's last point, a foot? Those of a corner of it all touch the ground."""
-    return line[:, 1] + radius <= line[-1, 1] - _ABOVE
+    """Whose circles do not reach down as far as that of the chain's last point, a foot?"""
+    return line[:, 1] + radius <= line[-1, 1] + radius[-1] - _ABOVE
 
 
 def led_out(line: Line, radius: Float[np.ndarray, " point"], clear: Bool[np.ndarray, " point"], within: Callable[[Line], np.ndarray]) -> tuple[Line, float]:

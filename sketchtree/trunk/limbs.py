@@ -1,6 +1,6 @@
 """Which branch carries each limb on, and which ones grow from it? The trunk's graph as a drawing, so that all that is done to strokes can be done to it.
 
-Where the axis forks, the limb goes on in the branch that is straightest for its thickness: the least of (bend in radians − r / r_widest), the bend measured over two radii of the fork's circle and 8 pixels at
+Where the axis forks, the limb goes on in the branch that is straightest for its thickness, of those that carry at least `CARRIES` of what the heaviest carries (a twig that happens to be straight carries no trunk on): the least of (bend in radians − r / r_widest), the bend measured over two radii of the fork's circle and 8 pixels at
 least, r the median radius of what follows up to the next fork. A limb is as thick at its foot as where it leaves its parent. Limbs are called trunk, trunk.1, trunk.1.2 …: ids are of these names.
 """
 
@@ -15,9 +15,11 @@ from sketchtree.photo.marked import Marked
 from sketchtree.photo.trace.traced import Traced
 from sketchtree.sketch.graph import SketchGraph
 from sketchtree.sketch.strokes import Sketch
+from sketchtree.trunk.borne import borne_radius, carried
 from sketchtree.trunk.rooted import chains
 from sketchtree.trunk.trunk_skeleton import TrunkSkeleton
 
+CARRIES = 0.25
 _LOOK, _LEAST_LOOK = 2.0, 8.0  # radii of the fork's circle; pixels
 
 
@@ -30,7 +32,8 @@ def trunk_drawing(skeleton: TrunkSkeleton, name: str = "trunk") -> tuple[Sketch,
     xy, radius = skeleton.xy[order], skeleton.radius[order]
     limb, rank = limb_of(parent, xy, radius)
     count = int(limb.max()) + 1
-    traced = Traced(parent, xy, own_radius(parent, xy, radius, limb), rank, limb, np.ones(len(parent), bool), skeleton.warnings)
+    thick = borne_radius(parent, xy, own_radius(parent, xy, radius, limb), limb)
+    traced = Traced(parent, xy, thick, rank, limb, np.ones(len(parent), bool), skeleton.warnings)
     marked = Marked(np.zeros((0, 2)), (np.zeros((0, 2)),) * count, ("trunk",) * count)
     sketch, graph = as_drawing([(traced, marked)], name, outlines=[()])
     told = tuple(dataclasses.replace(one, reason="a branch of the matte's skeleton") for one in graph.attachments)
@@ -40,13 +43,14 @@ def trunk_drawing(skeleton: TrunkSkeleton, name: str = "trunk") -> tuple[Sketch,
 def limb_of(parent: Int[np.ndarray, " node"], xy, radius) -> tuple[Int[np.ndarray, " node"], Int[np.ndarray, " node"]]:
     """(limb, branching order) of every node; limb 0 is the trunk."""
     limb, rank = np.zeros(len(parent), np.int64), np.zeros(len(parent), np.int64)
+    wood = carried(parent, np.r_[0.0, np.hypot(*(xy[1:] - xy[parent[1:]]).T)])
     starting: dict[int, list[list[int]]] = {}
     for chain in chains(parent):
         starting.setdefault(chain[0], []).append(chain)
     before = {0: np.array([0.0, -1.0])}  # direction in which each fork is reached
     count = 1
     for fork in sorted(starting):
-        apical = _straightest(starting[fork], before[fork], xy, radius)
+        apical = _straightest(starting[fork], before[fork], xy, radius, wood)
         for k, chain in enumerate(starting[fork]):
             own = k == apical
             limb[chain[1:]] = limb[fork] if own else count
@@ -67,11 +71,12 @@ def own_radius(parent: Int[np.ndarray, " node"], xy, radius, limb: Int[np.ndarra
     return thick
 
 
-def _straightest(own: list[list[int]], before, xy, radius) -> int:
+def _straightest(own: list[list[int]], before, xy, radius, wood) -> int:
+    heavy = [float(wood[chain[1]]) for chain in own]
     wide = [float(np.median(radius[chain[1:]])) for chain in own]
     onward = [_direction(xy[chain], 1.0, radius[chain[0]]) for chain in own]
     bend = [float(np.arccos(np.clip(before @ step, -1.0, 1.0))) for step in onward]
-    return int(np.argmin([b - w / max(wide) for b, w in zip(bend, wide, strict=True)]))
+    return int(np.argmin([b - w / max(wide) if h >= CARRIES * max(heavy) else np.inf for b, w, h in zip(bend, wide, heavy, strict=True)]))
 
 
 def _direction(line, sign: float, radius: float):

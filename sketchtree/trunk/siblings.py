@@ -14,7 +14,8 @@ A limb that sets out along d on the page, and z towards the viewer for every uni
     z = ((d·u) tan θ − d·w) / w_z
 
 The side on which a limb is drawn is known, cos θ has its sign: an angle that says the other side is mirrored, θ → π − θ, which keeps the side towards the viewer. A limb at θ near ±π/2 would leave the page without
-bound: from `STEEPEST` / 2 on, z only tends to `STEEPEST`. z goes on with the length on the page; x and y are never touched.
+bound: from `STEEPEST` / 2 on, z only tends to `STEEPEST`. z goes on with the length on the page; x and y are never touched. A limb that turns up on the page turns up in depth too, ours: where it is steeper than
+where it set out, z goes on the less, by the ratio of the sines to the vertical, `LEAST_ON` at least.
 """
 
 import math
@@ -27,6 +28,8 @@ from sketchtree.keys import normal
 from sketchtree.sketch.graph import SketchGraph
 
 STEEPEST = 1.0
+LEAST_ON = 0.35
+_UPRIGHT = 0.1  # sine to the vertical: a limb that sets out steeper than that has no side that it could turn up from
 GOLDEN = (3.0 - math.sqrt(5.0)) / 2.0
 SPREAD = float(np.radians(20.0))  # σ
 
@@ -46,15 +49,17 @@ def golden_step(k: int) -> int:
 
 def sibling_depth(graph: SketchGraph, angle: Float[np.ndarray, " limb"]) -> Float[np.ndarray, " segment"]:
     """z of every node towards the viewer, sketch units."""
-    slope, depth = np.zeros(len(graph.limb_id)), np.zeros(len(graph))
+    slope, aside, depth = np.zeros(len(graph.limb_id)), np.ones(len(graph.limb_id)), np.zeros(len(graph))
     for row in range(len(graph)):
         up, limb = graph.parent[row], graph.limb[row]
         if up == NULL:
             continue
         if row == graph.limb_first[limb] and graph.limb_parent[limb] != NULL:
             host = graph.limb[up]
+            aside[limb] = max(abs(float(_onward(graph, row)[0])), _UPRIGHT)
             slope[limb] = leaving(_onward(graph, row), np.append(_tangent(graph, up, host), slope[host]), float(angle[limb]))
-        depth[row] = depth[up] + slope[limb] * float(np.hypot(*np.diff(graph.curve(row), axis=0).T).sum())
+        on = float(np.clip(abs(_onward(graph, row)[0]) / aside[limb], LEAST_ON, 1.0))
+        depth[row] = depth[up] + on * slope[limb] * float(np.hypot(*np.diff(graph.curve(row), axis=0).T).sum())
     return depth
 
 

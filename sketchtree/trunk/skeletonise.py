@@ -1,6 +1,6 @@
 """A matte in, the trunk's skeleton out (§II.2, Algorithm 1), every step in order.
 
-    alpha → binary → contour → discrete curve evolution → edits by hand → segments → medial axis, pruned → rooted tree → blunt ends off → smooth lines up to the contour
+    alpha → binary → contour → discrete curve evolution → edits by hand → segments → medial axis, pruned → rooted tree → blunt ends off, bare below the crown → smooth lines up to the contour
 """
 
 import numpy as np
@@ -14,6 +14,7 @@ from sketchtree.trunk.blunt import without_blunt
 from sketchtree.trunk.edits import VertexEdits, Vertices, edited
 from sketchtree.trunk.ends import clear_of_end, clear_of_ground, led_out, smooth, telling
 from sketchtree.trunk.evolution import evolve
+from sketchtree.trunk.foot import bare_below, stands_at
 from sketchtree.trunk.medial import medial_axis, within
 from sketchtree.trunk.noise import noise_level, roughness
 from sketchtree.trunk.outline import Outline, outline
@@ -31,7 +32,7 @@ _NEAR = 2.0  # pixels: a tip so near to a vertex that a person added is the one 
 def trunk_skeleton(
     alpha: Float[np.ndarray, "row column"], *, vertices: int | None = None, edits: VertexEdits = VertexEdits(), root: tuple[float, float] | None = None, gap: float = 0.0
 ) -> TrunkSkeleton:
-    """The skeleton of the trunk in a matte. `vertices`: m (None: by the contour's roughness); `root`: a point of the trunk where it stands (None: the lowest); `gap`: of pieces that belong to it.
+    """The skeleton of the trunk in a matte. `vertices`: m (None: by the contour's roughness); `root`: a point of the trunk where it stands (None: the middle of its foot); `gap`: of pieces that belong to it.
     Pixels, y down.
 
     Raises SketchError for an empty matte, OptionError for m < 3 and for edits of what does not exist."""
@@ -47,9 +48,11 @@ def trunk_skeleton(
     axis = medial_axis(binary, shape.rings, segments(shape.rings, polygon))
     told += [f"Parts of the trunk, {axis.lost:.0f} pixels long, hang on it by less than a pixel, and were left out."] if axis.lost > _LOST else []
     nearest = KDTree(np.concatenate(shape.rings))
-    start = _start(axis.xy, root)
-    tree, _ = rooted(axis.xy, axis.edges, nearest.query(axis.xy)[0], start)
+    wide = nearest.query(axis.xy)[0]
+    tree, _ = rooted(axis.xy, axis.edges, wide, stands_at(axis.xy, wide) if root is None else int(np.argmin(np.hypot(*(axis.xy - root).T))))
     tree = without_blunt(tree, _asked(tree, shape, polygon), max(_PROTRUDES, _ROUGH * roughness(shape.rings)))
+    tree, below = bare_below(tree, _asked(tree, shape, polygon))
+    told += [f"{below} short {'branch' if below == 1 else 'branches'} below the crown {'was' if below == 1 else 'were'} left out."] if below else []
     return _finished(tree, binary, nearest, shape, polygon, root, (*binary.warnings, *told))
 
 
@@ -61,11 +64,6 @@ def _evolved(shape: Outline, asked: int | None) -> tuple[Vertices, list[str]]:
         why = "the contour has no more" if found.count < asked else "with fewer it would cross itself"
         told = [f"{asked} vertices were asked for; {found.count} are left, since {why}."]
     return Vertices.of(found.kept, [convex(ring[rows]) for ring, rows in zip(shape.rings, found.kept, strict=True)]), told
-
-
-def _start(xy, root) -> int:
-    """The node to walk from: the one nearest to the root, or the lowest."""
-    return int(np.argmax(xy[:, 1])) if root is None else int(np.argmin(np.hypot(*(xy - root).T)))
 
 
 def _asked(tree: Rooted, shape: Outline, polygon: Vertices):

@@ -7,6 +7,7 @@ from growth_trees import bare_trunk, crown, curved, same
 from sketchtree.axes import NULL
 from sketchtree.errors import OptionError
 from sketchtree.growth.clearance import Clearance
+from sketchtree.growth.crown_base import crown_base
 from sketchtree.growth.grafting import Graft, variations
 from sketchtree.growth.library import LIBRARY
 from sketchtree.growth.manner import Manner
@@ -133,6 +134,23 @@ def test_nothing_runs_through_thick_wood():
         foot[row] = foot[tree.parent[row]] if tree.parent[row] >= len(trunk) else tree.parent[row]
     near = 3.0 * tree.radius[foot[new]]
     assert not clear.blocked(tree.start[new], tree.tip[new], tree.tip[foot[new]], near).any()
+
+
+def test_nothing_is_grafted_on_below_the_first_limb_nor_hangs_far_below_it():
+    base = crown_base(bare_trunk())
+    assert base == pytest.approx(bare_trunk().tip[4, 1])
+    full = crown(3)
+    grown = np.flatnonzero(full.kind == int(Kind.GROWN))
+    assert full.start[grown, 1].min() >= 0.8 * base and full.tip[grown, 1].min() >= 0.79 * base
+    low = grown[(full.limb[full.parent[grown]] == 0) & (full.order[full.parent[grown]] == 0)]
+    assert len(low) and full.start[low, 1].min() >= base
+
+
+def test_a_crown_begins_with_a_limb_not_with_a_twig():
+    tree = bare_trunk()
+    twig = tree.append({"parent": np.array([2]), "tip": tree.tip[[2]] + [0.1, 0.05, 0], "radius": np.array([0.01]), "limb": np.array([99]), "order": np.array([1])})
+    assert crown_base(twig) == crown_base(tree)
+    assert crown_base(tree.select(tree.order == 0)) is None
 
 
 def test_the_same_key_gives_the_same_tree_and_another_another():

@@ -4,7 +4,7 @@ import numpy as np
 import pytest
 from silhouettes import capsules
 
-from sketchtree.trunk.blunt import without_blunt
+from sketchtree.trunk.blunt import SPUR, without_blunt
 from sketchtree.trunk.ends import clear_of_end, clear_of_ground, led_out, smooth, telling
 from sketchtree.trunk.noise import LEAST, noise_level, roughness
 from sketchtree.trunk.rooted import Rooted, chains
@@ -96,3 +96,11 @@ def test_straight_lines_have_few_points_and_no_long_pieces():
 
 def test_chains_run_from_fork_to_fork():
     assert chains(np.array([-1, 0, 1, 2, 2, 3])) == [[0, 1, 2], [2, 3, 5], [2, 4]]
+
+
+def test_a_spur_shorter_than_it_is_thick_is_no_limb():
+    def spur(reach):
+        xy = np.array([[0.0, 0.0], [0.0, -30.0], [0.0, -60.0], [6.5, -30.0], [reach, -30.0]])
+        return len(without_blunt(Rooted(np.array([-1, 0, 1, 1, 3]), xy, np.array([6.0, 6.0, 1.0, 4.0, 4.0])), np.zeros(5, bool), 1.0).parent)
+
+    assert spur(6.0 + SPUR * 4.0 - 4.0 + 0.01) == 5 and spur(6.0 + SPUR * 4.0 - 4.0 - 0.01) == 3

@@ -144,3 +144,18 @@ def test_an_unknown_lift_or_height_is_refused():
         as_tree(skeleton, key=KEY, lift="okabe")
     with pytest.raises(OptionError, match=re.escape("A height of -1 m is not positive. Give metres above 0.")):
         as_tree(skeleton, key=KEY, height=-1.0)
+
+
+def test_a_straight_twig_carries_no_trunk_on():
+    xy = np.array([[0.0, 0.0], [0.0, -20.0], [0.0, -28.0], [8.0, -40.0], [14.0, -80.0]])
+    limb, _ = limb_of(np.array([-1, 0, 1, 1, 3]), xy, np.array([5.0, 4.0, 4.0, 3.0, 3.0]))
+    assert limb.tolist() == [0, 0, 1, 0, 0]
+
+
+def test_a_limb_that_turns_up_on_the_page_turns_up_in_depth_too():
+    bent = capsules([((50.0, 130.0), (50.0, 20.0), 6.0), ((50.0, 90.0), (80.0, 80.0), 3.0), ((80.0, 80.0), (84.0, 30.0), 3.0)])
+    _, graph = trunk_drawing(trunk_skeleton(bent))
+    rows = np.flatnonzero(graph.limb == 1)
+    depth = sibling_depth(graph, np.where(graph.limb_parent < 0, np.nan, 0.9))[rows]
+    rise = np.diff(depth) / np.hypot(*np.diff(graph.xy[rows], axis=0).T)
+    assert abs(rise[0]) > 2.0 * abs(rise[-1]) > 0.0
