@@ -47,8 +47,7 @@ def _smaller(photo: Photo, scribbles: Scribbles, method: str, largest: int, key)
     size = max(int(photo.width * scale), _SMALLEST), max(int(photo.height * scale), _SMALLEST)
     small = Photo(np.asarray(Image.fromarray(photo.rgb).resize(size, Image.Resampling.BOX)), None, photo.name)
     along = np.array([size[0] / photo.width, size[1] / photo.height])
-    lines = [tuple(line * along for line in side) for side in (scribbles.foreground, scribbles.background)]
-    found = MATTINGS[method](small, _apart(Scribbles(lines[0], lines[1], scribbles.brush * scale, scribbles.name), small), key=key)
+    found = MATTINGS[method](small, _apart(scribbles.scaled(along, scale), small), key=key)
     alpha = np.asarray(Image.fromarray(np.asarray(found.alpha)).resize((photo.width, photo.height), Image.Resampling.BILINEAR))
     told = f"{photo.name} has {photo.width} × {photo.height} pixels; the matte was found on {size[0]} × {size[1]} and enlarged."
     return Matte(np.clip(alpha, 0, 1), found.method, found.course, (*scribbles.warnings, told, *found.warnings))
@@ -61,5 +60,5 @@ def _apart(scribbles: Scribbles, photo: Photo) -> Scribbles:
     except SketchError as error:
         if "as foreground and as background" not in error.message or scribbles.brush < 1e-3:
             raise
-        return _apart(Scribbles(scribbles.foreground, scribbles.background, scribbles.brush / 2, scribbles.name), photo)
+        return _apart(scribbles.scaled(np.ones(2), 0.5), photo)
     return scribbles

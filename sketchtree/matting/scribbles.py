@@ -2,12 +2,13 @@
 
     {"foreground": [[[x, y], ...], ...], "background": [...], "brush": px}
 
-Pixels, x right, y DOWN; the middle of the pixel in row r and column c is (c + ½, r + ½). A brush is round and `brush` pixels across. An SVG says by layer or id which is
+Pixels, x right, y DOWN; the middle of the pixel in row r and column c is (c + ½, r + ½). A brush is round and `brush` pixels across. In a drawing every line has its own width. An SVG says by layer or id which is
 which, and its page (viewBox) is the photo.
 """
 
 import os
-from dataclasses import dataclass, field
+from collections.abc import Sequence
+from dataclasses import dataclass, field, replace
 from pathlib import Path
 from typing import Any
 
@@ -16,11 +17,11 @@ from jaxtyping import Bool, Float
 
 from sketchtree.errors import SketchError
 from sketchtree.photo.page_over import page_over
-from sketchtree.photo.photo import Photo
+from sketchtree.photo.photo import Photo, turned_over
 from sketchtree.sketch.files.json_text import parse_json
 from sketchtree.sketch.files.limits import MAX_MB, inflate, read_bytes
 from sketchtree.sketch.formats import read_sketch
-from sketchtree.sketch.strokes import SCRIBBLES, StrokeKind
+from sketchtree.sketch.strokes import SCRIBBLES, Stroke, StrokeKind
 
 BRUSH = 3.0  # pixels across, where a file doesn't say
 SIDES = ("foreground", "background")
@@ -37,10 +38,13 @@ class Scribbles:
     brush: float = BRUSH  # pixels across
     name: str = "scribbles"
     warnings: tuple[str, ...] = field(default=())
+    brushes: tuple[tuple[float, ...], tuple[float, ...]] | None = None  # of each line of either side, pixels across; None: all are `brush`
 
     def __post_init__(self):
-        if not (np.isfinite(self.brush) and self.brush > 0):
-            raise SketchError(f"{self.name} has a brush of {self.brush:g} pixels.", remedy="Give `brush` as the line's width in pixels, above 0.")
+        for brush in (self.brush, *(one for side in self.brushes or () for one in side)):
+            if not (np.isfinite(brush) and brush > 0):
+                raise SketchError(f"{self.name} has a brush of {brush:g} pixels.", remedy="Give `brush` as the line's width in pixels, above 0.")
+        assert self.brushes is None or [len(side) for side in self.brushes] == [len(self.foreground), len(self.background)], "a brush a line"
         for side in SIDES:
             lines = tuple(np.array(line, np.float64).reshape(-1, 2) for line in getattr(self, side))
             for k, line in enumerate(lines):
@@ -53,7 +57,7 @@ class Scribbles:
     def masks(self, photo: Photo) -> tuple[Bool[np.ndarray, "row column"], Bool[np.ndarray, "row column"]]:
         """The pixels under the foreground's and under the background's lines. Raises SketchError where a side has none in the photo, or both have the same."""
         shape = (photo.height, photo.width)
-        fore, back = (painted(getattr(self, side), self.brush, shape) for side in SIDES)
+        fore, back = (painted(getattr(self, side), self.brush if self.brushes is None else self.brushes[k], shape) for k, side in enumerate(SIDES))
         if not self.foreground and not self.background:
             raise SketchError(f"{self.name} is empty.", remedy="Draw one line along the trunk (foreground) and one beside the tree (background).")
         for side, mask in zip(SIDES, (fore, back), strict=True):
@@ -70,6 +74,12 @@ class Scribbles:
             )
         return fore, back
 
+    def scaled(self, along: Float[np.ndarray, " 2"], scale: float) -> "Scribbles":
+        """The same on a photo of another size: x and y times `along`, brushes times `scale`."""
+        lines = (tuple(line * along for line in getattr(self, side)) for side in SIDES)
+        brushes = None if self.brushes is None else tuple(tuple(scale * brush for brush in side) for side in self.brushes)
+        return Scribbles(*lines, scale * self.brush, self.name, self.warnings, brushes)
+
     def leaving(self, photo: Photo) -> tuple[str, ...]:
         """A warning for every line that leaves the photo: only what lies inside counts."""
         told = []
@@ -84,11 +94,11 @@ def _wanted(side: str) -> str:
     return "Draw a line along the trunk." if side == "foreground" else "Draw a line beside the tree, over what is behind it."
 
 
-def painted(lines, brush: float, shape: tuple[int, int]) -> Bool[np.ndarray, "row column"]:
-    """The pixels whose middle lies within half a brush of a line, and those that hold one of its points."""
+def painted(lines, brush: float | Sequence[float], shape: tuple[int, int]) -> Bool[np.ndarray, "row column"]:
+    """The pixels whose middle lies within half a brush of a line, and those that hold one of its points. `brush`: of all lines, or of each."""
     mask = np.zeros(shape, bool)
-    for line in lines:
-        _paint(mask, line, brush / 2)
+    for line, width in zip(lines, np.broadcast_to(np.asarray(brush, np.float64), len(lines)), strict=True):
+        _paint(mask, line, width / 2)
         column, row = np.floor(line).astype(np.int64).T if np.abs(line).max() < 1e9 else np.full((2, len(line)), -1)
         inside = (row >= 0) & (row < shape[0]) & (column >= 0) & (column < shape[1])
         mask[row[inside], column[inside]] = True
@@ -116,7 +126,7 @@ def read_scribbles(path: str | os.PathLike, photo: Photo, *, max_mb: float = MAX
     document = parse_json(data, path.name) if data.lstrip(b"\xef\xbb\xbf \t\r\n").startswith((b"{", b"[")) else None
     drawing = document is None or isinstance(document, dict) and "sketchtree" in document
     found = _of_drawing(path, photo, max_mb) if drawing else _of_json(document, path.name)
-    return Scribbles(found.foreground, found.background, found.brush, path.name, found.warnings + found.leaving(photo))
+    return replace(found, warnings=found.warnings + found.leaving(photo))
 
 
 def _of_json(document: Any, name: str) -> Scribbles:
@@ -156,14 +166,24 @@ def _of_drawing(path: Path, photo: Photo, max_mb: float) -> Scribbles:
         left, bottom, right, top = sketch.page
         raise SketchError(f"{path.name} is drawn on a page of {right - left:g} × {top - bottom:g}, but the photo has {photo.width} × {photo.height} pixels.", remedy=_AGAIN)
     scale, shift = placed
-    sides: dict[str, list] = {side: [] for side in SIDES}
+    strokes = [replace(stroke, points=stroke.points * scale + shift * [1, -1], width=stroke.width and stroke.width * scale) for stroke in sketch.strokes]
+    return scribbled(strokes, path.name)
+
+
+def scribbled(strokes: Sequence[Stroke], name: str) -> Scribbles:
+    """The scribbles among strokes over a photo, in its pixels, y UP; each line as wide as it was drawn."""
+    sides: dict[str, list[Stroke]] = {side: [] for side in SIDES}
     nameless = 0
-    strokes = [stroke for stroke in sketch.strokes if stroke.kind not in (StrokeKind.MATTE_ADD, StrokeKind.MATTE_ERASE)]  # those edit the matte (`trunk.edit_matte`)
     for stroke in strokes:
+        if stroke.kind in (StrokeKind.MATTE_ADD, StrokeKind.MATTE_ERASE):
+            continue  # those edit the matte (`trunk.edit_matte`)
         said = stroke.kind.value if stroke.kind in SCRIBBLES else next((side for word in (stroke.id, stroke.layer) for side in SIDES if side in (word or "").lower()), None)
         nameless += said is None
         if said is not None:
-            sides[said].append(stroke.points * [scale, -scale] + shift)
-    widths = [stroke.width for stroke in strokes if stroke.width]
-    told = (f"{path.name}: {nameless} lines are in no layer called foreground or background; they were left out.",) if nameless else ()
-    return Scribbles(tuple(sides["foreground"]), tuple(sides["background"]), float(np.median(widths)) * scale if widths else BRUSH, path.name, told)
+            sides[said].append(stroke)
+    lines = (tuple(turned_over(stroke.points) for stroke in side) for side in sides.values())
+    widths = [stroke.width for side in sides.values() for stroke in side if stroke.width]
+    usual = float(np.median(widths)) if widths else BRUSH
+    brushes = tuple(tuple(float(stroke.width or usual) for stroke in side) for side in sides.values())
+    told = (f"{name}: {nameless} lines are in no layer called foreground or background; they were left out.",) if nameless else ()
+    return Scribbles(*lines, usual, name, told, brushes)

@@ -86,3 +86,24 @@ def test_a_line_that_leaves_the_photo_is_remarked_on(tmp_path):
 def test_lines_never_change_once_made():
     with pytest.raises(ValueError, match="read-only"):
         Scribbles((TRUNK,), (BESIDE,)).foreground[0][0] = 1.0
+
+
+def test_every_line_of_a_drawing_keeps_its_own_brush(tmp_path):
+    text = (
+        '<svg xmlns="http://www.w3.org/2000/svg" viewBox="0 0 60 80"><g id="foreground"><path d="M30 70 L30 20" fill="none" stroke="red" stroke-width="4"/>'
+        '<path d="M40 70 L40 20" fill="none" stroke="red" stroke-width="12"/></g><path id="background-1" d="M6 10 L6 70" fill="none" stroke="blue" stroke-width="8"/></svg>'
+    )
+    found = read_scribbles(written(tmp_path, text, "s.svg"), PHOTO)
+    assert found.brushes == (pytest.approx((2.0, 6.0)), pytest.approx((4.0,))) and found.brush == pytest.approx(4.0)
+    fore, back = found.masks(PHOTO)
+    assert fore[20].nonzero()[0].tolist() == [14, 15, *range(17, 23)] and back[20].nonzero()[0].tolist() == [1, 2, 3, 4]
+
+
+def test_brushes_shrink_with_the_photo():
+    found = Scribbles(([[10.0, 20.0]],), ([[2.0, 4.0]],), brushes=((6.0,), (3.0,))).scaled(np.array([0.5, 0.5]), 0.5)
+    assert found.brushes == ((3.0,), (1.5,)) and found.brush == 1.5 and found.foreground[0].tolist() == [[5.0, 10.0]]
+
+
+def test_a_brush_that_paints_nothing_is_refused():
+    with pytest.raises(SketchError, match="has a brush of 0 pixels. Give `brush` as the line's width in pixels, above 0."):
+        Scribbles(([[10.0, 20.0]],), ([[2.0, 4.0]],), brushes=((0.0,), (3.0,)))
