@@ -15,7 +15,7 @@ Line = Float[np.ndarray, "point 2"]
 
 _SHARE, _LEAST, _MOST = 0.5, 1.0, 6.0  # σ of the Gaussian: of the median radius; pixels
 _CLEAR = 1.6  # radii from the end: at a corner of a right angle the line is never farther than √2 of them, the corner's circles
-_REACH = 2.4  # radii of the last circle, and two pixels, within which the contour must be met
+_REACH = 2.4  # radii of the last circle, or as far as the chain's own last circle reaches, and two pixels: within that the contour must be met
 _BEHIND, _LEAST_BEHIND = 3.0, 8.0  # radii, and pixels, over which a limb's own direction is measured
 _ABOVE = 1.0  # pixels
 _STEP = 0.25  # pixels
@@ -58,7 +58,8 @@ def led_out(line: Line, radius: Float[np.ndarray, " point"], clear: Bool[np.ndar
     start = line[behind[-1]] if len(behind) else line[0]
     step = line[last] - start
     step = step / max(float(np.hypot(*step)), 1e-9)
-    far = np.arange(0.0, _REACH * wide + 2.0, _STEP)
+    reach = max(_REACH * wide, float(np.hypot(*(line[-1] - line[last]))) + float(radius[-1]))
+    far = np.arange(0.0, reach + 2.0, _STEP)
     out = np.flatnonzero(~within(line[last] + far[:, None] * step))
     if len(out) == 0 or out[0] == 0:
         return line, wide
