@@ -3,7 +3,7 @@
 import { expect, test, vi } from "vitest";
 import { Asking } from "../src/tree/growth/asking";
 import { Clock } from "../src/tree/growth/clock";
-import { folded, growthOf } from "../src/tree/growth/growth";
+import { growthOf, moved } from "../src/tree/growth/growth";
 import { leafwise } from "../src/tree/growth/leafwise";
 import { Pose } from "../src/tree/growth/pose";
 import { sample, tracksOf } from "../src/tree/growth/tracks";
@@ -41,8 +41,7 @@ function glb(json: object, columns: { array: Float32Array | Uint16Array | Uint8A
 }
 
 /** A triangle of wood on a joint that comes up to 2 m from the ground in 4 s, and one of leaves that unfolds in the last second. */
-function small(): ArrayBuffer {
-  const corners = Float32Array.of(0, 2, 0, 1, 2, 0, 0, 3, 0);
+function small(corners = Float32Array.of(0, 2, 0, 1, 2, 0, 0, 3, 0)): ArrayBuffer {
   const rest = Float32Array.of(1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1);
   const inverse = Float32Array.of(...rest, 1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0, 0, -2, 0, 1);
   const attributes = { POSITION: 0, NORMAL: 1, TEXCOORD_0: 2, JOINTS_0: 3, WEIGHTS_0: 4 };
@@ -69,7 +68,7 @@ function small(): ArrayBuffer {
 }
 
 /** Where the joint takes a point of the tree at rest. */
-function moved(matrices: Float32Array, joint: number, [x, y, z]: [number, number, number]): number[] {
+function taken(matrices: Float32Array, joint: number, [x, y, z]: [number, number, number]): number[] {
   return [0, 1, 2].map((row) => matrices[16 * joint + row]! * x + matrices[16 * joint + 4 + row]! * y + matrices[16 * joint + 8 + row]! * z + matrices[16 * joint + 12 + row]!);
 }
 
@@ -91,7 +90,7 @@ test("turns go the shorter way round", () => {
 test("a joint takes its vertices from where they come to where they are in the tree", () => {
   const growth = growthOf(small());
   const [pose, into] = [new Pose(growth.joints, growth.moves), new Float32Array(64)];
-  const tip = (second: number): number[] => { pose.at(second, into); return moved(into, 1, [0, 3, 0]); };
+  const tip = (second: number): number[] => { pose.at(second, into); return taken(into, 1, [0, 3, 0]); };
   expect([tip(0), tip(2), tip(4)]).toEqual([[0, 0, 0], [0, 1.5, 0], [0, 3, 0]]);
 });
 
@@ -99,7 +98,13 @@ test("the file's parts have their materials, and leaves the way back to their fo
   const { parts, seconds } = growthOf(small());
   expect(seconds).toBe(4);
   expect(parts.map((part) => [part.material, part.fold !== null, part.index.length, part.weight.constructor.name])).toEqual([["wood_oak", false, 3, "Uint8Array"], ["leaf_oak", true, 3, "Uint8Array"]]);
-  expect([0, 3, 3.5, 4, 9].map((second) => folded(parts[1]!.fold!, second))).toEqual([1, 1, 0.5, 0, 0]);
+  expect([0, 3, 3.5, 4, 9].map((second) => moved(parts[1]!.fold!, second))).toEqual([1, 1, 0.5, 0, 0]);
+  expect(parts[1]!.fold!.restsOut).toBe(true);
+});
+
+test("leaves that only the young tree bears are at their feet at rest", () => {
+  const growth = growthOf(small(Float32Array.of(0, 2, 0, 0, 2, 0, 0, 2, 0)));
+  expect(growth.parts[1]!.fold!.restsOut).toBe(false);
 });
 
 test("what is no file of a growth says so", () => {

@@ -4,10 +4,12 @@ import { Glb, type Channel, type Primitive } from "./glb";
 import type { Joints, Moves } from "./pose";
 import { before, tracksOf, type Tracks } from "./tracks";
 
+/** Leaves that unfold: those of the tree are drawn back to their feet before, those that only a young tree bears are so at rest. */
 export interface Fold {
-  back: Float32Array; // 3 a vertex, metres: from where it is to where it comes out
+  way: Float32Array; // 3 a vertex, metres: from where it is at rest
   time: Float32Array; // seconds
-  share: Float32Array; // of the way back, at each
+  share: Float32Array; // of that way, at each
+  restsOut: boolean; // at rest they are unfolded
 }
 
 export interface GrowthPart {
@@ -46,8 +48,8 @@ export function growthOf(bytes: ArrayBuffer): Growth {
   return { seconds, joints: jointsOf(glb, skin.joints, number, glb.floats(skin.inverseBindMatrices)), moves, parts };
 }
 
-/** The share of the way back to its foot that a leaf has at that second. */
-export function folded({ time, share }: Fold, second: number): number {
+/** The share of that way at that second. */
+export function moved({ time, share }: Fold, second: number): number {
   const key = before(time, 0, time.length - 1, second);
   const next = Math.min(key + 1, time.length - 1);
   const span = time[next]! - time[key]!;
@@ -67,14 +69,20 @@ function jointsOf(glb: Glb, joints: number[], number: Map<number, number>, inver
   return { parent, inverse, translation: rows("translation", [0, 0, 0]), rotation: rows("rotation", [0, 0, 0, 1]), scale: rows("scale", [1, 1, 1]) };
 }
 
-function partOf(glb: Glb, { attributes, indices, material, targets }: Primitive, fold: { time: Float32Array; value: Float32Array } | undefined): GrowthPart {
-  const back = targets?.[0];
+function partOf(glb: Glb, { attributes, indices, material, targets }: Primitive, curve: { time: Float32Array; value: Float32Array } | undefined): GrowthPart {
+  const way = targets?.[0];
+  const [position, index] = [glb.floats(attributes.POSITION!), glb.column(indices) as Uint32Array];
   return {
     material: glb.json.materials[material]!.name,
-    position: glb.floats(attributes.POSITION!), normal: glb.floats(attributes.NORMAL!), uv: glb.floats(attributes.TEXCOORD_0!),
+    position, index, normal: glb.floats(attributes.NORMAL!), uv: glb.floats(attributes.TEXCOORD_0!),
     tint: attributes.COLOR_0 === undefined ? null : (glb.column(attributes.COLOR_0) as Uint8Array),
     joint: glb.column(attributes.JOINTS_0!) as Uint16Array, weight: glb.column(attributes.WEIGHTS_0!) as Uint8Array,
-    index: glb.column(indices) as Uint32Array,
-    fold: back && fold ? { back: glb.floats(back.POSITION), time: fold.time, share: fold.value } : null,
+    fold: way && curve ? { way: glb.floats(way.POSITION), time: curve.time, share: curve.value, restsOut: !isPoint(position, index) } : null,
   };
+}
+
+/** Are all corners of the first triangle at one place? */
+function isPoint(position: Float32Array, index: Uint32Array): boolean {
+  const [a, b, c] = [3 * index[0]!, 3 * index[1]!, 3 * index[2]!];
+  return [0, 1, 2].every((k) => position[a + k] === position[b + k] && position[a + k] === position[c + k]);
 }

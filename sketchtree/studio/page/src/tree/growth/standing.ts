@@ -2,7 +2,7 @@
 
 import { BufferAttribute, BufferGeometry, DataTexture, Group, RGBAFormat, FloatType, Skeleton, SkinnedMesh, Sphere, Vector3, type MeshStandardMaterial } from "three";
 import type { Worn } from "../plant/wardrobe";
-import { folded, type Growth, type GrowthPart } from "./growth";
+import { moved, type Growth, type GrowthPart } from "./growth";
 import { leafwise } from "./leafwise";
 import { Pose } from "./pose";
 
@@ -59,10 +59,11 @@ export class Standing {
     let [out, all] = [0, 0];
     for (const { mesh, part } of this.parts) {
       if (!part.fold) continue;
-      const back = folded(part.fold, second);
-      mesh.morphTargetInfluences![0] = back;
-      mesh.visible = back < 1; // a leaf that is all at its foot is none
-      out += (1 - back) * part.index.length;
+      const share = (mesh.morphTargetInfluences![0] = moved(part.fold, second));
+      const open = part.fold.restsOut ? 1 - share : share;
+      mesh.visible = open > 0; // a leaf that is all at its foot is none
+      if (!part.fold.restsOut) continue; // a young tree's few shade nothing
+      out += open * part.index.length;
       all += part.index.length;
     }
     this.leafShare = all ? out / all : 0;
@@ -95,7 +96,7 @@ function geometryOf(part: GrowthPart): BufferGeometry {
   geometry.setAttribute("skinWeight", new BufferAttribute(part.weight, 4, !(part.weight instanceof Float32Array)));
   if (part.fold) {
     geometry.setAttribute("aTint", new BufferAttribute(part.tint ?? new Uint8Array((4 * part.position.length) / 3).fill(255), 4, true));
-    geometry.morphAttributes.position = [new BufferAttribute(part.fold.back, 3)];
+    geometry.morphAttributes.position = [new BufferAttribute(part.fold.way, 3)];
     geometry.morphTargetsRelative = true;
   }
   geometry.setIndex(new BufferAttribute(part.index, 1));
