@@ -66,13 +66,14 @@ def write_skeleton_of(path: Path, tree, made: Made, *, units: str = "metres", fr
 def asset_of(model, made: Made, files: FileOptions | None = None) -> Asset:
     """What a mesh file holds of the tree (or of a forest): its levels, the skeleton, and what it was made with."""
     if files is None:
-        return Asset.of(model.meshes, skeleton=model.skeleton, about=_about(model, made))
+        return Asset.of(model.meshes, skeleton=model.skeleton, about=about_of(model, made))
     from sketchtree.tree_asset import forest_asset, tree_asset
 
-    return (tree_asset if hasattr(model, "drawn") else forest_asset)(model, files, about=_about(model, made))
+    return (tree_asset if hasattr(model, "drawn") else forest_asset)(model, files, about=about_of(model, made))
 
 
-def _about(model, made: Made) -> dict:
+def about_of(model, made: Made) -> dict:
+    """What a file of ours tells of its tree."""
     drawn = getattr(model, "drawn", None)
     template = {} if drawn is None else {"template": drawn.exemplar.name if drawn.exemplar else None}
     return {"program": "SketchTree", "version": __version__, "seed": made.seed, "units": "metres", "up": "y"} | template
@@ -84,4 +85,4 @@ def _write_pack(model, output: Path, made: Made, files: FileOptions) -> None:
 
     levels = make_levels(model, pixel_error=files.pixel_error)
     far = levels[-1].parts[0] if levels[-1].parts and levels[-1].parts[0].name == "impostor" else None
-    write_pack(output.parent, game_pack(model, levels if far is None else levels[:-1], far, name=output.stem, about=_about(model, made)))
+    write_pack(output.parent, game_pack(model, levels if far is None else levels[:-1], far, name=output.stem, about=about_of(model, made)))

@@ -15,7 +15,7 @@ from sketchtree.editing.document import Document
 from sketchtree.errors import SketchError
 from sketchtree.studio.hand import Hand
 
-_PATIENCE = 1.5  # seconds in which what is stopped ends by itself, before its process is ended
+_PATIENCE = 6.0  # seconds in which what is stopped ends by itself, before its process is ended: another one begins slowly, and this one gives way to all others
 _FORGETS = 180.0  # seconds without a wish, after which the process and the last growth go
 _FIELDS = ("strokes", "edits", "settled", "reading", "tree", "seed")  # of a document, that its tree hangs on
 

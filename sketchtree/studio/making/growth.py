@@ -7,6 +7,7 @@ from sketchtree.editing.document import Document
 from sketchtree.export.gltf import asset_bytes
 from sketchtree.growth.plan import GrowthPlan
 from sketchtree.studio.making.work import signature
+from sketchtree.tree_output import Made, about_of
 from sketchtree.watch import Watch
 
 SECONDS = 10.0  # as `sketchtree grow` has it
@@ -26,9 +27,12 @@ class Growths:
             self._made = at, self._model(document, watch, document.tree)
         model = self._made[1]
         with watch("mesh"):
+            watch.on_part(0.3)
+            plan = GrowthPlan.of(model.skeleton, mode=mode, bend=bend)
+            watch.on_part(0.4)
+            growing = Growing.of(model, plan)
             watch.on_part(0.5)
-            growing = Growing.of(model, GrowthPlan.of(model.skeleton, mode=mode, bend=bend))
-            asset = growing.asset(seconds=SECONDS)
+            asset = growing.asset(seconds=SECONDS, about=about_of(model, Made(document.seed, {})))
         with watch("export"):
             watch.on_part(0.0)
             return asset_bytes(asset)
