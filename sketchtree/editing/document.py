@@ -9,6 +9,7 @@ from sketchtree.editing.settled import Settled
 from sketchtree.options import ReadingOptions, TreeOptions
 from sketchtree.photo.wanted import PhotoOptions
 from sketchtree.sketch.strokes import SCRIBBLES, Sketch, Stroke
+from sketchtree.trunk.wanted import TrunkChoices
 
 
 @dataclass(frozen=True)
@@ -37,6 +38,7 @@ class Document:
     reading: ReadingOptions = ReadingOptions()
     tree: TreeOptions = TreeOptions()
     photo: PhotoOptions = PhotoOptions()  # of the tree in a photo under the page
+    trunk: TrunkChoices = TrunkChoices()  # of that which scribbles mark in it
     seed: int = 0
     underlay: Underlay | None = None
     name: str = "untitled"

@@ -70,6 +70,11 @@ async def _choose(desk: Desk, page: Page, request: messages.Choose) -> None:
         desk.step(wire.choose(desk.document, request.options), ", ".join(named) or "options", alike=("choose", named))
 
 
+async def _choose_trunk(desk: Desk, page: Page, request: messages.ChooseTrunk) -> None:
+    async with desk.turn:
+        desk.step(desk.document.replace(trunk=wire.trunk_in(request.trunk)), request.label or "trunk", alike=("trunk", request.label))
+
+
 async def _glance(desk: Desk, page: Page, request: messages.Glance) -> None:
     shown = None if request.template is None else wire.choose(desk.document, {"template": request.template})
     desk.engine.glance(desk.revision, shown)
@@ -295,7 +300,7 @@ def _aside(
 
 
 _DOING: dict[type, Callable[[Desk, Page, Any], Awaitable[None]]] = {
-    messages.Hello: _hello, messages.Strokes: _strokes, messages.Sketching: _sketching, messages.Choose: _choose, messages.Glance: _glance,
+    messages.Hello: _hello, messages.Strokes: _strokes, messages.Sketching: _sketching, messages.Choose: _choose, messages.ChooseTrunk: _choose_trunk, messages.Glance: _glance,
     messages.Hold: _hold, messages.Flip: _flip, messages.Mirror: _mirror, messages.Lock: _lock, messages.Delete: _delete, messages.Settle: _settle,
     messages.Readings: _readings, messages.Pick: _pick, messages.Undo: _undo, messages.Redo: _redo, messages.Cancel: _cancel, messages.New: _new,
     messages.Open: _open, messages.Save: _save, messages.SetUnderlay: _set_underlay,

@@ -22,9 +22,10 @@ from sketchtree.photo.wanted import PhotoOptions
 from sketchtree.sketch.strokes import Stroke
 from sketchtree.studio import wire
 from sketchtree.studio.change import Change, apply, change
+from sketchtree.trunk.wanted import TrunkChoices
 
 VERSION = 1
-_PLAIN = ("edits", "reading", "tree", "photo", "seed", "name", "units", "page", "warnings")  # fields that are written as they are
+_PLAIN = ("edits", "reading", "tree", "photo", "trunk", "seed", "name", "units", "page", "warnings")  # fields that are written as they are
 
 
 class _Line(msgspec.Struct, forbid_unknown_fields=True, frozen=True, kw_only=True, omit_defaults=True):
@@ -59,6 +60,7 @@ class Different(_Line):
     reading: ReadingOptions | UnsetType = UNSET
     tree: TreeOptions | UnsetType = UNSET
     photo: PhotoOptions | UnsetType = UNSET
+    trunk: TrunkChoices | UnsetType = UNSET
     seed: int | UnsetType = UNSET
     underlay: _Placed | None | UnsetType = UNSET
     name: str | UnsetType = UNSET

@@ -82,6 +82,21 @@ class Options(_Record):
     bark_colour: Literal["photo", "species"] = "photo"
 
 
+Pixel = tuple[Coordinate, Coordinate]  # x, y of a photo, y down
+
+
+class Trunk(_Record):
+    """How the tree is taken from scribbles on the photo under the page, and what was done to its contour by hand."""
+
+    on: bool = False  # it is
+    vertices: Annotated[int, Meta(ge=3, le=10_000)] | None = None  # of the contour; None: by its roughness
+    gap: Annotated[float, Meta(ge=0, le=1000)] = 3.0  # pixels over which pieces of the matte belong together
+    levels: Annotated[int, Meta(ge=0, le=5)] = 3  # of branches that are grafted on
+    remove: Annotated[list[Pixel], Meta(max_length=2000)] = []  # the vertex nearest to each
+    add: Annotated[list[Pixel], Meta(max_length=2000)] = []  # the point of the contour nearest to each is one
+    merge: Annotated[list[tuple[Pixel, Pixel]], Meta(max_length=2000)] = []  # those between
+
+
 class Underlay(_Record):
     """A picture to trace over; its bytes are at /underlay/<digest>."""
 
@@ -130,6 +145,13 @@ class Choose(_Said):
     """Other options, those named. `label` and a quick succession make one step of undo: a slider being dragged."""
 
     options: dict[Annotated[str, Meta(max_length=20)], None | bool | int | float | Annotated[str, Meta(max_length=80)]]
+
+
+class ChooseTrunk(_Said):
+    """Take the tree from the scribbles so, with these edits of its contour. A quick succession under one `label` makes one step of undo."""
+
+    trunk: Trunk
+    label: Annotated[str, Meta(max_length=40)] = "trunk"
 
 
 class Glance(_Said):
@@ -237,7 +259,7 @@ class UseTraced(_Said):
 
 
 Request = (
-    Hello | Strokes | Sketching | Choose | Glance | Hold | Flip | Mirror | Lock | Delete | Settle | Readings | Pick | Undo | Redo | Cancel | New
+    Hello | Strokes | Sketching | Choose | ChooseTrunk | Glance | Hold | Flip | Mirror | Lock | Delete | Settle | Readings | Pick | Undo | Redo | Cancel | New
     | Open | Save | SetUnderlay | UseTraced | Grow | Propose
 )  # fmt: skip
 
@@ -278,6 +300,7 @@ class Changed(_Said):
     order: list[str] | None = None  # ids in drawing order, where they did not just come last
     options: Options | None = None  # None: as they were
     edits: list[Edit] | None = None
+    trunk: Trunk | None = None  # None: as it was
     underlay: Underlay | None = None
     underlay_changed: bool = False
     name: str | None = None

@@ -112,6 +112,8 @@ def _type(kind: kinds.Type, both: frozenset[str]) -> str:
     if isinstance(kind, kinds.ListType):
         item = _type(kind.item_type, both)
         return f"({item})[]" if " | " in item else f"{item}[]"
+    if isinstance(kind, kinds.TupleType):
+        return f"[{', '.join(_type(one, both) for one in kind.item_types)}]"
     if isinstance(kind, kinds.DictType):
         return f"Record<{_type(kind.key_type, both)}, {_type(kind.value_type, both)}>"
     if isinstance(kind, kinds.UnionType):

@@ -13,6 +13,7 @@ from sketchtree.errors import OptionError, SketchError
 from sketchtree.sketch.strokes import Stroke, StrokeKind
 from sketchtree.studio import messages
 from sketchtree.studio.change import Change
+from sketchtree.trunk.wanted import TrunkChoices
 
 _READING = ("template", "theta", "height", "planar", "crown")
 _TREE = {name: name for name in ("generations", "fill", "density", "light", "leaf", "bark", "season")} | {"gravity": "sag"}
@@ -83,6 +84,16 @@ def choose(document: Document, options: dict) -> Document:
     return document.replace(reading=reading, tree=tree, photo=photo, seed=said.seed)
 
 
+def trunk_out(trunk: TrunkChoices) -> messages.Trunk:
+    """How the tree is taken from scribbles, as the page is told."""
+    return msgspec.convert(dataclasses.asdict(trunk), messages.Trunk)
+
+
+def trunk_in(said: messages.Trunk) -> TrunkChoices:
+    """And as the page says it. Raises OptionError."""
+    return TrunkChoices(**{name: getattr(said, name) for name in messages.Trunk.__struct_fields__})
+
+
 def edits_out(edits: Edits) -> list[messages.Edit]:
     """What was done to the tree by hand, for the page's list."""
     held = [messages.Edit(what="held", limb=str(one.limb), share=np.asarray(one.share).tolist(), depth=np.asarray(one.depth).tolist()) for one in edits.held.values()]
@@ -119,6 +130,7 @@ def changed(what: Change, document: Document, since: int, revision: int, **state
         put=[stroke_out(stroke) for stroke in what.put.values()], gone=list(what.gone), order=None if what.order is None else list(what.order),
         options=options_out(document) if others.keys() & {"reading", "tree", "photo", "seed"} else None,
         edits=edits_out(document.edits) if "edits" in others else None,
+        trunk=trunk_out(document.trunk) if "trunk" in others else None,
         underlay=underlay_out(document.underlay) if "underlay" in others else None, underlay_changed="underlay" in others,
         name=document.name if "name" in others else None, **state,
     )  # fmt: skip
@@ -128,7 +140,7 @@ def whole(document: Document, revision: int, **state) -> messages.Changed:
     """The message that tells everything."""
     return messages.Changed(
         since=0, revision=revision, put=[stroke_out(stroke) for stroke in document.strokes.values()], options=options_out(document),
-        edits=edits_out(document.edits), underlay=underlay_out(document.underlay), underlay_changed=True, name=document.name, **state,
+        edits=edits_out(document.edits), trunk=trunk_out(document.trunk), underlay=underlay_out(document.underlay), underlay_changed=True, name=document.name, **state,
     )  # fmt: skip
 
 

@@ -52,19 +52,39 @@ def write_project(path: str | os.PathLike, model, *, seed: int, options: dict, u
     with h5py.File(whole, "w", libver=("v110", "v110")) as file:
         file.attrs["format"], file.attrs["schema"], file.attrs["version"], file.attrs["seed"] = PROJECT, SCHEMA, __version__, seed
         file.attrs["template"] = model.drawn.exemplar.name if model.drawn.exemplar else ""
-        _put_text(file, "sketch", sketch_json(model.drawn.sketch))
-        file["sketch"].attrs["name"] = model.drawn.sketch.name
-        _put_text(file, "edits", json.dumps(kept.edits_as_json(model.drawn.edits)))
-        _put_text(file, "settled", json.dumps(kept.settled_as_json(model.drawn.settled)))
-        if underlay is not None:
-            put(file, "underlay", np.frombuffer(underlay.picture, np.uint8), "byte")
-            for name in ("x", "y", "width", "height", "opacity"):
-                file["underlay"].attrs[name] = float(getattr(underlay, name))
-            file["underlay"].attrs["photo"] = bool(underlay.photo)
-        _put_text(file, "options", json.dumps(options, sort_keys=True))
+        _put_drawing(file, model.drawn.sketch, model.drawn.edits, model.drawn.settled, options, underlay)
         put_columns(file.create_group("skeleton"), model.skeleton)
         _put_posterior(file.create_group("posterior"), model.drawn.fit)
     write_whole(path, whole.getvalue())
+
+
+def write_scribbled(path: str | os.PathLike, document, *, options: dict) -> None:
+    """Write an `editing.document.Document` whose tree is taken from scribbles on its picture as `.sketchtree`, all or nothing. It holds no skeleton: whoever wants the tree makes it (`trunk_project`).
+
+    Raises `SketchError` for a drawing that a file could not give back, `ExportError` where it can't be written."""
+    import h5py
+
+    check_extension(path, (".sketchtree",))
+    check_drawing(document.sketch)
+    whole = io.BytesIO()
+    with h5py.File(whole, "w", libver=("v110", "v110")) as file:
+        file.attrs["format"], file.attrs["schema"], file.attrs["version"], file.attrs["seed"] = PROJECT, SCHEMA, __version__, document.seed
+        file.attrs["template"] = ""
+        _put_drawing(file, document.sketch, document.edits, document.settled, options, document.underlay)
+    write_whole(path, whole.getvalue())
+
+
+def _put_drawing(file, sketch, edits, settled, options: dict, underlay) -> None:
+    _put_text(file, "sketch", sketch_json(sketch))
+    file["sketch"].attrs["name"] = sketch.name
+    _put_text(file, "edits", json.dumps(kept.edits_as_json(edits)))
+    _put_text(file, "settled", json.dumps(kept.settled_as_json(settled)))
+    if underlay is not None:
+        put(file, "underlay", np.frombuffer(underlay.picture, np.uint8), "byte")
+        for name in ("x", "y", "width", "height", "opacity"):
+            file["underlay"].attrs[name] = float(getattr(underlay, name))
+        file["underlay"].attrs["photo"] = bool(underlay.photo)
+    _put_text(file, "options", json.dumps(options, sort_keys=True))
 
 
 def _put_text(file, name: str, text: str) -> None:

@@ -8,6 +8,7 @@ from sketchtree.errors import SketchError
 from sketchtree.skeleton_hdf5 import SCHEMA
 from sketchtree.sketch.files.limits import MAX_MB
 
+TRUNK = "trunk"  # among a project's options: how a tree is taken from scribbles on its picture (`trunk.wanted.TrunkChoices`)
 SIGNATURE = b"\x89HDF\r\n\x1a\n"
 
 

@@ -13,8 +13,9 @@ from sketchtree.errors import SketchError, SketchTreeError
 from sketchtree.options import ReadingOptions, TreeOptions
 from sketchtree.photo.wanted import PhotoOptions
 from sketchtree.propagate.after.shears import plane
-from sketchtree.sketch.files.project import SIGNATURE, column
+from sketchtree.sketch.files.project import SIGNATURE, TRUNK, column
 from sketchtree.sketch.formats import read_sketch
+from sketchtree.trunk.wanted import TrunkChoices
 
 _NOT_KEPT = ("max_strokes", "max_mb", "max_megapixels", "samples", "alternatives")  # limits of a reading, and questions that were answered then
 
@@ -61,7 +62,7 @@ def _with_choices(document: Document, data: bytes, name: str) -> Document:
     said, meshes = _without_meshes(said)
     told = tuple(f"The studio opens no file that a project names: the tree is made without {name}. `sketchtree build` takes it." for name in meshes)
     return document.replace(
-        reading=_options(ReadingOptions, said), tree=_options(TreeOptions, said), photo=_options(PhotoOptions, said), seed=seed, underlay=underlay, warnings=(*document.warnings, *told)
+        reading=_options(ReadingOptions, said), tree=_options(TreeOptions, said), photo=_options(PhotoOptions, said), trunk=_options(TrunkChoices, said.get(TRUNK) or {}), seed=seed, underlay=underlay, warnings=(*document.warnings, *told)
     )
 
 
@@ -84,5 +85,5 @@ def _options(kind: type, said: dict):
     names = [field.name for field in dataclasses.fields(kind) if field.name in said and field.name not in _NOT_KEPT]
     try:
         return kind(**{name: said[name] for name in names})
-    except (SketchTreeError, TypeError):
+    except (SketchTreeError, TypeError, ValueError):
         return kind()

@@ -8,9 +8,11 @@ from pathlib import Path
 from sketchtree.editing.document import Document
 from sketchtree.options import FileOptions, options_as_dict
 from sketchtree.photo.wanted import PhotoOptions
+from sketchtree.sketch.files.project import TRUNK
 from sketchtree.studio.making.textures import Textures, thumbnail
 from sketchtree.studio.making.watching import PHOTO, pulses, watching
 from sketchtree.templates.store.database import Database
+from sketchtree.trunk.wanted import TrunkChoices
 
 
 class Jobs:
@@ -200,12 +202,14 @@ class Jobs:
             check_program(path)
             check_files(path, files, instead="Choose .glb.")
             model = self._model(document, watch, tree)
-            written = options_as_dict(document.reading, document.tree, files, *([document.photo] if document.photo != PhotoOptions() else []))
+            written = _written(document, files)
             with watch("export"):
                 write_output(model, path, Made(document.seed, written), files, underlay=document.underlay)
             return {str(one.relative_to(folder)): one.read_bytes() for one in sorted(Path(folder).rglob("*")) if one.is_file()}
 
     def _project(self, number, watch, document: Document):
+        if document.strokes and not document.drawn.strokes:
+            return _scribbled_project(document)
         files = self._export(number, watch, document, "project.sketchtree", {})
         return files["project.sketchtree"]
 
@@ -223,6 +227,22 @@ class Jobs:
         from sketchtree.studio.making.gallery import catalogue
 
         return catalogue(self.templates)
+
+
+def _written(document: Document, files: FileOptions) -> dict:
+    """The options of a drawing, as its project keeps them."""
+    written = options_as_dict(document.reading, document.tree, files, *([document.photo] if document.photo != PhotoOptions() else []))
+    return written | ({TRUNK: dataclasses.asdict(document.trunk)} if document.trunk != TrunkChoices() else {})
+
+
+def _scribbled_project(document: Document) -> bytes:
+    """Scribbles alone: their tree is not asked for, so that they can be kept before they tell one."""
+    from sketchtree.export.skeletons.hdf5 import write_scribbled
+
+    with tempfile.TemporaryDirectory() as folder:
+        path = Path(folder) / "project.sketchtree"
+        write_scribbled(path, document, options=_written(document, FileOptions()))
+        return path.read_bytes()
 
 
 def _basis(drawn, tree, chunks, digests: dict[str, str]):

@@ -74,6 +74,17 @@ export interface Edit {
   depth: number[]; // held: depth at each
 }
 
+/** How the tree is taken from scribbles on the photo under the page, and what was done to its contour by hand. */
+export interface Trunk {
+  on: boolean; // it is
+  vertices: number | null; // of the contour; None: by its roughness
+  gap: number; // pixels over which pieces of the matte belong together
+  levels: number; // of branches that are grafted on
+  remove: [number, number][]; // the vertex nearest to each
+  add: [number, number][]; // the point of the contour nearest to each is one
+  merge: [[number, number], [number, number]][]; // those between
+}
+
 /** A picture to trace over; its bytes are at /underlay/<digest>. */
 export interface Underlay {
   digest: string;
@@ -95,6 +106,7 @@ export interface Changed {
   order: string[] | null; // ids in drawing order, where they did not just come last
   options: Options | null; // None: as they were
   edits: Edit[] | null;
+  trunk: Trunk | null; // None: as it was
   underlay: Underlay | null;
   underlay_changed: boolean;
   name: string | null;
@@ -353,6 +365,24 @@ export interface Choose {
   options: Record<string, boolean | number | string | null>;
 }
 
+/** How the tree is taken from scribbles on the photo under the page, and what was done to its contour by hand. */
+export interface SentTrunk {
+  on?: boolean; // it is
+  vertices?: number | null; // of the contour; None: by its roughness
+  gap?: number; // pixels over which pieces of the matte belong together
+  levels?: number; // of branches that are grafted on
+  remove?: [number, number][]; // the vertex nearest to each
+  add?: [number, number][]; // the point of the contour nearest to each is one
+  merge?: [[number, number], [number, number]][]; // those between
+}
+
+/** Take the tree from the scribbles so, with these edits of its contour. A quick succession under one `label` makes one step of undo. */
+export interface ChooseTrunk {
+  type: "choosetrunk";
+  trunk: SentTrunk;
+  label?: string;
+}
+
 /** What would it look like with this template? Nothing is kept; a `Tree` of phase "glance" comes. `None`: back to the tree. */
 export interface Glance {
   type: "glance";
@@ -476,5 +506,5 @@ export interface Propose {
   type: "propose";
 }
 
-export type Request = Hello | Strokes | Sketching | Choose | Glance | Hold | Flip | Mirror | Lock | Delete | Settle | Readings | Pick | Undo | Redo | Cancel | New | Open | Save | SetUnderlay | UseTraced | Grow | Propose;
+export type Request = Hello | Strokes | Sketching | Choose | ChooseTrunk | Glance | Hold | Flip | Mirror | Lock | Delete | Settle | Readings | Pick | Undo | Redo | Cancel | New | Open | Save | SetUnderlay | UseTraced | Grow | Propose;
 export type Event = Welcome | Changed | Working | Trouble | Matches | Alternatives | Saved | Read | Traced | Foliage | Proposed | Growing | Tree | Ghost;
