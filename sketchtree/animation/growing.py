@@ -36,7 +36,7 @@ from sketchtree.rig.wind import leaf_places
 MOST_JOINTS = 3000
 LEAST_JOINTS = 64
 _MOMENTS = 241  # at which the motion is worked out
-_NEAR, _NEAR_WOOD = 1e-4, 0.4  # how far a joint may be from its place: of the tree's height, or of the wood's radius there
+_NEAR, _NEAR_WOOD = 1e-4, 0.25  # how far a joint may be from its place: of the tree's height, or of the wood's radius there
 _LIKE = 0.01  # how far its size may be, as a share of its last one
 _TURN = 0.002  # how far a quaternion may be
 
