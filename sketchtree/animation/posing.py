@@ -11,7 +11,6 @@ from jaxtyping import Float
 from scipy.spatial.transform import Rotation
 
 from sketchtree.asset import Animation, Armature, Asset, Keys
-from sketchtree.axes import NULL
 from sketchtree.export.pose import local_pose
 from sketchtree.geometry.mesh import Mesh
 
