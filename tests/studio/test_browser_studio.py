@@ -513,6 +513,51 @@ def test_ten_thousand_rapid_strokes_leave_it_alive(page, small_tree, ear):
     page.wait(lambda status: status["state"] == "idle" and status["revision"] == ear.tree["revision"], "its tree")
 
 
+def _grown(page) -> float:
+    """The time that the slider shows."""
+    return float(page.get("growth-time").input_value())
+
+
+def _opened_growth(page) -> None:
+    page.get("growth").click()
+    page.page.locator("[data-testid=growth-time]:enabled").wait_for()
+
+
+def test_a_slider_shows_the_tree_as_it_grows(page, small_tree, ear):
+    _opened_growth(page)
+    tall = page.get("tree-view").screenshot()
+    assert page.get("growth-state").inner_text() == "100 %"
+    page.get("growth-time").fill("0.3")
+    assert page.get("growth-state").inner_text() == "30 %"
+    page.page.locator("[data-testid=tree-view][data-grows]").wait_for()
+    assert page.get("tree-view").screenshot() != tall
+    assert page.weak_contrasts() == []
+    page.get("growth-time").press("ArrowRight")
+    assert 0.3 < _grown(page) < 0.32
+    page.get("growth-close").click()
+    page.page.locator("[data-testid=tree-view]:not([data-grows])").wait_for()
+    assert not page.get("growth-bar").is_visible()
+
+
+def test_growth_plays_and_pauses_and_a_stroke_goes_back_to_the_tree(page, small_tree, ear):
+    _opened_growth(page)
+    page.get("growth-play").click()
+    page.page.locator("[data-testid=tree-view][data-grows]").wait_for()
+    page.get("growth-play").click()
+    there = _grown(page)
+    assert there < 1 and page.get("growth-play").get_attribute("aria-label") == "Play"
+    page.get("growth-more").click()
+    page.get("growth-mode").get_by_role("radio", name="By age").click()
+    page.page.keyboard.press("Escape")
+    assert _grown(page) == there, "the time stays"
+    page.get("growth-state").get_by_text("%").wait_for()
+    _, after = page.change(lambda: ear.put(MORE))
+    assert _grown(page) == 1 and not page.page.locator("[data-testid=tree-view][data-grows]").count()
+    page.page.locator("[data-testid=growth-time]:enabled").wait_for()
+    page.get("growth-time").press("Escape")
+    assert not page.get("growth-bar").is_visible() and page.status["revision"] == after["revision"]
+
+
 @pytest.mark.parametrize("theme", ["light", "dark"])
 def test_text_is_read_on_its_ground(page, small_tree, theme):
     page.page.emulate_media(color_scheme=theme)
