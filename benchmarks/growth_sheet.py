@@ -59,7 +59,7 @@ def photo(templates: Database, path: Path) -> None:
     shown = read_photo(PHOTO)
     scribbles = read_scribbles(MARKS, shown)
     found = find_trunk(shown, scribbles, templates, key=root_key(0))
-    meshes = grown_tree(of_picture(found, TreeOptions(), templates, key=root_key(0)), GrowthOptions()).model.meshes
+    bare, leafy = (grown_tree(of_picture(found, TreeOptions(season=season), templates, key=root_key(0))).model.meshes for season in ("bare", "summer"))
     marked, traced = Image.fromarray(shown.rgb), Image.fromarray(shown.rgb)
     for lines, ink in ((scribbles.foreground, (220, 30, 30)), (scribbles.background, (235, 190, 0))):
         for line in lines:
@@ -68,9 +68,9 @@ def photo(templates: Database, path: Path) -> None:
     for a, b in skeleton.edges:
         pen.line([*skeleton.xy[a], *skeleton.xy[b]], fill=(220, 30, 30), width=max(2, round(skeleton.radius[b])))
     matte = Image.fromarray(np.round(255 * found.matte.alpha).astype(np.uint8))
-    pictures = [("photo, lines on the tree and beside it", marked), ("matte", matte), ("trunk", traced)]
-    widest = around(meshes)
-    seen = [(f"the tree, {view}", shot(meshes, widest, view)) for view in ("front", "side")]
+    pictures = [("photo, with lines", marked), ("matte", matte), ("trunk", traced)]
+    widest = around(leafy)
+    seen = [("bare", shot(bare, widest)), ("in leaf", shot(leafy, widest)), ("from the side", shot(bare, widest, "side"))]
     save(path, [[*((name, ImageOps.pad(one.convert("RGB"), (SIDE, SIDE), color="white")) for name, one in pictures), *seen]])
 
 
