@@ -8,6 +8,7 @@ import subprocess
 import tempfile
 import threading
 from collections.abc import Sequence
+from dataclasses import replace
 from pathlib import Path
 from typing import Protocol
 
@@ -82,7 +83,8 @@ class _Scene:
 
     def __init__(self, final: Sequence[Mesh], younger: Sequence[Sequence[Mesh]], size: tuple[int, int], turn: float):
         self.turn = turn
-        shown = [mesh for mesh in final if mesh.triangle_count]
+        self.rows = [k for k, mesh in enumerate(final) if len(mesh.position)]  # those that the process knows
+        shown = [_with_a_triangle(final[k]) for k in self.rows]
         points = _points(shown)
         self.shift, self.reach, self.sun = picture.footing(points), picture.reach_of(points), picture.sun_of(0.0)
         everything = np.vstack([points, *map(_points, younger)])
@@ -92,7 +94,6 @@ class _Scene:
         around = whirled(everything) if turn else everything
         self.request = picture.request_of(shown, [(0.0, ELEVATION)], size, supersample=_SUPERSAMPLE, around=around)
         self.camera = self.request["camera"][0]
-        self.rows = [k for k, mesh in enumerate(final) if mesh.triangle_count]  # those that the process knows
 
     def changes(self, meshes: Sequence[Mesh], time: float) -> dict[str, np.ndarray]:
         """What is another at that time."""
@@ -115,6 +116,11 @@ class _Scene:
 
     def _within(self, points):
         return np.clip(points, *self.box)
+
+
+def _with_a_triangle(mesh: Mesh) -> Mesh:
+    """The mesh itself; one that is not there in the end, as leaves that are shed, with a triangle that nobody sees."""
+    return mesh if mesh.triangle_count else replace(mesh, triangle=np.zeros((1, 3), mesh.triangle.dtype))
 
 
 def _points(meshes: Sequence[Mesh]) -> Float[np.ndarray, "point 3"]:

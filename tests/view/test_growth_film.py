@@ -63,6 +63,24 @@ def test_a_leaf_comes_when_it_unfolds(film):
     assert [bool(red(shown).any()) for shown in film] == [False, False, False, True, True]
 
 
+def test_a_leaf_that_is_shed_is_seen_as_long_as_it_is_there(tmp_path):
+    class Shedding(Sprout):
+        def at(self, time: float):
+            wood, leaf = super().at(1.0)
+            return wood, leaf if 0 < time < 1 else replace(leaf, triangle=leaf.triangle[:0])
+
+    drawn, reason = growth_film(Shedding(), tmp_path / "t.apng", size=(96, 96), frames=3, seconds=1.0)
+    if reason == picture.NO_OPENGL:
+        pytest.skip(reason)
+    assert drawn, reason
+    with Image.open(tmp_path / "t.apng") as made:
+        seen = []
+        for k in range(3):
+            made.seek(k)
+            seen.append(bool(red(np.asarray(made.convert("RGB")).astype(int)).any()))
+    assert seen == [False, True, False]
+
+
 def test_nothing_is_cropped_and_the_foot_stays_where_it_is(film):
     feet = [np.flatnonzero(dark(shown).any(axis=1)).max() for shown in film[1:]]
     assert np.ptp(feet) <= 1
