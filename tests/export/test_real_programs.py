@@ -1,14 +1,17 @@
 """Blender, three.js and NeuroM see in our files what we see. Each runs where it is found; benchmarks/README.md says how to name it."""
 
+import dataclasses
 from importlib.util import find_spec
 from pathlib import Path
 
+import numpy as np
 import pytest
-from shapes import bending, bones, curved, detailed, leafy, scattered, square, textured
+from shapes import bending, bones, curved, detailed, keys, leafy, moved, moving, scattered, square, textured
 
-from benchmarks.real_programs import blender_opens, neurom_opens, ours, three_opens
+from benchmarks.real_programs import blender_opens, moves, neurom_opens, ours, three_opens
 from sketchtree.asset import Asset, Level
 from sketchtree.commands.app import run
+from sketchtree.export.read import read_contents
 from sketchtree.export.write import write_asset
 
 OAK = Path(__file__).parents[2] / "examples" / "oak.svg"
@@ -69,6 +72,30 @@ def test_three_sees_what_we_see_and_has_nothing_to_say(folder):
         assert "error" not in seen, (path.name, seen)
         assert three_opens.differences(seen, path) + seen["said"] == [], path.name
         assert seen["bones"] == (2 if "bones" in path.name else 0)
+
+
+def gently():
+    """What moves, its turn in steps so small that the shorter arc and a straight line between them are one."""
+    time, angle = np.linspace(0, 2, 33), np.radians(np.linspace(-45, 0, 33))
+    turn = keys(1, time, *np.stack([0 * angle, 0 * angle, np.sin(angle), np.cos(angle)], axis=1))
+    return dataclasses.replace(moved(), animation=moving(rotation=turn, morphs=moved().animation.morphs))
+
+
+@needs(three_opens)
+def test_three_moves_it_as_we_do(tmp_path):
+    write_asset(tmp_path / "moving.glb", gently())
+    asset = read_contents(tmp_path / "moving.glb").asset
+    seen = moves.in_three(tmp_path / "moving.glb", asset)
+    assert moves.differences(seen, asset) == [] and seen["bones"] == 2 and len(seen["off"]) == 5 * 8
+
+
+@needs(blender_opens)
+@pytest.mark.parametrize("suffix", ["glb", "usdc"])
+def test_blender_moves_it_as_we_do(tmp_path, suffix):
+    write_asset(tmp_path / f"moving.{suffix}", gently())
+    asset = read_contents(tmp_path / f"moving.{suffix}").asset
+    seen = moves.in_blender(tmp_path / f"moving.{suffix}", asset)
+    assert moves.differences(seen, asset) == [] and seen["bones"] == 2
 
 
 @needs(neurom_opens)

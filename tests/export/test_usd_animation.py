@@ -4,9 +4,9 @@ import dataclasses
 
 import numpy as np
 import pytest
-from shapes import bending, bones, leafy, square
+from shapes import bones, keys, leafy, moved, moving, no_keys, square
 
-from sketchtree.asset import Animation, Asset, Keys, Level, Morph
+from sketchtree.asset import Asset, Level
 from sketchtree.export.write import write_asset
 
 pxr = pytest.importorskip("pxr", reason="usd-core is not installed")
@@ -17,30 +17,9 @@ from sketchtree.export.usd.read import read_usd  # noqa: E402
 from sketchtree.export.usd.sampled import sample_times, sampled  # noqa: E402
 
 
-def no_keys(width):
-    return Keys(np.zeros(0, np.int64), np.zeros(1, np.int64), np.zeros(0), np.zeros((0, width)))
-
-
-def keys(joint, time, *values):
-    """One track."""
-    return Keys(np.array([joint]), np.array([0, len(time)]), np.array(time, float), np.array(values, float))
-
-
-def moving(**changed) -> Animation:
-    """The limb's foot rises by one metre in a second and stays; it turns upright in two; the trunk grows from a half."""
-    rest = bones().rotation[1]
-    whole = {
-        "translation": keys(1, [0.0, 1.0], (0, 0.5, 0), (0, 1.5, 0)),
-        "rotation": keys(1, [0.0, 2.0], rest, (0, 0, 0, 1)),
-        "scale": keys(0, [0.0, 2.0], (0.5, 0.5, 0.5), (1, 1, 1)),
-    }
-    return Animation("growth", 2.0, **(whole | changed))
-
-
-def moved() -> Asset:
-    leaf = dataclasses.replace(leafy(), extra={"JOINTS_0": np.tile([1, 0, 0, 0], (4, 1)), "WEIGHTS_0": np.tile([1.0, 0, 0, 0], (4, 1))})
-    morph = Morph(1, np.zeros(3) - leaf.position, np.array([0.0, 0.5, 1.5]), np.array([1.0, 1.0, 0.0]))
-    return Asset.of([bending(), leaf, square("still")], armature=bones(), animation=moving(morphs=(morph,)))
+def with_still() -> Asset:
+    """And a square that nothing moves."""
+    return dataclasses.replace(moved(), levels=(Level((*moved().parts, square("still"))),))
 
 
 def opened(folder, asset, suffix="usda"):
@@ -59,7 +38,7 @@ def at(stage, second):
 @pytest.mark.parametrize("levels", [False, True])
 def test_no_validator_has_anything_to_say(tmp_path, suffix, levels):
     validation = pytest.importorskip("pxr.UsdValidation", reason="this usd-core has no validators")
-    asset = moved()
+    asset = with_still()
     if levels:
         asset = dataclasses.replace(asset, levels=(Level(asset.parts, 0.5), Level((square("card"),))))
     context = validation.ValidationContext(validation.ValidationRegistry().GetOrLoadAllValidators())
@@ -102,6 +81,12 @@ def test_a_scale_that_would_shear_is_kept_where_it_is():
     np.testing.assert_allclose(made.scale[0, 0], [0.5, 1, 1])
 
 
+def test_no_scale_is_so_small_that_readers_cannot_take_the_frame_apart():
+    nothing = moving(scale=keys(1, [0.0, 2.0], (0, 0, 0), (1, 1, 1)))
+    made = sampled(bones(), nothing, np.array([False, True]))
+    np.testing.assert_allclose(made.scale[[0, -1], 1], [[1e-3] * 3, [1] * 3])
+
+
 def test_times_are_those_of_the_keys_or_a_grid_where_they_are_too_many():
     np.testing.assert_allclose(sample_times(2.0, [np.array([0.3, 1.1]), np.array([0.3])]), [0, 0.3, 1.1, 2.0])
     many = np.sort(np.random.default_rng(0).uniform(0, 2, 1000))
@@ -117,7 +102,7 @@ def test_a_blend_shape_is_drawn_back_to_the_foot_and_let_go(tmp_path):
 
 
 def test_the_extent_holds_what_is_moved_and_what_is_not(tmp_path):
-    made = opened(tmp_path, moved())
+    made = opened(tmp_path, with_still())
     extent = UsdGeom.Boundable(made.GetDefaultPrim()).GetExtentAttr()
     assert len(extent.GetTimeSamples()) == 3
     low, high = np.array(extent.Get(24.0))
@@ -134,7 +119,7 @@ def test_a_joint_that_does_not_move_has_one_value(tmp_path):
 
 @pytest.mark.parametrize("levels", [False, True])
 def test_what_moves_is_read_back(tmp_path, levels):
-    asset = moved()
+    asset = with_still()
     if levels:
         asset = dataclasses.replace(asset, levels=(Level(asset.parts, 0.5), Level((square("card"),))))
     write_asset(tmp_path / "t.usdc", asset)

@@ -5,6 +5,8 @@ A scale is kept there in half precision, 1 part in 2000, which of a joint that b
 joint that bears others, and moves no vertex itself, is handed down to them and multiplied in there: with s' what comes down to a joint, t and s its own,
 
     translation = s' t        scale = s' s; of a joint that hands it down, 1
+
+No scale is less than `_LEAST`: readers take a frame apart into turn and scale, and pass over one that they can't (Blender leaves out its key).
 """
 
 from dataclasses import dataclass
@@ -19,6 +21,7 @@ from sketchtree.export.pose import local_pose
 
 PER_SECOND = 24.0
 _MOST = 256
+_LEAST = 1e-3
 _EVEN = 1e-6  # how far the three channels of a uniform scale may differ, as a share
 
 
@@ -90,7 +93,7 @@ def _handed_down(bones: Armature, moved, scale, moves):
         moved[:, joints] *= down
         scale[:, joints] *= down
     scale[:, hands] = 1.0
-    return moved, scale
+    return moved, np.where(np.abs(scale) < _LEAST, np.copysign(_LEAST, scale), scale)
 
 
 def _downwards(bones: Armature):
