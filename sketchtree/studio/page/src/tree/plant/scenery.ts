@@ -17,14 +17,15 @@ export class Scenery {
   spots: Float32Array = new Float32Array(); // places of what stands
   now: Merged = { wood: [], leaves: [], limbs: [], number: new Map() };
   private shaded = false;
-  private materials: Plant["materials"] = new Map();
+  private worn: Material[] = []; // by what stands
 
   constructor(private readonly lighting: Lighting, private readonly wardrobe: Wardrobe, private readonly software: boolean, private readonly changed: () => void) {}
 
   /** Show this plant, where it was another. `quick`: the crown's shade may stay as it was for the moment. */
   show(plant: Plant, quick: boolean): void {
     this.now = merged(plant);
-    this.materials = plant.materials;
+    const names = [...this.now.wood.map((wood) => wood.material), ...this.now.leaves.map((leaves) => plant.cards.get(leaves.card)!.material)];
+    this.worn = [...new Set(names)].map((name) => plant.materials.get(name)!);
     this.spots = spotsOf(this.now);
     this.lighting.marks.renumber(this.now.limbs, this.now.number);
     if (!quick || !this.shaded) this.lighting.sky.take(shadeOf(this.now.leaves, SUN.toArray()));
@@ -52,9 +53,9 @@ export class Scenery {
     }
   }
 
-  /** What the part of a file wears here, by the name of its material: leaves have a material for each of their cards. */
+  /** What the part of a file wears here, by the name of its material; that of leaves is told apart here by their season too. */
   materialOf(name: string): Material | undefined {
-    return this.materials.get(name) ?? [...this.materials.values()].find((one) => one.key.startsWith(`${name}.`));
+    return this.worn.find((one) => one.key === name || one.key.startsWith(`${name}.`));
   }
 
   get meshes(): Mesh<BufferGeometry, MeshStandardMaterial>[] {
