@@ -72,11 +72,16 @@ def asset_of(model, made: Made, files: FileOptions | None = None) -> Asset:
     return (tree_asset if hasattr(model, "drawn") else forest_asset)(model, files, about=about_of(model, made))
 
 
-def about_of(model, made: Made) -> dict:
-    """What a file of ours tells of its tree."""
-    drawn = getattr(model, "drawn", None)
+def about_of(model, made: Made, **more) -> dict:
+    """What a file of ours tells of its tree; `more`: what is known beside that."""
+    drawn, dress = getattr(model, "drawn", None), getattr(model, "dress", None)
     template = {} if drawn is None else {"template": drawn.exemplar.name if drawn.exemplar else None}
-    return {"program": "SketchTree", "version": __version__, "seed": made.seed, "units": "metres", "up": "y"} | template
+    return {"program": "SketchTree", "version": __version__, "seed": made.seed, "units": "metres", "up": "y"} | template | more | ({} if dress is None else _worn(dress))
+
+
+def _worn(dress) -> dict:
+    """The tree's looks, by the names of the options that ask for them: a tree that `grow` makes of the file wears the same."""
+    return {"leaf": dress.leaf or "none", "bark": dress.bark, "season": dress.season} | ({"wood": dress.wood} if dress.wood else {}) | ({"solid": True} if dress.solid else {})
 
 
 def _write_pack(model, output: Path, made: Made, files: FileOptions) -> None:

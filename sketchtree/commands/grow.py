@@ -43,11 +43,11 @@ def grow(source: Path, output: Path, seed: int, quiet: bool, json_log: bool, rep
     """
     began = time.perf_counter()
     from sketchtree import options as choices
-    from sketchtree.commands import grow_files, writing
+    from sketchtree.commands import grow_asked, grow_read, grow_write, writing
 
-    kind = grow_files.kind_of(source, wanted)
-    grow_files.check_options(kind, source, output, wanted, grow_files.given(click.get_current_context()))
-    grow_files.check_outputs(source, output, report, wanted)
+    kind = grow_asked.kind_of(source, wanted)
+    grow_asked.check_options(kind, source, output, wanted, grow_asked.given(click.get_current_context()))
+    grow_asked.check_outputs(source, output, report, wanted)
     from sketchtree import pipeline
     from sketchtree.growth_tree import GrowthOptions, TrunkOptions, check_tree
     from sketchtree.templates.store.database import Database
@@ -60,9 +60,9 @@ def grow(source: Path, output: Path, seed: int, quiet: bool, json_log: bool, rep
     with progress.running():
         templates = None if db is None and reading.template == "none" else Database.open(db)
         check_tree(tree, templates)
-        chosen = "seed" in grow_files.given(click.get_current_context())
-        begun, seed = grow_files.read(kind, source, wanted, templates, seed=seed, seed_chosen=chosen, reading=reading, tree=tree, trunk=trunk, watch=watch)
+        chosen = "seed" in grow_asked.given(click.get_current_context())
+        begun, seed = grow_read.read(kind, source, wanted, templates, seed=seed, seed_chosen=chosen, reading=reading, tree=tree, trunk=trunk, watch=watch)
         run = writing.Run("grow", seed, imported, began, watch, choices.options_as_dict(reading, tree, growth, trunk) | {name: wanted[name] for name in ("moment", "seconds", "variations")})
-        record = grow_files.grow_all(begun, growth, tree, output, run, wanted, kept=grow_files.inputs(source, wanted))
+        record = grow_write.grow_all(begun, growth, tree, output, run, wanted, kept=grow_asked.inputs(source, wanted))
         writing.write_report(report, record)
     writing.conclude(record, output, progress)

@@ -147,17 +147,18 @@ def record(run: Run, drawn, model=None, *, extra_warnings: tuple[str, ...] = ())
     """The report of a run that has just written its files."""
     from sketchtree.report import build_report
 
-    return build_report(drawn, model, **_of_run(run), warnings=extra_warnings)
+    return build_report(drawn, model, **of_run(run), warnings=extra_warnings)
 
 
 def record_forest(run: Run, forest, *, extra_warnings: tuple[str, ...] = ()) -> dict:
     """The same of a forest."""
     from sketchtree.forest_report import forest_report
 
-    return forest_report(forest, **_of_run(run), warnings=extra_warnings)
+    return forest_report(forest, **of_run(run), warnings=extra_warnings)
 
 
-def _of_run(run: Run) -> dict:
+def of_run(run: Run) -> dict:
+    """What every report says of its run."""
     seconds = {"import": run.imported} | run.watch.seconds | {"total": time.perf_counter() - run.began}
     seconds = {name: round(value, 4) for name, value in seconds.items()}
     return {"command": run.command, "seed": run.seed, "seconds": seconds, "options": run.options}

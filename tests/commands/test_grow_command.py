@@ -11,6 +11,7 @@ import pytest
 from PIL import Image, ImageDraw
 
 from sketchtree.commands.app import run
+from sketchtree.export.read import read_contents
 from sketchtree.report import report_schema
 from sketchtree.skeleton_files import read_skeleton
 
@@ -222,3 +223,48 @@ def test_skeletons_that_can_not_grow_are_told(folder, capsys):
     refused(capsys, folder, "dot.swc", says="nothing can grow")
     (folder / "cube.obj").write_text("v 0 0 0\n")
     refused(capsys, folder, "cube.obj", says="a mesh without a skeleton")
+
+
+def test_a_matte_with_holes_is_told_and_becomes_a_tree_without_a_cycle(folder, capsys):
+    holed = np.array(Image.open(folder / "matte.png"))
+    holed[135:165, 78:82] = 0
+    holed[180:182, 79:81] = 0
+    Image.fromarray(holed).save(folder / "holed.png")
+    assert run(["grow", str(folder / "tree.png"), "-o", str(folder / "t.swc"), "--use-matte", str(folder / "holed.png"), "--template", "apple", "--levels", "0", "--report", str(folder / "r.json")]) == 0
+    told = capsys.readouterr().err
+    assert "1 small hole in the trunk was filled" in told and "The trunk has 1 hole; the loop round each is cut" in told
+    assert json.loads((folder / "r.json").read_text())["growth"]["trunk"]["tips"] >= 3
+
+
+def test_a_photo_without_a_tree_is_refused(folder, capsys):
+    Image.new("RGB", (160, 200), (190, 205, 225)).save(folder / "sky.png")
+    refused(capsys, folder, "sky.png", says="nothing says what of it is tree")
+    Image.new("L", (160, 200)).save(folder / "none.png")
+    refused(capsys, folder, "sky.png", "--use-matte", "@none.png", says="The matte is empty: nowhere is it half opaque.")
+
+
+def test_our_own_inference_lifts_the_trunk_too_and_keeps_its_place_in_the_picture(folder):
+    for name, lift in (("one", "siblings"), ("other", "elevation")):
+        assert grow(folder, "tree.png", *KNOWN, "--levels", "0", "--lift", lift, output=f"{name}.h5") == 0
+    one, other = (read_skeleton(folder / f"{name}.h5") for name in ("one", "other"))
+    assert one.tip[:, :2] == pytest.approx(other.tip[:, :2], abs=1e-6)
+    assert np.ptp(other.tip[:, 2]) > 0 and not np.allclose(one.tip[:, 2], other.tip[:, 2])
+
+
+def test_a_tree_grown_from_a_file_of_ours_wears_what_it_wore_there(folder):
+    worn = ("--leaf", "apple", "--bark", "birch", "--season", "autumn", "--seed", "7")
+    assert grow(folder, "tree.swc", "--levels", "1", *worn, "--time", "1", output="one.glb") == 0
+    assert grow(folder, "one.glb", "--time", "1", output="two.glb") == 0
+    one, two = (read_contents(folder / f"{name}.glb").asset for name in ("one", "two"))
+    assert one.about == two.about and {"leaf": "apple", "bark": "birch", "season": "autumn", "seed": 7}.items() <= one.about.items()
+    assert [part.merged().material.name for part in one.parts] == [part.merged().material.name for part in two.parts]
+
+
+def test_a_tree_that_build_made_grows_in_the_looks_it_has(tmp_path):
+    sketch = Path(__file__).resolve().parents[2] / "examples" / "curvy.svg"
+    how = ("--method", "okabe", "--template", "apple", "--generations", "1", "--season", "autumn")
+    assert run(["build", str(sketch), "-o", str(tmp_path / "b.glb"), "--quiet", *how]) == 0
+    about = read_contents(tmp_path / "b.glb").asset.about
+    assert about["season"] == "autumn" and about["leaf"] == "apple"
+    assert run(["grow", str(tmp_path / "b.glb"), "-o", str(tmp_path / "g.glb"), "--quiet", "--time", "1"]) == 0
+    assert read_contents(tmp_path / "g.glb").asset.about == about
