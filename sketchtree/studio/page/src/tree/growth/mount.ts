@@ -70,17 +70,17 @@ class GrowthView {
     this.bar.strip.hidden = false;
     this.ask(0);
     this.tell();
-    this.bar.strip.querySelector<HTMLInputElement>("input")?.focus();
   }
 
   private close(): void {
     if (!this.open) return;
     this.open = false;
+    const within = this.bar.strip.contains(document.activeElement);
     this.bar.strip.hidden = true;
     this.asking.cancel();
     this.leave();
     this.tell();
-    this.bar.opener.focus();
+    if (within) this.bar.opener.focus();
   }
 
   private ask(wait: number): void {
