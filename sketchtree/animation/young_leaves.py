@@ -59,7 +59,7 @@ def young_leaves(
     plan: GrowthPlan, lines: CentreLines, nodes: Nodes, hosts: Hosts, dress: Dress, final: Leaves, bones: Armature, animation: Animation, first: int, part: int, *, key: Key[Array, ""]
 ) -> list[tuple[Mesh, Morph]]:
     """Meshes `leaf_young_1` …, and how each unfolds and is shed. Joints of limbs are counted from `first`, parts from `part`; the animation takes one second."""
-    if dress.leaf is None or not len(final):
+    if dress.leaf is None or not len(final) or plan.mode == "scale":  # there the final tree only becomes larger
         return []
     joint = _joint_of_row(plan, lines, nodes, hosts, first, bones)
     joint[final.segment] = NULL
