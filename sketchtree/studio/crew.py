@@ -4,7 +4,7 @@
     full     the whole tree; meanwhile, of the last one, what pages that join need and the undrawn limb that is picked
     side     everything else: pictures, other readings, glances, files in and out
 
-and, once a photo lies under the page, three more (`tracer`, `grower`). One more while somebody looks at the tree as it grows (`growth`).
+and, once a photo lies under the page, three more (`tracer`, `grower`). One more once a tree is taken from scribbles (`trunker`), one more while somebody looks at the tree as it grows (`growth`).
 
 Each begins when it is first needed, and is begun again should it end. The newest request wins; a hurried answer goes before the full tree of the same revision.
 """
@@ -28,6 +28,7 @@ from sketchtree.studio.hand import Ended, Hand
 from sketchtree.studio.laid_photo import LaidPhoto
 from sketchtree.studio.making.basis import Basis
 from sketchtree.studio.tracer import Tracer
+from sketchtree.studio.trunker import Trunker
 
 _ROLES = ("quick", "full", "side")
 _SMALL, _LINES = 1_000_000, (".svg", ".json", ".excalidraw", ".inkml")  # bytes, and kinds, of drawings that are read at once
@@ -79,6 +80,8 @@ class Crew:
         grow = Hand("grow", self._database, lambda number, value: self._grower.heard(number, value), partial(self._ended, "grow"))
         laid = LaidPhoto()
         self._grower = Grower(grow, laid, lambda outcome: self.on_outcome(outcome), self._run)
+        trunk = Hand("trunk", self._database, lambda number, value: self._trunker.heard(number, value), partial(self._ended, "trunk"))
+        self._trunker = Trunker(trunk, laid, lambda outcome: self.on_outcome(outcome), self._run)
         self._tracer = Tracer(*photo, laid, lambda revision, event: self.on_outcome(Outcome(revision, event)), self._grower.seen, self._run)
         self._ager = Ager(lambda: Hand("age", self._database, lambda number, value: None, partial(self._ended, "age")))
         self._begun = 1
@@ -95,6 +98,7 @@ class Crew:
             hand.end()
         self._tracer.end()
         self._grower.end()
+        self._trunker.end()
         self._ager.end()
 
     def make(self, revision: int, document: Document) -> None:
@@ -210,12 +214,15 @@ class Crew:
         """As `Engine.grow`."""
         if at_once:
             self._tracer.make(revision, document)  # what was stopped looking for foliage looks again
-        self._grower.make(revision, document, at_once=at_once)
+        for one in (self._grower, self._trunker) if document.trunk.on else (self._trunker, self._grower):  # the one that has nothing to do says so first
+            one.make(revision, document, at_once=at_once)
 
     def stop_growing(self) -> None:
         """As `Engine.stop_growing`."""
         self._tracer.cancel()
         self._grower.stop()
+        self._trunker.stop()
+        self._trunker.stop()
 
     async def grown(self, document: Document, name: str, options: dict) -> dict[str, bytes]:
         """As `Engine.grown`."""
@@ -301,7 +308,7 @@ class Crew:
 
     async def texture(self, key: str, kind: str) -> bytes | None:
         """As `Engine.texture`."""
-        own = self._grower.textures.get((key, kind))
+        own = self._grower.textures.get((key, kind)) or self._trunker.textures.get((key, kind))
         return own if own is not None else await self._surely("texture", key, kind)
 
     async def picture(self, what: str, name: str) -> bytes | None:

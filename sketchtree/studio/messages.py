@@ -412,6 +412,23 @@ class Foliage(_Said):
     png: str  # base64; as large as the picture, or smaller; opaque where foliage is. Empty: not known
 
 
+class Matte(_Said):
+    """How much of each pixel of the photo under the page is tree, as scribbles and what is painted in by hand tell."""
+
+    revision: int
+    png: str  # base64; as large as the photo, or smaller; as opaque as the tree is there. Empty: not known
+
+
+class Trunks(_Said):
+    """The trunk that the matte shows, and its contour's vertices. It comes after the matte, and goes with it."""
+
+    revision: int
+    state: Literal["none", "waits", "works", "ready", "failed"]  # none: nothing is scribbled; waits: for the pen to rest
+    trees: list[TracedTree] = []  # its skeleton; all of it `drawn`
+    vertices: list[list[float]] = []  # of each ring of the contour: x, y, x, y …, pixels of the photo, y down
+    remark: str = ""  # why there is none, or what a person should know
+
+
 class Proposed(_Said):
     """Strokes were proposed; they are in the drawing as it is at that revision."""
 
@@ -534,4 +551,4 @@ class Ghost(_Said):
     arrays: list[Array]
 
 
-Event = Welcome | Changed | Working | Trouble | Matches | Alternatives | Saved | Read | Traced | Foliage | Proposed | Growing | Tree | Ghost
+Event = Welcome | Changed | Working | Trouble | Matches | Alternatives | Saved | Read | Traced | Foliage | Matte | Trunks | Proposed | Growing | Tree | Ghost

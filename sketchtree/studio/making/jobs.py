@@ -26,7 +26,7 @@ class Jobs:
 
     def do(self, number: int, kind: str, arguments: tuple) -> object:
         """The answer to one job."""
-        upto = {"upto": PHOTO} if kind == "grow" else {}
+        upto = {"upto": PHOTO} if kind in ("grow", "trunk") else {}
         watch = watching(lambda stage, done: self.desk.say(number, "event", ("working", stage, done)), lambda: self.desk.stopped(number, kind), **upto)
         return getattr(self, f"_{kind}")(number, watch, *arguments)
 
@@ -57,6 +57,13 @@ class Jobs:
         from sketchtree.studio.making.photo_growth import Growth
 
         return Growth(self.templates, self.photo_bench)
+
+    @cached_property
+    def trunk_bench(self):
+        """What scribbles on it tell."""
+        from sketchtree.studio.making.trunk_bench import TrunkBench
+
+        return TrunkBench(self.templates, self.photo_bench)
 
     @cached_property
     def growths(self):
@@ -172,6 +179,9 @@ class Jobs:
 
     def _grown_files(self, number, watch, wish, foliages: dict[str, bytes], name: str, options: dict):
         return self.growth.files(wish, foliages, name, options, watch)
+
+    def _trunk(self, number, watch, revision: int, wish):
+        return self.trunk_bench.frame(revision, wish, lambda event: self.desk.say(number, "event", ("event", event)), watch)
 
     def _age(self, number, watch, document: Document, mode: str, bend: float):
         return self.growths.glb(document, mode, bend, watch)

@@ -81,9 +81,9 @@ class Wish:
 
     @classmethod
     def of(cls, document: Document, digest: str) -> "Wish | None":
-        """The tree of a drawing; None where no photo lies under it, or it has no crown or no limb."""
+        """The tree of a drawing; None where no photo lies under it, it has no crown or no limb, or the tree is taken from scribbles (`trunk_asked`)."""
         asked = Asked.of(document, digest)
-        if asked is None or {stroke.kind for stroke in asked.strokes} != {StrokeKind.BRANCH, StrokeKind.CROWN}:
+        if asked is None or document.trunk.on or {stroke.kind for stroke in asked.strokes} != {StrokeKind.BRANCH, StrokeKind.CROWN}:
             return None
         as_seen = document.photo.bare_as_seen and document.tree.season == TreeOptions().season  # another season is asked for
         reading = ReadingOptions(template=document.reading.template, height=document.reading.height)

@@ -5,10 +5,10 @@ from collections.abc import Sequence
 
 import numpy as np
 
-from sketchtree.drawn_tree import DrawnTree
 from sketchtree.limb_ids import child_limb_id
 from sketchtree.photo.photo import Photo
 from sketchtree.pipeline import LeafyTree
+from sketchtree.similarity import Similarity
 from sketchtree.skeleton import Kind
 from sketchtree.studio import messages
 from sketchtree.studio.making.chunks import DETAIL, Chunks, chunks_of
@@ -21,9 +21,9 @@ from sketchtree.watch import Watch
 
 
 def photo_frame(
-    revision: int, drawn: DrawnTree, trees: Sequence[tuple[object, LeafyTree]], place: Place, photo: Photo, warnings: tuple[str, ...], watch: Watch
+    revision: int, similarity: Similarity, template: str | None, trees: Sequence[tuple[object, LeafyTree]], place: Place, photo: Photo, warnings: tuple[str, ...], watch: Watch
 ) -> tuple[bytes, dict[tuple[str, str], bytes]]:
-    """(the frame, maps of materials that it alone has). `drawn`: the visible limbs of the first tree, in whose scale all are; `trees`: each with its key."""
+    """(the frame, maps of materials that it alone has). `similarity`: from the photo's pixels, y up; `template`: of the first tree; `trees`: each with its key."""
     with watch("mesh"):
         each = [_chunks(key, tree, number, len(trees), watch) for number, (key, tree) in enumerate(trees)]
     arrays, chunks, materials = Arrays(), [], {}
@@ -35,16 +35,16 @@ def photo_frame(
         for column, (kind, values) in card.arrays.items():
             arrays.put(f"card{number}/{column}", kind, values)
     points = np.concatenate([tree.skeleton.tip for _, tree in trees])
-    root = place.to_page(-np.asarray(drawn.similarity.translate)[None, :2] / drawn.similarity.scale, photo)[0]
+    root = place.to_page(-np.asarray(similarity.translate)[None, :2] / similarity.scale, photo)[0]
     worn = trees[0][1].dress
     head = messages.Tree(
-        revision=revision, phase="photo", scale=drawn.similarity.scale / place.unit(photo), root=[float(root[0]), float(-root[1])], owners=[chunk.owner for chunk in chunks],
+        revision=revision, phase="photo", scale=similarity.scale / place.unit(photo), root=[float(root[0]), float(-root[1])], owners=[chunk.owner for chunk in chunks],
         chunks=chunks, cards=[messages.Card(name=name, array=f"card{number}/", material=card.wears) for number, (name, card) in enumerate(cards.items())],
         materials=[material_of(key, one) for key, one in materials.items()], limbs=[],
         segments=sum(tree.skeleton.segment_count for _, tree in trees), drawn=int(sum((tree.skeleton.kind == Kind.DRAWN).sum() for _, tree in trees)),
         leaves=sum(len(tree.leaves) for _, tree in trees), triangles=[sum(one.triangles[k] for one in each) for k in (0, 1)],
         height=max(tree.skeleton.height for _, tree in trees), low=list(points.min(axis=0)), high=list(points.max(axis=0)),
-        template=drawn.exemplar.name if drawn.exemplar else None, leaf=worn.leaf, bark=worn.bark, warnings=list(warnings), arrays=[],
+        template=template, leaf=worn.leaf, bark=worn.bark, warnings=list(warnings), arrays=[],
     )  # fmt: skip
     return arrays.frame(head), unnamed(materials)
 

@@ -46,7 +46,8 @@ class Growth:
         if found.remark:
             told.append(found.remark)
         drawn = self.grown[1][0][0].drawn
-        return photo_frame(revision, drawn, trees, wish.asked.place, self.bench.photo, tuple(dict.fromkeys(told)), watch)
+        template = drawn.exemplar.name if drawn.exemplar else None
+        return photo_frame(revision, drawn.similarity, template, trees, wish.asked.place, self.bench.photo, tuple(dict.fromkeys(told)), watch)
 
     def files(self, wish: Wish, foliages: Mapping[str, bytes], name: str, options: dict, watch: Watch) -> dict[str, bytes]:
         """The files that it becomes, by name: those that `sketchtree photo` writes. Raises SketchTreeError."""

@@ -22,12 +22,12 @@ from pathlib import Path
 
 from sketchtree.errors import SketchTreeError
 
-NEWEST = ("full", "quick", "ghost", "glance", "alternatives", "trace", "tint", "grow", "age")
+NEWEST = ("full", "quick", "ghost", "glance", "alternatives", "trace", "tint", "grow", "trunk", "age")
 LAST = ("picture",)
 KNOWN = ("find", "frame")
 
 _REST = 0.4  # seconds without a job, after which what nobody waits for goes on
-_NICE = {"quick": 0, "photo": 0, "foliage": 2, "grow": 3, "full": 4, "side": 8, "age": 9}  # what a pen waits for goes before what a tree waits for, and that before pictures; the tree of a photo stands in the place of the full one
+_NICE = {"quick": 0, "photo": 0, "foliage": 2, "grow": 3, "trunk": 3, "full": 4, "side": 8, "age": 9}  # what a pen waits for goes before what a tree waits for, and that before pictures; the tree of a photo stands in the place of the full one
 
 
 class Desk:
@@ -82,7 +82,7 @@ class Desk:
 
 
 def main(pipe: Connection, database: str | None, role: str) -> None:
-    """Work until the pipe closes, as one of the crew: quick, full, side, photo, foliage, grow or age."""
+    """Work until the pipe closes, as one of the crew: quick, full, side, photo, foliage, grow, trunk or age."""
     signal.signal(signal.SIGINT, signal.SIG_IGN)
     if hasattr(os, "nice"):
         os.nice(_NICE[role])
@@ -94,6 +94,8 @@ def main(pipe: Connection, database: str | None, role: str) -> None:
         jobs.photo_answers.get_ready(leaves=role == "foliage")
     elif role == "grow":
         jobs.growth  # noqa: B018 - what it needs is imported before there is another thread
+    elif role == "trunk":
+        jobs.trunk_bench  # noqa: B018 - as there
     elif role == "age":
         jobs.growths  # noqa: B018 - as there
     elif role != "side":

@@ -214,6 +214,23 @@ export interface Foliage {
   png: string; // base64; as large as the picture, or smaller; opaque where foliage is. Empty: not known
 }
 
+/** How much of each pixel of the photo under the page is tree, as scribbles and what is painted in by hand tell. */
+export interface Matte {
+  type: "matte";
+  revision: number;
+  png: string; // base64; as large as the photo, or smaller; as opaque as the tree is there. Empty: not known
+}
+
+/** The trunk that the matte shows, and its contour's vertices. It comes after the matte, and goes with it. */
+export interface Trunks {
+  type: "trunks";
+  revision: number;
+  state: "failed" | "none" | "ready" | "waits" | "works"; // none: nothing is scribbled; waits: for the pen to rest
+  trees: TracedTree[]; // its skeleton; all of it `drawn`
+  vertices: number[][]; // of each ring of the contour: x, y, x, y …, pixels of the photo, y down
+  remark: string; // why there is none, or what a person should know
+}
+
 /** Strokes were proposed; they are in the drawing as it is at that revision. */
 export interface Proposed {
   type: "proposed";
@@ -507,4 +524,4 @@ export interface Propose {
 }
 
 export type Request = Hello | Strokes | Sketching | Choose | ChooseTrunk | Glance | Hold | Flip | Mirror | Lock | Delete | Settle | Readings | Pick | Undo | Redo | Cancel | New | Open | Save | SetUnderlay | UseTraced | Grow | Propose;
-export type Event = Welcome | Changed | Working | Trouble | Matches | Alternatives | Saved | Read | Traced | Foliage | Proposed | Growing | Tree | Ghost;
+export type Event = Welcome | Changed | Working | Trouble | Matches | Alternatives | Saved | Read | Traced | Foliage | Matte | Trunks | Proposed | Growing | Tree | Ghost;

@@ -1,0 +1,88 @@
+"""The tree that scribbles on the photo under the page tell, as `sketchtree grow` makes it of the project. What pages see on the way: the matte, then the trunk's skeleton, then the tree.
+
+The matte takes long and hangs on the scribbles alone, so that which was found last is kept: other edits of it, or of the contour, ask for no matting.
+"""
+
+import base64
+import io
+from collections.abc import Callable
+from dataclasses import dataclass, field
+
+import numpy as np
+from PIL import Image
+
+from sketchtree.errors import OptionError
+from sketchtree.growth_tree import FoundTrunk, GrowthOptions, grown_tree, of_picture
+from sketchtree.keys import root_key
+from sketchtree.matting.alpha import Matte
+from sketchtree.photo.photo import turned_over
+from sketchtree.pipeline import LeafyTree
+from sketchtree.scribbled_tree import Scribbled, growth_of, matte_of, on_photo, repainted, trunk_of
+from sketchtree.studio import messages
+from sketchtree.studio.making.photo_asked import Place
+from sketchtree.studio.making.photo_bench import PhotoBench
+from sketchtree.studio.making.photo_frame import photo_frame
+from sketchtree.studio.making.trunk_asked import TrunkWish
+from sketchtree.studio.making.work import signature
+from sketchtree.templates.store.database import Database
+from sketchtree.watch import Watch
+
+_SIDE = 1024  # pixels of the longer side of the matte that pages get
+
+
+@dataclass(eq=False)
+class TrunkBench:
+    """What was found last in the photo that lies on the bench."""
+
+    templates: Database
+    bench: PhotoBench = field(default_factory=PhotoBench)
+    matte: tuple[str, Matte] | None = None  # signature, and the matte without what is painted into it
+
+    def frame(self, revision: int, wish: TrunkWish, tell: Callable[[messages.Event], None], watch: Watch) -> tuple[bytes, dict[tuple[str, str], bytes]]:
+        """(the frame of the tree, whole; maps of materials that it alone has). `tell` hears of the matte and of the trunk on the way. Raises SketchTreeError where there is no tree."""
+        scribbled, key = self._scribbled(wish), root_key(wish.seed)
+        with watch("read"):
+            matte = self._matte(scribbled, wish)
+        tell(messages.Matte(revision=revision, png=opaque(repainted(matte, scribbled))))
+        templates = None if wish.reading.template == "none" else self.templates
+        found = trunk_of(scribbled, templates, key=key, reading=wish.reading, matte=matte, watch=watch)
+        tell(told_trunk(revision, found, wish.place))
+        grown = grown_tree(of_picture(found, wish.tree, templates, key=key), growth_of(scribbled, GrowthOptions()), wish.tree, watch=watch)
+        worn = grown.model
+        leafy = LeafyTree(worn.skeleton, worn.leaves, worn.blossom, worn.dress, worn.warnings)
+        return photo_frame(revision, found.similarity, found.template, [(key, leafy)], wish.place, scribbled.photo, grown.warnings, watch)
+
+    def _scribbled(self, wish: TrunkWish) -> Scribbled:
+        if self.bench.trouble is not None:
+            raise self.bench.trouble
+        photo = self.bench.photo
+        if photo is None or self.bench.digest != wish.picture:
+            raise OptionError("The photo is not here any more.", remedy="Add it again.")
+        across = (photo.width / wish.place.width, photo.height / wish.place.height)
+        return Scribbled(photo, on_photo(wish.strokes, (wish.place.x, wish.place.y), across), wish.choices)
+
+    def _matte(self, scribbled: Scribbled, wish: TrunkWish) -> Matte:
+        at = signature(wish.picture, [(one.kind.value, one.points, one.width) for one in scribbled.saying], wish.seed)
+        if self.matte is None or self.matte[0] != at:
+            self.matte = at, matte_of(scribbled, key=root_key(wish.seed))
+        return self.matte[1]
+
+
+def told_trunk(revision: int, found: FoundTrunk, place: Place) -> messages.Trunks:
+    """The trunk as pages are told."""
+    skeleton, photo = found.skeleton, found.photo
+    xy = place.to_page(turned_over(skeleton.xy), photo) * (1.0, -1.0)
+    limbs = messages.TracedTree(
+        xy=np.round(xy.reshape(-1), 3).tolist(), parent=skeleton.parent.tolist(), width=np.round(2 * skeleton.radius * place.unit(photo), 3).tolist(), drawn=[True] * len(skeleton)
+    )
+    vertices = [np.round(ring.reshape(-1), 3).tolist() for ring in skeleton.vertices]
+    return messages.Trunks(revision=revision, state="ready", trees=[limbs], vertices=vertices, remark=" ".join(found.warnings))
+
+
+def opaque(matte: Matte) -> str:
+    """A matte as a picture that is as opaque as the tree is; base64 of a PNG."""
+    alpha = Image.fromarray(np.round(255 * np.asarray(matte.alpha)).astype(np.uint8))
+    alpha = alpha.reduce(-(-max(alpha.size) // _SIDE))
+    whole = io.BytesIO()
+    Image.merge("LA", (Image.new("L", alpha.size, 255), alpha)).save(whole, "PNG")
+    return base64.b64encode(whole.getvalue()).decode()

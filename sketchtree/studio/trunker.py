@@ -1,0 +1,143 @@
+"""When is the tree of scribbles made? A moment after the last of them, aside, in a process of its own: no stroke waits for a matte.
+
+    scribbles, options → a pause → matte → trunk → tree → pages     the newest wins; one that is the same as that shown is not made again
+
+What is shown stays until the next is there, and goes when the tree is not taken from scribbles any more.
+"""
+
+import asyncio
+from collections.abc import Callable, Coroutine, Mapping
+
+import msgspec
+
+from sketchtree.editing.document import Document
+from sketchtree.errors import SketchTreeError
+from sketchtree.studio import messages
+from sketchtree.studio.engine import Outcome
+from sketchtree.studio.hand import Ended, Hand
+from sketchtree.studio.laid_photo import LaidPhoto
+from sketchtree.studio.making.trunk_asked import TrunkWish
+
+_REST = 0.6  # seconds without a change before it is made
+_PAUSE = 0.2  # seconds between two tellings of how far it is
+
+
+class Trunker:
+    """`tell` is given outcomes for the pages; `run` does work aside."""
+
+    def __init__(self, hand: Hand, laid: LaidPhoto, tell: Callable[[Outcome], None], run: Callable[[Coroutine], None]):
+        self._hand, self._laid, self._outcome, self._run = hand, laid, tell, run
+        self._loop = asyncio.get_running_loop()
+        self._now: tuple[int, TrunkWish] | None = None  # the newest drawing
+        self._works: tuple[TrunkWish, int] | None = None  # what is made, and the number of its job
+        self._done: tuple[TrunkWish, str, str] | None = None  # what is not to be made again: its state, and why
+        self._soon: asyncio.TimerHandle | None = None
+        self._is_on, self._told_at = False, 0.0
+        self._over: dict[type, messages.Event] = {}  # what is laid over the photo: of the tree that is made, or was last
+        self._shown: dict[type, messages.Event] = {}  # and of the tree that is shown
+        self.textures: Mapping[tuple[str, str], bytes] = {}  # by material and map: those that only the tree that is shown has
+
+    def make(self, revision: int, document: Document, *, at_once: bool = False) -> None:
+        """The drawing is this now; `at_once`: without a pause, even if it was stopped."""
+        asked = self._laid.lay(document)
+        wish = None if asked is None else TrunkWish.of(document, asked.picture)
+        if wish is None:
+            self._nothing(revision)
+            return
+        self._now, self._is_on = (revision, wish), True
+        self._laid.show(self._hand, asked)
+        if at_once:
+            self._done = None
+        if self._works is not None and self._works[0].key == wish.key:
+            self._works = wish, self._works[1]
+            return
+        self._halt()
+        if self._done is not None and self._done[0].key == wish.key:
+            self._tell(*self._done[1:])
+            if self._done[1] == "ready":
+                for event in self._shown.values():  # another may have been laid over it meanwhile
+                    self._outcome(Outcome(revision, msgspec.structs.replace(event, revision=revision)))
+            return
+        self._tell("waits")
+        self._soon = self._loop.call_later(0.0 if at_once else _REST, self._begin, asked)
+
+    def stop(self) -> None:
+        """What is made, or is to be, is not wanted."""
+        if self._now is not None and (self._works is not None or self._soon is not None):
+            self._halt()
+            self._done = self._now[1], "stopped", ""
+            self._tell("stopped")
+
+    def end(self) -> None:
+        """End the process."""
+        self._clear()
+        self._hand.end()
+
+    def heard(self, number: int, value: tuple) -> None:
+        """The process tells what it found, and how far it is."""
+        if self._works is None or self._works[1] != number or self._now is None:
+            return
+        if value[0] == "event":
+            self._over[type(value[1])] = value[1]
+            self._outcome(Outcome(value[1].revision, value[1]))
+        elif self._loop.time() - self._told_at >= _PAUSE:
+            self._told_at = self._loop.time()
+            self._say(state="grows", stage=value[1], done=min(max(float(value[2]), 0.0), 1.0))
+
+    def _begin(self, asked) -> None:
+        self._soon = None
+        revision, wish = self._now
+        self._laid.show(self._hand, asked)
+        number, answer = self._hand.ask("trunk", revision, wish)
+        self._works = wish, number
+        self._tell("grows")
+        self._run(self._made(revision, number, answer))
+
+    async def _made(self, revision: int, number: int, answer: asyncio.Future) -> None:
+        found, why = None, ""
+        try:
+            found = await answer
+        except Ended:
+            why = "The process that makes it ended. Make it again."
+        except SketchTreeError as error:
+            why = f"{error.message} {error.remedy}"
+        if self._works is None or self._works[1] != number or not (found or why):
+            return
+        (wish, _), self._works = self._works, None
+        self._done = wish, "failed" if why else "ready", why
+        if found:
+            (frame, self.textures), self._shown = found, dict(self._over)
+            self._outcome(Outcome(revision, frame, of_photo=True))
+        self._tell(*self._done[1:])
+
+    def _nothing(self, revision: int) -> None:
+        """The tree is not taken from scribbles."""
+        self._halt()
+        self._now = self._done = None
+        self._over, self._shown = {}, {}
+        if self._is_on:
+            self._is_on = False
+            for event in (messages.Matte(revision=revision, png=""), messages.Trunks(revision=revision, state="none"), messages.Growing(revision=revision, state="none")):
+                self._outcome(Outcome(revision, event))
+
+    def _halt(self) -> None:
+        """Nothing is made from now on."""
+        self._clear()
+        if self._works is not None:
+            self._works = None
+            self._hand.stop()
+
+    def _clear(self) -> None:
+        if self._soon is not None:
+            self._soon.cancel()
+            self._soon = None
+
+    def _tell(self, state: str, remark: str = "") -> None:
+        """How far it is: `Trunks` for what is laid over the photo, unless that is there; `Growing` for the tree."""
+        self._say(state=state, remark=remark, done=1.0 if state == "ready" else 0.0)
+        over = {"waits": "waits", "grows": "works", "failed": "failed"}.get(state)
+        if over is not None:
+            self._outcome(Outcome(self._now[0], messages.Trunks(revision=self._now[0], state=over, remark=remark)))
+
+    def _say(self, **fields) -> None:
+        self._outcome(Outcome(self._now[0], messages.Growing(revision=self._now[0], **fields)))

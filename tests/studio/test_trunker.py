@@ -1,0 +1,154 @@
+"""When the tree of scribbles is made: a moment after the last of them, never twice alike, and it goes when it is taken otherwise."""
+
+import asyncio
+from contextlib import asynccontextmanager
+
+import numpy as np
+import pytest
+from test_grower import IdleHand
+
+from sketchtree.editing.document import Document, Underlay
+from sketchtree.errors import SketchError
+from sketchtree.sketch.strokes import Stroke, StrokeKind
+from sketchtree.studio import messages, trunker as making
+from sketchtree.studio.laid_photo import LaidPhoto
+from sketchtree.studio.trunker import Trunker
+from sketchtree.trunk.wanted import TrunkChoices
+
+ONE = {"a": Stroke("a", np.array([(1.0, 1.0), (1.0, 9.0)]), StrokeKind.FOREGROUND, labelled=True, width=2.0)}
+TWO = ONE | {"b": Stroke("b", np.array([(5.0, 1.0), (5.0, 9.0)]), StrokeKind.BACKGROUND, labelled=True, width=2.0)}
+UNDER = Underlay(b"\x89PNG" + bytes(40), 0.0, 0.0, 10.0, 10.0, photo=True)
+
+
+def drawn(strokes, on: bool = True) -> Document:
+    return Document(strokes, underlay=UNDER, trunk=TrunkChoices(on=on))
+
+
+@pytest.fixture(autouse=True)
+def no_pauses(monkeypatch):
+    for name in ("_REST", "_PAUSE"):
+        monkeypatch.setattr(making, name, 0.0)
+
+
+class Scene:
+    """A trunker, and all that it told."""
+
+    def __init__(self):
+        self.hand, self.told, self.revision = IdleHand(), [], 0
+        self.trunker = Trunker(self.hand, LaidPhoto(), self.told.append, lambda work: asyncio.get_running_loop().create_task(work))
+
+    async def draw(self, document: Document, **more):
+        self.revision += 1
+        self.trunker.make(self.revision, document, **more)
+        await self.rest()
+
+    async def rest(self):
+        for _ in range(10):
+            await asyncio.sleep(0.001)
+
+    async def answer(self, frame=b"frame"):
+        number, _, answer = self.hand.jobs("trunk")[-1]
+        if isinstance(frame, Exception):
+            answer.set_exception(frame)
+        else:
+            self.trunker.heard(number, ("event", messages.Matte(revision=self.revision, png=frame.decode())))
+            answer.set_result((frame, {}))
+        await self.rest()
+
+    def all(self, kind):
+        return [outcome.event for outcome in self.told if isinstance(outcome.event, kind)]
+
+    @property
+    def states(self):
+        return [event.state for event in self.all(messages.Growing)]
+
+    @property
+    def made(self):
+        return len(self.hand.jobs("trunk"))
+
+
+@asynccontextmanager
+async def scene():
+    yield Scene()
+
+
+def played(of):
+    async def run():
+        async with scene() as made:
+            await of(made)
+
+    asyncio.run(run())
+
+
+def test_it_is_made_once_and_shown():
+    async def play(scene):
+        await scene.draw(drawn(TWO))
+        await scene.answer()
+        assert scene.states == ["waits", "grows", "ready"] and [one.event for one in scene.told if one.of_photo] == [b"frame"]
+        await scene.draw(drawn(TWO))
+        assert scene.made == 1 and scene.states[-1] == "ready"
+
+    played(play)
+
+
+def test_the_newest_wins_and_what_comes_of_an_older_one_is_not_told():
+    async def play(scene):
+        await scene.draw(drawn(ONE))
+        await scene.draw(drawn(TWO))
+        assert (scene.made, scene.hand.stops) == (2, 1)
+        scene.hand.jobs("trunk")[0][2].set_result((b"old", {}))
+        scene.trunker.heard(scene.hand.jobs("trunk")[0][0], ("event", messages.Matte(revision=1, png="old")))
+        await scene.answer(b"new")
+        assert [one.event for one in scene.told if one.of_photo] == [b"new"] and [one.png for one in scene.all(messages.Matte)] == ["new"]
+
+    played(play)
+
+
+def test_undone_at_once_what_lies_over_the_photo_is_that_of_the_tree_shown():
+    async def play(scene):
+        await scene.draw(drawn(ONE))
+        await scene.answer(b"one")
+        await scene.draw(drawn(TWO))
+        scene.trunker.heard(scene.hand.jobs("trunk")[-1][0], ("event", messages.Matte(revision=2, png="two")))
+        await scene.draw(drawn(ONE))
+        assert [(one.revision, one.png) for one in scene.all(messages.Matte)] == [(1, "one"), (2, "two"), (3, "one")]
+        assert scene.made == 2 and scene.states[-1] == "ready"
+
+    played(play)
+
+
+def test_what_can_not_be_made_says_why_and_is_not_tried_again():
+    async def play(scene):
+        await scene.draw(drawn(ONE))
+        await scene.answer(SketchError("It has no background line.", remedy="Draw one."))
+        assert (scene.states[-1], scene.all(messages.Trunks)[-1].remark) == ("failed", "It has no background line. Draw one.")
+        await scene.draw(drawn(ONE))
+        assert scene.made == 1
+        await scene.draw(drawn(ONE), at_once=True)
+        assert scene.made == 2
+
+    played(play)
+
+
+def test_what_is_stopped_is_not_made_until_it_is_asked_for():
+    async def play(scene):
+        await scene.draw(drawn(TWO))
+        scene.trunker.stop()
+        await scene.draw(drawn(TWO))
+        assert (scene.made, scene.states[-1]) == (1, "stopped")
+        await scene.draw(drawn(TWO), at_once=True)
+        assert scene.made == 2
+
+    played(play)
+
+
+def test_it_goes_when_the_tree_is_taken_otherwise_and_nothing_is_told_of_a_plain_drawing():
+    async def play(scene):
+        await scene.draw(drawn(TWO, on=False))
+        await scene.draw(Document(ONE))
+        assert scene.told == [] and scene.hand.asked == {}
+        await scene.draw(drawn(TWO))
+        await scene.draw(drawn(TWO, on=False))
+        assert scene.all(messages.Matte)[-1].png == "" and scene.all(messages.Trunks)[-1].state == scene.states[-1] == "none"
+
+    played(play)
