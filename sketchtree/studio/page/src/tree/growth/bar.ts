@@ -67,10 +67,11 @@ export function growthBar(ageing: Ageing, hands: Hands): GrowthBar {
     time.style.setProperty("--part", `${(100 * shown.time).toFixed(2)}%`);
     time.setAttribute("aria-valuetext", `${share} grown`);
     time.disabled = play.disabled = !shown.there;
-    const words = shown.words || share;
+    const stays = shown.there && shown.time < 1; // the growth there was, till the new one comes
+    const words = shown.words === "" ? share : stays ? `${share} …` : shown.words;
     if (value.textContent !== words) value.textContent = words;
-    value.classList.toggle("words", shown.words !== "");
-    value.title = shown.remedy;
+    value.classList.toggle("words", words === shown.words);
+    value.title = shown.remedy || shown.words;
     value.setAttribute("aria-live", shown.words ? "polite" : "off"); // the slider says where it is
     if ((play.dataset.playing === "true") !== shown.playing) {
       play.dataset.playing = String(shown.playing);

@@ -122,7 +122,7 @@ class GrowthView {
     const { clock, bar, open, words, remedy } = this;
     press(bar.opener, open);
     bar.opener.setAttribute("aria-expanded", String(open));
-    bar.show({ time: clock.time, playing: clock.playing, loops: clock.loops, there: this.standing !== null, words: this.standing && clock.time < 1 ? "" : words, remedy });
+    bar.show({ time: clock.time, playing: clock.playing, loops: clock.loops, there: this.standing !== null, words, remedy });
   }
 
   /** What is to be seen at this time is in the scene. */

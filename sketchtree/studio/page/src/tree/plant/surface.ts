@@ -65,6 +65,16 @@ const COVERED = `
   if (diffuseColor.a == 0.0) discard;
 #endif`;
 
+/** Joints make wood long before they make it thick: three turns normals as if both were alike, and thin shoots would be dark. Cofactors turn them truly, and are finite where a size is 0. */
+const GROWN_NORMAL = `#include <skinnormal_vertex>
+#ifdef USE_SKINNING
+  objectNormal = mat3(cross(skinMatrix[1].xyz, skinMatrix[2].xyz), cross(skinMatrix[2].xyz, skinMatrix[0].xyz), cross(skinMatrix[0].xyz, skinMatrix[1].xyz)) * restNormal;
+#endif`;
+
+function grownNormal(vertexShader: string): string {
+  return vertexShader.replace("#include <skinnormal_vertex>", `vec3 restNormal = objectNormal;\n${GROWN_NORMAL}`);
+}
+
 /** The material of a part that is drawn once: wood. Its mesh has the attributes `limb` and `doubt` (rgb, 1 a vertex). */
 export function woodMaterial(of: Material, lighting: Lighting): MeshStandardMaterial {
   const material = standard(of);
@@ -73,7 +83,7 @@ export function woodMaterial(of: Material, lighting: Lighting): MeshStandardMate
     shader.uniforms.uMarks = lighting.marks.uniform;
     shader.uniforms.uDoubt = lighting.doubt;
     shader.vertexShader = `attribute float limb; attribute vec3 doubt; uniform sampler2D uMarks; varying vec4 vMark; varying vec3 vDoubt;\n${MARK_OF}\n${SKY}`
-      + shader.vertexShader.replace("#include <begin_vertex>", `#include <begin_vertex>\n${SKY_AT} vMark = markOf(limb); vDoubt = doubt;`);
+      + grownNormal(shader.vertexShader).replace("#include <begin_vertex>", `#include <begin_vertex>\n${SKY_AT} vMark = markOf(limb); vDoubt = doubt;`);
     shader.fragmentShader = `uniform float uDoubt; varying vec4 vMark; varying vec3 vDoubt; ${SKY_IN}`
       + shader.fragmentShader.replace("#include <aomap_fragment>", SKY_FALLS)
         .replace("#include <map_fragment>", "#include <map_fragment>\ndiffuseColor.rgb = mix(diffuseColor.rgb, vDoubt, uDoubt);")
@@ -90,7 +100,7 @@ export function leafMaterial(of: Material, lighting: Lighting, passing: { value:
     share(shader, lighting, true);
     shader.uniforms.uPassing = passing;
     shader.uniforms.uPasses = { value: of.translucency };
-    shader.vertexShader = `varying vec3 vTint; ${isBaked ? "attribute vec3 aTint;" : PLACED}\n${SKY}` + shader.vertexShader
+    shader.vertexShader = `varying vec3 vTint; ${isBaked ? "attribute vec3 aTint;" : PLACED}\n${SKY}` + grownNormal(shader.vertexShader)
       .replace("#include <beginnormal_vertex>", isBaked ? "#include <beginnormal_vertex>" : PLACED_NORMAL)
       .replace("#include <begin_vertex>", `${isBaked ? "#include <begin_vertex>" : PLACED_POINT + THINNED}\nvTint = aTint; ${SKY_AT}`);
     shader.fragmentShader = `varying vec3 vTint; uniform float uPasses; uniform sampler2D uPassing; vec3 passed; ${SKY_IN}`
