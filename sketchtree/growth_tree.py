@@ -124,6 +124,7 @@ class Beginning:
     templates: Database | None = None
     obstacles: tuple = ()
     warnings: tuple[str, ...] = ()
+    levels: int | None = None  # of grafts, as its project says; None: 3 on a picture's trunk, 0 on what is a tree already
 
 
 @dataclass(frozen=True, eq=False)
@@ -222,7 +223,7 @@ def grown_tree(
 ) -> GrownTree:
     """The tree whole, with the plan of its growth. `crown`: which of its variations."""
     watch, key = watch or Watch(), crown_key(beginning.key, crown)
-    levels = growth.levels if growth.levels is not None else LEVELS if beginning.kind == "picture" else 0
+    levels = growth.levels if growth.levels is not None else beginning.levels if beginning.levels is not None else LEVELS if beginning.kind == "picture" else 0
     told: tuple[str, ...] = ()
     if beginning.kind == "drawing" and levels == 0:
         model = pipeline.complete(beginning.drawn, beginning.templates, key=key, options=tree, obstacles=beginning.obstacles, watch=watch)

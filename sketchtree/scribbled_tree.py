@@ -43,6 +43,7 @@ class Scribbled:
     photo: Photo
     strokes: tuple[Stroke, ...]  # of SCRIBBLES; pixels, y UP
     choices: TrunkChoices = TrunkChoices()
+    reading: ReadingOptions = ReadingOptions()  # its template and height
 
     @property
     def saying(self) -> tuple[Stroke, ...]:
@@ -108,7 +109,8 @@ def read_scribbled(path: str | Path, limits: DrawingOptions = DrawingOptions()) 
 
     try:
         with h5py.File(path, "r") as file:
-            said = json.loads(column(file, "options").tobytes()).get(TRUNK) if "options" in file else None
+            options = json.loads(column(file, "options").tobytes()) if "options" in file else {}
+            said = options.get(TRUNK)
             if not said or not said.get("on"):
                 return None
             at, picture = file["underlay"].attrs, column(file, "underlay").tobytes()
@@ -116,8 +118,9 @@ def read_scribbled(path: str | Path, limits: DrawingOptions = DrawingOptions()) 
         if not (width > 0 and height > 0):
             raise ValueError("its photo has no size")
         choices = TrunkChoices(**{field.name: said[field.name] for field in dataclasses.fields(TrunkChoices) if field.name in said})
+        reading = ReadingOptions(**{name: options[name] for name in ("template", "height") if name in options})
     except (OSError, RuntimeError, ValueError, TypeError, KeyError, AttributeError, RecursionError) as error:
         raise SketchError(f"The photo in {path.name} can't be read ({error}).", remedy="Open an older copy of it.") from error
     photo = photo_in(picture, path.name, max_megapixels=limits.max_megapixels)
     sketch = read_sketch(path, max_strokes=limits.max_strokes, max_mb=limits.max_mb)
-    return Scribbled(photo, on_photo(sketch.strokes, (x, y), (photo.width / width, photo.height / height)), choices)
+    return Scribbled(photo, on_photo(sketch.strokes, (x, y), (photo.width / width, photo.height / height)), choices, reading)

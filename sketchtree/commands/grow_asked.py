@@ -8,6 +8,7 @@ from click.core import ParameterSource
 
 from sketchtree.errors import ExportError, OptionError
 from sketchtree.export.files import MESHES, PROJECTS, SKELETONS
+from sketchtree.sketch.files.project import holds_scribbles
 
 ANIMATED = (".glb", ".gltf", ".usd", ".usda", ".usdc", ".usdz")
 PICTURES = (".png", ".jpg", ".jpeg", ".tif", ".tiff", ".webp", ".bmp", ".gif", ".heic", ".avif")
@@ -16,8 +17,8 @@ SERIES_FRAMES = 24
 _OF_PICTURE = ("scribbles", "use_matte", "matting", "edit_matte", "vertices", "gap", "root", "lift", "matte", "trunk")
 _OF_DRAWING = ("theta", "method", "planar", "crown", "max_strokes", "generations", "fill", "density", "light", "obstacle", "sag", "shed", "shed_twigs", "untangle")
 _OF_FILE = ("max_mb", "max_megapixels")
-_UNUSED = {"picture": _OF_DRAWING, "drawing": _OF_PICTURE, "skeleton": (*_OF_PICTURE, *_OF_DRAWING, *_OF_FILE)}
-_IS = {"picture": "is a picture with a tree in it", "drawing": "is a drawing", "skeleton": "holds a tree already"}
+_UNUSED = {"scribbled": (*_OF_PICTURE[:-2], *_OF_DRAWING), "picture": _OF_DRAWING, "drawing": _OF_PICTURE, "skeleton": (*_OF_PICTURE, *_OF_DRAWING, *_OF_FILE)}
+_IS = {"scribbled": "keeps a photo with what is scribbled on it", "picture": "is a picture with a tree in it", "drawing": "is a drawing", "skeleton": "holds a tree already"}
 
 
 def given(context: click.Context) -> set[str]:
@@ -26,8 +27,10 @@ def given(context: click.Context) -> set[str]:
 
 
 def kind_of(source: Path, wanted: dict) -> str:
-    """picture, drawing or skeleton: by the extension, of JSON by what it says. Raises SketchError, ExportError."""
+    """picture, drawing or skeleton: by the extension, of JSON by what it says; scribbled: a project whose tree is taken from scribbles on its photo. Raises SketchError, ExportError."""
     suffix = source.suffix.lower()
+    if suffix in PROJECTS and holds_scribbles(source):
+        return "scribbled"
     if suffix in PICTURES:
         return "picture"
     if suffix in (*ROWS, *PROJECTS, *ANIMATED):

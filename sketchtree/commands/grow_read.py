@@ -17,6 +17,8 @@ def read(kind: str, source: Path, wanted: dict, templates, *, seed: int, seed_ch
 
     if kind == "picture":
         return _of_picture(source, wanted, templates, key=root_key(seed), reading=reading, tree=tree, trunk=trunk, watch=watch), seed
+    if kind == "scribbled":
+        return _of_scribbles(source, templates, seed=seed, seed_chosen=seed_chosen, reading=reading, tree=tree, watch=watch)
     if kind == "drawing":
         return of_drawing(source, templates, key=root_key(seed), reading=reading, tree=tree, watch=watch), seed
     with watch("read"):
@@ -42,6 +44,26 @@ def _of_picture(source: Path, wanted: dict, templates, *, key, reading, tree, tr
         edits = VertexEdits() if wanted["vertices"] is None else read_edits(wanted["vertices"])
     found = find_trunk(photo, scribbles, templates, key=key, wanted=trunk, reading=reading, edits=edits, painted=wanted["edit_matte"], known=known, watch=watch)
     return of_picture(found, tree, templates, key=key)
+
+
+def _of_scribbles(source: Path, templates, *, seed: int, seed_chosen: bool, reading, tree, watch):
+    """The tree of a project's scribbles, of its own seed, template, height and looks where the user names no others."""
+    from sketchtree.export.skeletons.hdf5 import read_choices
+    from sketchtree.keys import root_key
+    from sketchtree.scribbled_tree import beginning_of, read_scribbled
+
+    with watch("read"):
+        wanted, told = read_scribbled(source, reading), read_choices(source)
+    seed = seed if seed_chosen else told["seed"]
+    asked = click.get_current_context().get_parameter_source("season") is not ParameterSource.DEFAULT
+    own = {name: told[name] for name in ("leaf", "bark", "wood") if getattr(tree, name) is None and told.get(name) is not None}
+    own |= {"season": told["season"]} if not asked and told.get("season") else {}
+    own |= {"solid": True} if told.get("solid") and not tree.solid else {}
+    said = wanted.reading
+    reading = dataclasses.replace(reading, template=said.template if reading.template == "auto" else reading.template, height=reading.height or said.height)
+    templates = None if reading.template == "none" else templates
+    begun = beginning_of(wanted, templates, key=root_key(seed), reading=reading, tree=dataclasses.replace(tree, **own), watch=watch)
+    return dataclasses.replace(begun, levels=wanted.choices.levels), seed
 
 
 def _of_skeleton(source: Path, wanted: dict, templates, *, seed: int, seed_chosen: bool, reading, tree):

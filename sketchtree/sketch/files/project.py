@@ -42,6 +42,21 @@ def holds_photo(path) -> bool:
         return False  # whoever reads the strokes says so
 
 
+def holds_scribbles(path) -> bool:
+    """Is it a project whose tree is taken from scribbles on its photo?"""
+    if not holds_photo(path):
+        return False
+    import json
+
+    import h5py
+
+    try:
+        with h5py.File(path, "r") as file:
+            return "options" in file and bool((json.loads(column(file, "options").tobytes()).get(TRUNK) or {}).get("on"))
+    except (OSError, RuntimeError, ValueError, TypeError, KeyError, AttributeError, RecursionError):
+        return False  # whoever reads the strokes says so
+
+
 def check_schema(file, name: str) -> None:
     """Raise SketchError for an open project that a newer version wrote: what it holds may mean something else there."""
     try:
