@@ -8,6 +8,7 @@ from click.core import ParameterSource
 
 from sketchtree.commands import options
 from sketchtree.commands.progress import Progress
+from sketchtree.errors import OptionError
 
 
 @click.command("build")
@@ -32,7 +33,12 @@ def build(sketch: Path, output: Path, as_drawn: bool, seed: int, quiet: bool, js
     writing.check_outputs(sketch, output, report, wanted["skeleton"], wanted["preview"], files=files, kinds=writing.WHOLE)
     from sketchtree import pipeline
     from sketchtree.keys import root_key
-    from sketchtree.sketch.files.project import holds_photo
+    from sketchtree.sketch.files.project import holds_photo, holds_scribbles
+
+    if not as_drawn and holds_scribbles(sketch):
+        raise OptionError(
+            f"The tree of {sketch.name} is taken from scribbles on its photo, and `build` reads a drawing.", remedy="Give it to `sketchtree grow`; `--as-drawn` builds the tree of its strokes."
+        )
     from sketchtree.templates.store.database import Database
     from sketchtree.watch import Watch
 

@@ -7,6 +7,7 @@ import pytest
 from click.testing import CliRunner
 from PIL import Image, ImageDraw
 
+from sketchtree.commands.build import build
 from sketchtree.commands.grow import grow
 from sketchtree.editing.document import Document, Underlay
 from sketchtree.options import ReadingOptions
@@ -42,3 +43,8 @@ def test_it_grows_as_its_project_says(project, tmp_path):
 def test_what_the_project_says_already_is_not_asked_for(project, tmp_path):
     answer = CliRunner().invoke(grow, [str(project), "-o", str(tmp_path / "bare.swc"), "--scribbles", str(project)])
     assert answer.exit_code != 0 and "`--scribbles` does nothing here: bare.sketchtree keeps a photo with what is scribbled on it." in str(answer.exception or answer.output)
+
+
+def test_build_says_who_makes_its_tree(project, tmp_path):
+    answer = CliRunner().invoke(build, [str(project), "-o", str(tmp_path / "bare.glb")])
+    assert answer.exit_code != 0 and "The tree of bare.sketchtree is taken from scribbles on its photo, and `build` reads a drawing." in str(answer.exception or answer.output)
