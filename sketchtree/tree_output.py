@@ -76,12 +76,12 @@ def about_of(model, made: Made, **more) -> dict:
     """What a file of ours tells of its tree; `more`: what is known beside that."""
     drawn, dress = getattr(model, "drawn", None), getattr(model, "dress", None)
     template = {} if drawn is None else {"template": drawn.exemplar.name if drawn.exemplar else None}
-    return {"program": "SketchTree", "version": __version__, "seed": made.seed, "units": "metres", "up": "y"} | template | more | ({} if dress is None else _worn(dress))
+    return {"program": "SketchTree", "version": __version__, "seed": made.seed, "units": "metres", "up": "y"} | template | more | ({} if dress is None else worn_in_words(dress))
 
 
-def _worn(dress) -> dict:
+def worn_in_words(dress) -> dict:
     """The tree's looks, by the names of the options that ask for them: a tree that `grow` makes of the file wears the same."""
-    return {"leaf": dress.leaf or "none", "bark": dress.bark, "season": dress.season} | ({"wood": dress.wood} if dress.wood else {}) | ({"solid": True} if dress.solid else {})
+    return {"leaf": dress.leaf or "none", "bark": dress.bark, "season": dress.season}
 
 
 def _write_pack(model, output: Path, made: Made, files: FileOptions) -> None:

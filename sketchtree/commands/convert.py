@@ -92,6 +92,7 @@ def _dressed(source: Path, contents, seed: int, db: Path | None, wanted: dict):
     from sketchtree.dressing import Dress, leaves_worn, wood_worn
     from sketchtree.keys import root_key
     from sketchtree.parameters import Habit
+    from sketchtree.tree_output import worn_in_words
     from sketchtree.version import __version__
 
     made_of = _project_dress(source)
@@ -103,7 +104,7 @@ def _dressed(source: Path, contents, seed: int, db: Path | None, wanted: dict):
     season = wanted["season"] or made_of.get("season") or "summer"
     leaf = leaf_model(leaf, habit, templates) if leaf or template else None
     dress = Dress(bark_model(wanted["bark"] or made_of.get("bark"), habit), leaf, season, habit, made_of.get("wood"), made_of.get("solid", False))
-    about = {"program": "SketchTree", "version": __version__, "seed": seed, "units": "metres", "up": "y"} | ({"template": template or None} if made_of else {})
+    about = {"program": "SketchTree", "version": __version__, "seed": seed, "units": "metres", "up": "y"} | ({"template": template or None} if made_of else {}) | worn_in_words(dress)
     wood, leaves = wood_worn(contents.skeleton, dress, key=root_key(seed)), leaves_worn(contents.skeleton, dress, key=root_key(seed))
     asset = Asset.of((*wood.meshes, *leaves), skeleton=contents.skeleton, about=about)
     worn = f", wood {wood.made}, bark {dress.bark}, " + (f"leaves {leaf}" if leaf else "no leaves (`--leaf MODEL` adds them)")

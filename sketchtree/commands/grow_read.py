@@ -108,7 +108,7 @@ def _skeleton(source: Path):
 
 def _looks(asset) -> dict:
     """What a mesh file of ours tells: seed, template and what it wears; of an older one, leaf and bark by the names of its materials."""
-    told = {name: asset.about[name] for name in ("seed", "template", "leaf", "bark", "season", "wood", "solid") if asset.about.get(name) is not None}
+    told = {name: asset.about[name] for name in ("seed", "template", "leaf", "bark", "season") if asset.about.get(name) is not None}
     return _by_materials(asset) | told
 
 
