@@ -34,7 +34,7 @@ from sketchtree.rig.weights import Weights, whole
 from sketchtree.rig.wind import leaf_places
 
 MOST_JOINTS = 3000
-LEAST_JOINTS = 64
+LEAST_JOINTS, LIMIT_JOINTS = 64, 60_000  # a file counts joints with 16 bits
 _MOMENTS = 241  # at which the motion is worked out
 _NEAR, _NEAR_WOOD = 1e-4, 0.25  # how far a joint may be from its place: of the tree's height, or of the wood's radius there
 _LIKE = 0.01  # how far its size may be, as a share of its last one
@@ -56,14 +56,14 @@ class Growing:
 
     @classmethod
     def of(cls, model: Model, plan: GrowthPlan, *, most_joints: int = MOST_JOINTS, key: Key[Array, ""] | None = None) -> "Growing":
-        """`key` is for the leaves that only young trees bear; one of its own if there is none. Raises `OptionError` for fewer joints than `LEAST_JOINTS`, or a tree without a limb."""
-        if most_joints < LEAST_JOINTS:
-            raise OptionError(f"A growing tree can't do with {most_joints} joints.", remedy=f"Ask for {LEAST_JOINTS} or more; {MOST_JOINTS} are usual.")
+        """`key` is for the leaves that only young trees bear; one of its own if there is none. Raises `OptionError` for fewer joints than `LEAST_JOINTS`, more than `LIMIT_JOINTS`, or a tree without a limb."""
+        if not LEAST_JOINTS <= most_joints <= LIMIT_JOINTS:
+            raise OptionError(f"A growing tree can't do with {most_joints} joints.", remedy=f"Ask for {LEAST_JOINTS} to {LIMIT_JOINTS:,}; {MOST_JOINTS:,} are usual.")
         lines = centre_lines(plan.tree)
         if not len(lines):
             raise OptionError("The tree has no branch that could grow.", remedy="Give one with a trunk of some length.")
         limbs, nodes = boughs(plan.tree, lines), Nodes.of(plan.straight, lines)
-        return cls(model, plan, most_joints, lines, limbs, nodes, choose_hosts(lines, limbs, nodes, most_joints), root_key(0) if key is None else key)
+        return cls(model, plan, most_joints, lines, limbs, nodes, choose_hosts(lines, limbs, nodes, most_joints, twins=plan.bend != 0), root_key(0) if key is None else key)
 
     def at(self, time: float) -> tuple[Mesh, ...]:
         """The meshes at a time, 0-1, as the animated file shows them; what is not there yet has no triangles. Raises OptionError."""

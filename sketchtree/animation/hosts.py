@@ -58,8 +58,8 @@ class Hosts:
     count: int  # joints in all
 
 
-def choose_hosts(lines: CentreLines, limbs: Boughs, nodes: Nodes, most: int) -> Hosts:
-    """The limbs that get joints, at most `most` in all (≥ the number of stems)."""
+def choose_hosts(lines: CentreLines, limbs: Boughs, nodes: Nodes, most: int, *, twins: bool = False) -> Hosts:
+    """The limbs that get joints, at most `most` in all (≥ the number of stems). `twins`: every joint of a limb by nodes will have a twin, which counts too."""
     order = np.lexsort((np.arange(len(lines)), -limbs.carried, lines.parent != NULL))
     alone = order[: max(most // 2, int((lines.parent == NULL).sum()))]
     has = np.zeros(len(lines), bool)
@@ -67,12 +67,13 @@ def choose_hosts(lines: CentreLines, limbs: Boughs, nodes: Nodes, most: int) -> 
     bears = np.zeros(len(lines), bool)
     bears[lines.parent[lines.parent != NULL]] = True
     wanted = np.where(bears | (nodes.count > 2) | (lines.parent == NULL), nodes.count, 0)
+    cost = np.where(twins, 2 * wanted + 1, wanted)
     left, by_nodes = most - len(alone), np.zeros(len(lines), bool)
     for limb in alone.tolist():
         above = lines.parent[limb]
-        if wanted[limb] and wanted[limb] <= left and (above == NULL or by_nodes[above]):
+        if wanted[limb] and cost[limb] <= left and (above == NULL or by_nodes[above]):
             by_nodes[limb] = True
-            left -= int(wanted[limb])
+            left -= int(cost[limb])
     for limb in order[len(alone) :][:left].tolist():
         has[limb] = lines.parent[limb] == NULL or has[lines.parent[limb]]
     joints = np.where(has, 1 + np.where(by_nodes, wanted, 0), 0)

@@ -58,12 +58,15 @@ def check_options(kind: str, source: Path, output: Path, wanted: dict, said: set
     _range("variations", wanted["variations"], 1, 64)
     _range("frames", wanted["frames"], 2, 720)
     _range("seconds", wanted["seconds"], 0.1, 600)
+    _range("joints", wanted["joints"], 64, 60_000)
     _range("time", wanted["moment"], 0, 1)
     moves = output.suffix.lower() in ANIMATED and wanted["moment"] is None
     if "frames" in said and wanted["movie"] is None and wanted["series"] is None:
         raise OptionError("`--frames` counts the pictures of a film or the trees of a series, and none is asked for.", remedy="Add `--movie FILE` or `--series FOLDER`, or leave it out.")
     if "seconds" in said and not moves and wanted["movie"] is None:
         raise OptionError("`--seconds` says how long the tree grows, and nothing that is asked for moves.", remedy="Write .glb, .gltf or .usd without `--time`, add `--movie FILE`, or leave it out.")
+    if "joints" in said and not moves and wanted["movie"] is None and wanted["series"] is None:
+        raise OptionError("`--joints` says how finely the tree moves, and nothing that is asked for moves.", remedy="Write .glb, .gltf or .usd without `--time`, or leave it out.")
     if kind == "skeleton" and wanted["variations"] > 1 and not wanted["levels"]:
         raise OptionError(f"`--variations {wanted['variations']}` differ in what is grafted on, and nothing is.", remedy="Add `--levels 2`, say.")
     if kind == "picture" and wanted["variations"] > 1 and wanted["levels"] == 0:

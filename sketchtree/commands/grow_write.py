@@ -35,7 +35,7 @@ def _write(grown, paths: dict, run, wanted: dict, kept: tuple[Path, ...]):
 
     output, moment = paths["output"], wanted["moment"]
     moves = output.suffix.lower() in ANIMATED and moment is None
-    growing = _growing(grown) if moves or paths["movie"] is not None or wanted["series"] is not None or (moment or 1.0) < 1 or moment == 0 or grown.plan.bend else None
+    growing = _growing(grown, wanted["joints"]) if moves or paths["movie"] is not None or wanted["series"] is not None or (moment or 1.0) < 1 or moment == 0 or grown.plan.bend else None
     asset, told = None, ()
     if moves:
         from sketchtree.export.write import write_asset
@@ -60,10 +60,10 @@ def _write(grown, paths: dict, run, wanted: dict, kept: tuple[Path, ...]):
     return asset, told
 
 
-def _growing(grown):
-    from sketchtree.animation.growing import Growing
+def _growing(grown, joints: int | None):
+    from sketchtree.animation.growing import MOST_JOINTS, Growing
 
-    return Growing.of(grown.model, grown.plan)
+    return Growing.of(grown.model, grown.plan, most_joints=MOST_JOINTS if joints is None else joints)
 
 
 def _about(grown, run) -> dict:

@@ -117,6 +117,11 @@ def test_there_are_no_more_joints_than_asked_for_and_the_end_is_the_same(most):
     assert course == sorted(course)
 
 
+def test_a_bent_tree_keeps_to_its_joints_with_the_shoots_of_its_young_leaves():
+    tree = growing("full", -20.0, levels=2, most_joints=300)
+    assert len(tree.asset().armature) <= 300 + 2
+
+
 def test_at_rest_the_file_shows_the_final_tree():
     asset = growing("full").asset()
     assert np.array_equal(asset.parts[0].position, model().meshes[0].position)

@@ -189,6 +189,8 @@ def test_edits_of_vertices_that_hit_nothing_are_told(folder, capsys, edits, says
         (("--frames", "1", "--movie", "@m.gif"), "`--frames 1` is out of range"),
         (("--frames", "9"), "none is asked for"),
         (("--seconds", "4"), "nothing that is asked for moves"),
+        (("--joints", "4"), "`--joints 4` is out of range"),
+        (("--joints", "400"), "nothing that is asked for moves"),
         (("--variations", "3"), "nothing is"),
         (("--scribbles", "@marks.json"), "`--scribbles` does nothing here: tree.swc holds a tree already"),
         (("--generations", "3"), "`--generations` does nothing here"),
