@@ -1,11 +1,9 @@
 """A tree that comes of scribbles a drawing keeps: the very tree that `sketchtree grow` makes of the picture and a file of the same scribbles."""
 
 import dataclasses
-import io
 
 import numpy as np
 import pytest
-from PIL import Image, ImageDraw
 
 from sketchtree.editing.document import Document, Underlay
 from sketchtree.errors import SketchError
@@ -18,25 +16,13 @@ from sketchtree.scribbled_tree import Scribbled, growth_of, matte_of, on_photo, 
 from sketchtree.sketch.strokes import Stroke, StrokeKind
 from sketchtree.studio.making.jobs import Jobs
 from sketchtree.trunk.wanted import TrunkChoices
+from tests.trunk.painted_tree import painted_tree
 
-SIZE = (80, 100)
-WOOD = (([(40, 96), (40, 10)], 8), ([(40, 60), (14, 30)], 5), ([(40, 50), (66, 26)], 5))
 ON, BESIDE = [(40.0, 92.0), (40.0, 20.0)], [(5.0, 60.0), (5.0, 95.0), (30.0, 96.0)]
 READING = ReadingOptions(template="none", height=8.0)
 KEY = root_key(5)
 
-
-def picture() -> bytes:
-    image = Image.new("RGB", SIZE, (170, 200, 235))
-    for line, width in WOOD:
-        ImageDraw.Draw(image).line(line, fill=(60, 45, 38), width=width)
-    noisy = np.asarray(image) + np.random.default_rng(2).normal(0.0, 3.0, (*SIZE[::-1], 3))
-    whole = io.BytesIO()
-    Image.fromarray(np.clip(noisy, 0, 255).astype(np.uint8)).save(whole, "PNG")
-    return whole.getvalue()
-
-
-PICTURE = picture()
+PICTURE = painted_tree()
 PHOTO = photo_in(PICTURE, "bare.png")
 
 

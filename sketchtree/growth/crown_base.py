@@ -1,7 +1,5 @@
 """Where does a tree's crown begin? At the first fork with a limb that deserves the name: below it no branch is grafted on."""
 
-import numpy as np
-
 from sketchtree.skeleton import Kind, TreeSkeleton
 from sketchtree.traverse import limb_chains
 

@@ -5,7 +5,7 @@ import io
 
 import numpy as np
 import pytest
-from PIL import Image, ImageDraw
+from PIL import Image
 
 from sketchtree.editing.document import Document, Underlay
 from sketchtree.errors import SketchError
@@ -19,22 +19,10 @@ from sketchtree.studio.wire import choose
 from sketchtree.templates.store.database import Database
 from sketchtree.trunk.wanted import TrunkChoices
 from sketchtree.watch import Watch
+from tests.trunk.painted_tree import SIZE, painted_tree
 
-SIZE, AT = (80, 100), (100.0, 50.0, 40.0, 50.0)
-WOOD = (([(40, 96), (40, 10)], 8), ([(40, 60), (14, 30)], 5), ([(40, 50), (66, 26)], 5))
-
-
-def picture() -> bytes:
-    image = Image.new("RGB", SIZE, (170, 200, 235))
-    for line, width in WOOD:
-        ImageDraw.Draw(image).line(line, fill=(60, 45, 38), width=width)
-    noisy = np.asarray(image) + np.random.default_rng(2).normal(0.0, 3.0, (*SIZE[::-1], 3))
-    whole = io.BytesIO()
-    Image.fromarray(np.clip(noisy, 0, 255).astype(np.uint8)).save(whole, "PNG")
-    return whole.getvalue()
-
-
-PICTURE = picture()
+AT = (100.0, 50.0, 40.0, 50.0)
+PICTURE = painted_tree()
 
 
 def brush(kind: StrokeKind, line, width: float = 3.0) -> Stroke:

@@ -5,16 +5,18 @@ import numpy as np
 from sketchtree.asset import Armature
 from sketchtree.export.gltf.tables import Tables
 from sketchtree.export.pose import inverse_bind, local_pose
+from sketchtree.traverse import children
 
 
 def joint_nodes(bones: Armature, first: int) -> list[dict]:
     """A node a joint, numbered from `first` in the document."""
     rotation, translation = local_pose(bones)
+    child, start = children(bones.parent)
     nodes = []
     for i, name in enumerate(bones.name):
-        children = (first + np.flatnonzero(bones.parent == i)).tolist()
+        below = (first + child[start[i] : start[i + 1]]).tolist()
         node = {"name": name, "translation": translation[i].tolist(), "rotation": rotation[i].tolist(), "extras": {"length": float(bones.length[i])}}
-        nodes.append(node | ({"children": children} if children else {}))
+        nodes.append(node | ({"children": below} if below else {}))
     return nodes
 
 
