@@ -147,7 +147,8 @@ def save(path: Path, rows: Sequence[Row]) -> None:
         for k, (title, image) in enumerate(row):
             sheet.paste(image, (SIDE * k, (SIDE + CAPTION) * i))
             pen.text((SIDE * (k + 0.5), (SIDE + CAPTION) * (i + 1) - CAPTION / 2), title, fill="black", font=font, anchor="mm")
-    sheet.quantize(256, dither=Image.Dither.NONE, kmeans=2).save(path, optimize=True)
+    palette = sheet.quantize(256, kmeans=2)
+    sheet.quantize(palette=palette, dither=Image.Dither.FLOYDSTEINBERG).save(path, optimize=True)  # or the ground's shade shows as rings
 
 
 def main() -> None:
