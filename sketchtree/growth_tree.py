@@ -78,7 +78,7 @@ class TrunkOptions:
     """How a trunk is taken from a picture."""
 
     matting: str = DEFAULT  # of `matting.matte.MATTINGS`
-    lift: str = "siblings"  # of `trunk.as_tree.LIFTS`
+    lift: str = "siblings"  # of `trunk.wanted.LIFTS`
     gap: float = GAP  # pixels over which pieces of the matte belong together, ≥ 0
     root: tuple[float, float] | None = None  # a point where the trunk stands, pixels, y down; None: the middle of its foot
 
@@ -92,6 +92,7 @@ class FoundTrunk:
     """A trunk in a picture, and all that was found on the way to it."""
 
     photo: Photo
+    wanted: TrunkOptions
     matte: Matte  # with what was edited by hand
     skeleton: TrunkSkeleton  # pixels, y down
     graph: SketchGraph  # its limbs, pixels, y up
@@ -182,7 +183,7 @@ def find_trunk(
         height = choice.reading.height or habit.height
         tree = as_tree(found, key=stage_key(key, "trunk"), lift=wanted.lift, height=height, options=choice.reading, templates=templates)
     told = (*photo.warnings, *matte.warnings, *found.warnings, *choice.told)
-    return FoundTrunk(photo, matte, found, graph, page_to_world(graph.above_ground(), height), tree, named, habit, tuple(dict.fromkeys(told)))
+    return FoundTrunk(photo, wanted, matte, found, graph, page_to_world(graph.above_ground(), height), tree, named, habit, tuple(dict.fromkeys(told)))
 
 
 def of_picture(trunk: FoundTrunk, tree: TreeOptions, templates: Database | None, *, key: Key[Array, ""]) -> Beginning:

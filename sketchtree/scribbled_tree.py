@@ -2,7 +2,7 @@
 
     strokes of the kinds foreground, background → matte       as `matting.find_matte`
     strokes of the kinds matte_add, matte_erase → its edits   as `trunk.edit_matte`
-    TrunkChoices                                → the contour's edits, gap, levels of branches
+    TrunkChoices                                → the matting, the contour's edits, root, gap, lift, levels of branches
 
 A project holds them as strokes on its page, the photo as its underlay; the tree is made of them anew.
 """
@@ -66,7 +66,7 @@ def on_photo(strokes: Iterable[Stroke], corner: tuple[float, float], across: tup
 def matte_of(wanted: Scribbled, *, key: Key[Array, ""]) -> Matte:
     """The matte that the scribbles tell, without what is painted into it. Raises SketchError where they tell none."""
     said = scribbled(wanted.saying, _NAME) if wanted.saying else None
-    return find_matte(wanted.photo, said, key=stage_key(key, "matte"))
+    return find_matte(wanted.photo, said, key=stage_key(key, "matte"), method=wanted.choices.matting)
 
 
 def repainted(matte: Matte, wanted: Scribbled) -> Matte:
@@ -84,8 +84,9 @@ def trunk_of(
     watch = watch or Watch()
     with watch("read"):
         known = repainted(matte_of(wanted, key=key) if matte is None else matte, wanted)
-    options = TrunkOptions(gap=wanted.choices.gap)
-    return find_trunk(wanted.photo, None, templates, key=key, wanted=options, reading=reading, edits=wanted.choices.edits, known=known, watch=watch)
+    said = wanted.choices
+    options = TrunkOptions(said.matting, said.lift, said.gap, said.root)
+    return find_trunk(wanted.photo, None, templates, key=key, wanted=options, reading=reading, edits=said.edits, known=known, watch=watch)
 
 
 def beginning_of(

@@ -73,6 +73,23 @@ def test_a_contour_can_be_edited(matte):
     assert len(edited.skeleton.vertices[0]) == len(plain.skeleton.vertices[0]) - 1
 
 
+def test_an_edit_that_finds_no_vertex_any_more_is_told_and_the_tree_is_there(matte):
+    found = trunk(matte, remove=((79.0, 2.0),))
+    assert (found.skeleton.xy == trunk(matte).skeleton.xy).all()
+    assert [one for one in found.warnings if one.startswith("`remove` (79, 2): no vertex is there; ") and one.endswith(" It was passed over.")]
+
+
+def test_the_trunk_stands_where_it_is_put_and_has_its_depths_by_our_inference(matte):
+    low, placed, lifted = (trunk(matte, **choices) for choices in ({}, {"root": (40.0, 60.0)}, {"lift": "elevation"}))
+    assert np.hypot(*(placed.skeleton.xy[0] - (40, 60))) < 3 < np.hypot(*(low.skeleton.xy[0] - (40, 60)))
+    assert (lifted.skeleton.xy == low.skeleton.xy).all() and not np.array_equal(lifted.tree.tip, low.tree.tip)
+
+
+def test_the_matte_is_found_as_it_is_chosen():
+    chosen = dataclasses.replace(CHOICES, matting="closed-form")
+    assert matte_of(Scribbled(PHOTO, SAID, chosen), key=KEY).method == "closed-form"
+
+
 def test_a_photo_without_a_scribble_tells_no_tree():
     with pytest.raises(SketchError, match="needs scribbles that say what is tree"):
         matte_of(Scribbled(PHOTO, ()), key=KEY)

@@ -63,6 +63,7 @@ def grow(source: Path, output: Path, seed: int, quiet: bool, json_log: bool, rep
         check_tree(tree, templates)
         chosen = "seed" in grow_asked.given(click.get_current_context())
         begun, seed = grow_read.read(kind, source, wanted, templates, seed=seed, seed_chosen=chosen, reading=reading, tree=tree, trunk=trunk, watch=watch)
+        trunk = trunk if begun.trunk is None else begun.trunk.wanted  # a project has its own
         run = writing.Run("grow", seed, imported, began, watch, choices.options_as_dict(reading, tree, growth, trunk) | {name: wanted[name] for name in ("moment", "seconds", "variations")})
         record = grow_write.grow_all(begun, growth, tree, output, run, wanted, kept=grow_asked.inputs(source, wanted))
         writing.write_report(report, record)

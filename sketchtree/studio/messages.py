@@ -95,6 +95,9 @@ class Trunk(_Record):
     remove: Annotated[list[Pixel], Meta(max_length=2000)] = []  # the vertex nearest to each
     add: Annotated[list[Pixel], Meta(max_length=2000)] = []  # the point of the contour nearest to each is one
     merge: Annotated[list[tuple[Pixel, Pixel]], Meta(max_length=2000)] = []  # those between
+    root: Pixel | None = None  # where the trunk stands; None: the middle of its foot
+    matting: Literal["layered", "closed-form", "normalised"] = "layered"  # how the matte is found: ours, Levin's, the paper's
+    lift: Literal["siblings", "elevation"] = "siblings"  # how the trunk gets its depths: the paper's turns of siblings, or our inference
 
 
 class Underlay(_Record):
@@ -426,6 +429,9 @@ class Trunks(_Said):
     state: Literal["none", "waits", "works", "ready", "failed"]  # none: nothing is scribbled; waits: for the pen to rest
     trees: list[TracedTree] = []  # its skeleton; all of it `drawn`
     vertices: list[list[float]] = []  # of each ring of the contour: x, y, x, y …, pixels of the photo, y down
+    parts: list[list[bool]] = []  # of each vertex: it parts the contour, so that a branch may end there
+    contour: list[list[float]] = []  # each ring itself, to within a pixel: x, y, x, y …
+    size: list[int] = []  # width and height of the photo in those pixels
     remark: str = ""  # why there is none, or what a person should know
 
 

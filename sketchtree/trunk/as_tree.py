@@ -20,8 +20,7 @@ from sketchtree.templates.store.database import Database
 from sketchtree.trunk.limbs import trunk_drawing
 from sketchtree.trunk.siblings import SPREAD, sibling_angles, sibling_depth
 from sketchtree.trunk.trunk_skeleton import TrunkSkeleton
-
-LIFTS = ("siblings", "elevation")
+from sketchtree.trunk.wanted import LIFTS
 
 
 def as_tree(

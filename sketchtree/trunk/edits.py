@@ -34,6 +34,7 @@ class VertexEdits:
     remove: tuple[Point, ...] = ()
     add: tuple[Point, ...] = ()
     merge: tuple[tuple[Point, Point], ...] = ()
+    exact: bool = True  # what finds nothing on the contour is an error; else it is passed over, and told
 
 
 def read_edits(path: str | os.PathLike) -> VertexEdits:
@@ -98,21 +99,32 @@ class Vertices:
 _PARTS, _ADDED = 1, 2  # beside 0: parts nothing
 
 
-def edited(vertices: Vertices, rings: Sequence[Float[np.ndarray, "point 2"]], edits: VertexEdits) -> Vertices:
-    """The vertices after the edits; those that stay part the contour as before. Raises OptionError, naming the point, for what does not exist."""
+def edited(vertices: Vertices, rings: Sequence[Float[np.ndarray, "point 2"]], edits: VertexEdits) -> tuple[Vertices, tuple[str, ...]]:
+    """(the vertices after the edits; those that stay part the contour as before, remarks). What does not exist raises OptionError, naming the point, or is passed over where the edits are not `exact`."""
     kept = [dict(zip(rows.tolist(), parting.astype(int).tolist(), strict=True)) for rows, parting in zip(vertices.rows, vertices.parting, strict=True)]
     reach = max(_LEAST_REACH, _REACH * float(np.ptp(np.concatenate(rings), axis=0).max()))
-    for point in edits.remove:
-        ring, row = _vertex_at(kept, rings, point, reach)
-        _take(kept, ring, [row], f"`remove` ({point[0]:g}, {point[1]:g})")
-    for one, other in edits.merge:
-        _merge(kept, rings, one, other, reach)
-    for point in edits.add:
-        ring, row = _contour_at(rings, point, reach, "add")
-        kept[ring][row] = _ADDED
+    told: list[str] = []
+    for do, every in ((_remove, edits.remove), (_merge, edits.merge), (_add, edits.add)):
+        for one in every:
+            try:
+                do(kept, rings, one, reach)
+            except OptionError as error:
+                if edits.exact:
+                    raise
+                told.append(f"{error.message} It was passed over.")
     rows = [np.array(sorted(own), np.int64) for own in kept]
     state = [np.array([own[row] for row in order]) for own, order in zip(kept, rows, strict=True)]
-    return Vertices(tuple(rows), tuple(own >= _PARTS for own in state), tuple(own == _ADDED for own in state))
+    return Vertices(tuple(rows), tuple(own >= _PARTS for own in state), tuple(own == _ADDED for own in state)), tuple(told)
+
+
+def _remove(kept, rings, point: Point, reach: float) -> None:
+    ring, row = _vertex_at(kept, rings, point, reach)
+    _take(kept, ring, [row], f"`remove` ({point[0]:g}, {point[1]:g})")
+
+
+def _add(kept, rings, point: Point, reach: float) -> None:
+    ring, row = _contour_at(rings, point, reach, "add")
+    kept[ring][row] = _ADDED
 
 
 def _vertex_at(kept, rings, point: Point, reach: float) -> tuple[int, int]:
@@ -143,8 +155,9 @@ def _contour_at(rings, point: Point, reach: float, key: str) -> tuple[int, int]:
     return ring, row
 
 
-def _merge(kept, rings, one: Point, other: Point, reach: float) -> None:
+def _merge(kept, rings, pair: tuple[Point, Point], reach: float) -> None:
     """Make one segment of those that two points of the contour lie on: the vertices between go."""
+    one, other = pair
     what = f"`merge` ({one[0]:g}, {one[1]:g}), ({other[0]:g}, {other[1]:g})"
     (ring, first), (ring_b, last) = (_contour_at(rings, point, reach, "merge") for point in (one, other))
     if ring != ring_b:

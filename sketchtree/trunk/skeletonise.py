@@ -35,16 +35,17 @@ def trunk_skeleton(
     """The skeleton of the trunk in a matte. `vertices`: m (None: by the contour's roughness); `root`: a point of the trunk where it stands (None: the middle of its foot); `gap`: of pieces that belong to it.
     Pixels, y down.
 
-    Raises SketchError for an empty matte, OptionError for m < 3 and for edits of what does not exist."""
+    Raises SketchError for an empty matte, OptionError for m < 3, and for edits and a root of what does not exist, unless the edits are not `exact`: then those are passed over."""
     asked = edits.vertices if vertices is None else vertices
     if asked is not None and asked < 3:
         raise OptionError(f"The contour can't be evolved to {asked} vertices: a polygon has at least 3.", remedy="Ask for 3 or more, or let the number be found.")
     if not 0.0 <= gap < float("inf"):
         raise OptionError(f"A gap of {gap:g} pixels can't be bridged.", remedy="Give pixels from 0 on.")
-    binary = binary_trunk(alpha, root, gap)
+    binary, root, beside = _standing(alpha, root, gap, edits.exact)
     shape = outline(binary)
     polygon, told = _evolved(shape, asked)
-    polygon = edited(polygon, shape.rings, edits)
+    polygon, passed = edited(polygon, shape.rings, edits)
+    told += [*beside, *passed]
     axis = medial_axis(binary, shape.rings, segments(shape.rings, polygon))
     told += [f"Parts of the trunk, {axis.lost:.0f} pixels long, hang on it by less than a pixel, and were left out."] if axis.lost > _LOST else []
     nearest = KDTree(np.concatenate(shape.rings))
@@ -54,6 +55,16 @@ def trunk_skeleton(
     tree, below = bare_below(tree, _asked(tree, shape, polygon))
     told += [f"{below} short {'branch' if below == 1 else 'branches'} below the crown {'was' if below == 1 else 'were'} left out."] if below else []
     return _finished(tree, binary, nearest, shape, polygon, root, (*binary.warnings, *told))
+
+
+def _standing(alpha, root, gap: float, exact: bool) -> tuple[Binary, tuple[float, float] | None, list[str]]:
+    """(the trunk, where it stands, remarks)."""
+    try:
+        return binary_trunk(alpha, root, gap), root, []
+    except OptionError as error:
+        if exact:
+            raise
+        return binary_trunk(alpha, None, gap), None, [f"{error.message} The middle of its foot was taken instead."]
 
 
 def _evolved(shape: Outline, asked: int | None) -> tuple[Vertices, list[str]]:

@@ -1,6 +1,7 @@
 """`sketchtree grow` of a project whose tree is taken from scribbles on its photo."""
 
 import io
+import json
 
 import numpy as np
 import pytest
@@ -17,7 +18,8 @@ from sketchtree.trunk.wanted import TrunkChoices
 
 
 @pytest.fixture
-def project(tmp_path):
+def kept(tmp_path):
+    """Writes the project, its trunk taken so."""
     image = Image.new("RGB", (80, 100), (170, 200, 235))
     for line, width in (([(40, 96), (40, 10)], 8), ([(40, 60), (14, 30)], 5)):
         ImageDraw.Draw(image).line(line, fill=(60, 45, 38), width=width)
@@ -27,17 +29,50 @@ def project(tmp_path):
     strokes = {kind.value: Stroke(kind.value, np.array(line, float), kind, labelled=True, width=3.0) for kind, line in lines.items()}
     document = Document(strokes, underlay=Underlay(whole.getvalue(), 0.0, 0.0, 80.0, 100.0, photo=True), seed=4, reading=ReadingOptions(template="none", height=6.0))
     path = tmp_path / "bare.sketchtree"
-    path.write_bytes(Jobs(None, None)._project(0, None, document.replace(trunk=TrunkChoices(on=True, levels=1))))
-    return path
+    (tmp_path / "bare.png").write_bytes(whole.getvalue())
+
+    def write(**choices):
+        path.write_bytes(Jobs(None, None)._project(0, None, document.replace(trunk=TrunkChoices(**{"on": True, "levels": 1} | choices))))
+        return path
+
+    return write
+
+
+@pytest.fixture
+def project(kept):
+    return kept()
+
+
+def rows(path) -> list[str]:
+    return [line for line in path.read_text().splitlines() if not line.startswith("#")]
 
 
 def test_it_grows_as_its_project_says(project, tmp_path):
-    rows = {}
+    found = {}
     for name, words in (("own", ()), ("same", ("--seed", "4", "--levels", "1", "--height", "6")), ("bare", ("--levels", "0"))):
         answer = CliRunner().invoke(grow, [str(project), "-o", str(tmp_path / f"{name}.swc"), "--quiet", *words])
         assert answer.exit_code == 0, answer.output
-        rows[name] = [line for line in (tmp_path / f"{name}.swc").read_text().splitlines() if not line.startswith("#")]
-    assert rows["own"] == rows["same"] and len(rows["bare"]) < len(rows["own"])
+        found[name] = rows(tmp_path / f"{name}.swc")
+    assert found["own"] == found["same"] and len(found["bare"]) < len(found["own"])
+
+
+def test_matting_root_and_lift_are_those_of_the_project(kept, tmp_path):
+    project = kept(matting="closed-form", root=(40.0, 70.0), lift="elevation")
+    marks = {"foreground": [[[40, 92], [40, 20]]], "background": [[[5, 60], [5, 95]]], "brush": 3}
+    (tmp_path / "marks.json").write_text(json.dumps(marks))
+    common = ("--levels", "1", "--height", "6", "--template", "none", "--seed", "4", "--quiet")
+    picture = ("--scribbles", str(tmp_path / "marks.json"), "--matting", "closed-form", "--root", "40", "70", "--lift", "elevation")
+    for source, name, more in ((project, "own", ()), (tmp_path / "bare.png", "same", picture)):
+        answer = CliRunner().invoke(grow, [str(source), "-o", str(tmp_path / f"{name}.swc"), "--report", str(tmp_path / f"{name}.json"), *common, *more])
+        assert answer.exit_code == 0, answer.output
+    assert rows(tmp_path / "own.swc") == rows(tmp_path / "same.swc")
+    said = [json.loads((tmp_path / f"{name}.json").read_text())["options"] for name in ("own", "same")]
+    assert [one[name] for one in said for name in ("matting", "lift", "root")] == 2 * ["closed-form", "elevation", [40.0, 70.0]]
+
+
+def test_an_edit_that_finds_no_vertex_any_more_is_told_and_the_tree_is_written(kept, tmp_path):
+    answer = CliRunner().invoke(grow, [str(kept(remove=((79.0, 2.0),))), "-o", str(tmp_path / "bare.swc")])
+    assert answer.exit_code == 0 and "`remove` (79, 2): no vertex is there" in answer.output and "It was passed over." in answer.output
 
 
 def test_what_the_project_says_already_is_not_asked_for(project, tmp_path):

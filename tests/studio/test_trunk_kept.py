@@ -2,7 +2,9 @@
 
 import asyncio
 import io
+from typing import get_args
 
+import msgspec
 import numpy as np
 import pytest
 from PIL import Image
@@ -10,15 +12,16 @@ from talking import talking
 
 from sketchtree.editing.document import Document, Underlay
 from sketchtree.errors import OptionError
+from sketchtree.matting import matte
 from sketchtree.sketch.strokes import Stroke, StrokeKind
 from sketchtree.studio import messages, wire
 from sketchtree.studio.making.documents import document_of
 from sketchtree.studio.making.jobs import Jobs
 from sketchtree.studio.recovery import journal_of
 from sketchtree.trunk.edits import VertexEdits
-from sketchtree.trunk.wanted import TrunkChoices
+from sketchtree.trunk.wanted import LIFTS, MATTINGS, TrunkChoices
 
-CHOSEN = TrunkChoices(on=True, vertices=24, gap=5.0, levels=2, remove=((3.0, 4.5),), add=((9.0, 1.0), (8.0, 2.0)), merge=(((1.0, 2.0), (3.0, 4.0)),))
+CHOSEN = TrunkChoices(on=True, vertices=24, gap=5.0, levels=2, remove=((3.0, 4.5),), add=((9.0, 1.0), (8.0, 2.0)), merge=(((1.0, 2.0), (3.0, 4.0)),), root=(20.0, 55.5), matting="closed-form", lift="elevation")
 
 
 @pytest.fixture(autouse=True)
@@ -64,8 +67,14 @@ def test_a_project_of_scribbles_alone_gives_back_all_that_was_done():
     assert [(one.kind, one.width, one.points.tolist()) for one in again.strokes.values()] == [(one.kind, one.width, one.points.tolist()) for one in document.strokes.values()]
 
 
-def test_what_is_chosen_is_the_edits_of_the_contour():
-    assert CHOSEN.edits == VertexEdits(24, CHOSEN.remove, CHOSEN.add, CHOSEN.merge)
+def test_what_is_chosen_is_the_edits_of_the_contour_and_those_that_find_nothing_are_passed_over():
+    assert CHOSEN.edits == VertexEdits(24, CHOSEN.remove, CHOSEN.add, CHOSEN.merge, exact=False)
+
+
+def test_there_are_as_many_ways_to_choose_as_the_program_has():
+    assert MATTINGS == tuple(sorted(matte.MATTINGS, key=MATTINGS.index)) and MATTINGS[0] == matte.DEFAULT
+    told = {field.name: get_args(field.type) for field in msgspec.structs.fields(messages.Trunk)}
+    assert (told["matting"], told["lift"]) == (MATTINGS, LIFTS)
 
 
 @pytest.mark.parametrize(
@@ -74,7 +83,10 @@ def test_what_is_chosen_is_the_edits_of_the_contour():
         ({"vertices": 2}, "A contour of 2 vertices is out of range. Ask for 3 to 10,000, or let the number be found."),
         ({"gap": -1.0}, "A gap of -1 pixels is out of range. Give 0 to 1000 pixels."),
         ({"levels": 6}, "6 levels of branches are out of range. Give 0 to 5: 0 grafts nothing on, a full crown has 3."),
-        ({"add": ((0.0, float("inf")),)}, "An edit of the contour is not at a finite place. Take it back."),
+        ({"add": ((0.0, float("inf")),)}, "An edit of the contour lies on no picture. Take it back."),
+        ({"root": (0.0, 2e6)}, "The foot of the trunk lies on no picture. Put it on the trunk."),
+        ({"matting": "magic"}, "There is no matting called 'magic'. Choose one of: layered, closed-form, normalised."),
+        ({"lift": "up"}, "There is no lift called 'up'. Choose one of: siblings, elevation."),
     ],
 )
 def test_what_can_not_be_asked_for_is_refused(fields, said):

@@ -65,6 +65,23 @@ def test_what_does_not_exist_is_named(edits, message):
         trunk_skeleton(forked(), edits=edits)
 
 
+def test_where_edits_are_not_exact_what_does_not_exist_is_passed_over_and_told():
+    beside = ((90.0, 110.0),)
+    plain = trunk_skeleton(forked(), edits=VertexEdits(add=((56.0, 90.0),)))
+    found = trunk_skeleton(forked(), edits=VertexEdits(remove=beside, add=((56.0, 90.0), *beside), exact=False))
+    assert found.xy.tobytes() == plain.xy.tobytes()
+    one, other = found.warnings[-2:]
+    assert one.startswith("`remove` (90, 110): no vertex is there; ") and other.startswith("`add` (90, 110): the contour is not there; ")
+    assert one.endswith(" pixels away. It was passed over.")
+
+
+def test_a_root_beside_the_trunk_is_an_error_unless_edits_are_not_exact():
+    with pytest.raises(OptionError, match=re.escape("The root (90, 5) lies ")):
+        trunk_skeleton(forked(), root=(90.0, 5.0))
+    found, plain = (trunk_skeleton(forked(), root=root, edits=VertexEdits(exact=False)) for root in ((90.0, 5.0), None))
+    assert found.xy.tobytes() == plain.xy.tobytes() and found.warnings[-1].endswith(" pixels beside the trunk. The middle of its foot was taken instead.")
+
+
 def test_a_polygon_keeps_three_vertices():
     skeleton = trunk_skeleton(forked(), vertices=4)
     with pytest.raises(OptionError, match=re.escape("it would leave 2 vertices; a polygon has at least 3. Keep more vertices, or ask for more.")):

@@ -83,6 +83,9 @@ export interface Trunk {
   remove: [number, number][]; // the vertex nearest to each
   add: [number, number][]; // the point of the contour nearest to each is one
   merge: [[number, number], [number, number]][]; // those between
+  root: [number, number] | null; // where the trunk stands; None: the middle of its foot
+  matting: "closed-form" | "layered" | "normalised"; // how the matte is found: ours, Levin's, the paper's
+  lift: "elevation" | "siblings"; // how the trunk gets its depths: the paper's turns of siblings, or our inference
 }
 
 /** A picture to trace over; its bytes are at /underlay/<digest>. */
@@ -228,6 +231,9 @@ export interface Trunks {
   state: "failed" | "none" | "ready" | "waits" | "works"; // none: nothing is scribbled; waits: for the pen to rest
   trees: TracedTree[]; // its skeleton; all of it `drawn`
   vertices: number[][]; // of each ring of the contour: x, y, x, y …, pixels of the photo, y down
+  parts: boolean[][]; // of each vertex: it parts the contour, so that a branch may end there
+  contour: number[][]; // each ring itself, to within a pixel: x, y, x, y …
+  size: number[]; // width and height of the photo in those pixels
   remark: string; // why there is none, or what a person should know
 }
 
@@ -391,6 +397,9 @@ export interface SentTrunk {
   remove?: [number, number][]; // the vertex nearest to each
   add?: [number, number][]; // the point of the contour nearest to each is one
   merge?: [[number, number], [number, number]][]; // those between
+  root?: [number, number] | null; // where the trunk stands; None: the middle of its foot
+  matting?: "closed-form" | "layered" | "normalised"; // how the matte is found: ours, Levin's, the paper's
+  lift?: "elevation" | "siblings"; // how the trunk gets its depths: the paper's turns of siblings, or our inference
 }
 
 /** Take the tree from the scribbles so, with these edits of its contour. A quick succession under one `label` makes one step of undo. */
