@@ -65,7 +65,7 @@ def young_leaves(
     joint[final.segment] = NULL
     found: list[tuple[Mesh, Morph]] = []
     for number, time in enumerate(TIMES):
-        young, rows = plan.at(time), plan.rows_at(time)
+        young, rows = plan.with_rows_at(time)
         size = max(float(np.sqrt(plan.size_at(time))), 0.05)
         leaves = populate(young, dress.habit, key=stage_key(key, f"young leaves {number}"), model=dress.leaf, season=dress.season, scale=size, max_leaves=_MOST)
         own = joint[rows[leaves.segment]]

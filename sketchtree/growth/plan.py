@@ -99,16 +99,24 @@ class GrowthPlan:
 
     def at(self, time: float) -> TreeSkeleton:
         """The tree at a time, 0-1: those rows that have begun, in order."""
+        return self.with_rows_at(time)[0]
+
+    def with_rows_at(self, time: float) -> tuple[TreeSkeleton, Int[np.ndarray, " kept"]]:
+        """The same, and which rows of the final tree its rows are."""
         clock = checked_times([time])
         tip, radius, grown, _ = self._pieces(clock, np.float64)
         if grown.min(initial=1.0) >= 1 and self.bend == 0 and clock[0] == 1:
-            return self.tree
-        return self.straight.back(tip[0], radius[0], grown[0])
+            return self.tree, np.arange(len(self.tree))
+        return self.straight.back(tip[0], radius[0], grown[0]), self._begun(grown[0])
 
     def rows_at(self, time: float) -> Int[np.ndarray, " kept"]:
         """Which rows of the tree those of `at(time)` are."""
+        return self._begun(self._grown(checked_times([time]))[:, 0])
+
+    def _begun(self, grown):
+        """The rows of which something has grown, by the shares of all pieces."""
         first = self.straight.last - np.diff(self.tree.curve_start)
-        return np.flatnonzero((self._grown(checked_times([time]))[first, 0] > 0) | self.tree.is_base)
+        return np.flatnonzero((grown[first] > 0) | self.tree.is_base)
 
     def poses(self, times, *, pieces: bool = False, whole: bool = True, dtype=np.float32) -> Poses:
         """All segments at all times (each 0-1). `pieces`: those of `straight.pieces`, every drawn point a row of its own, instead of the tree's rows.

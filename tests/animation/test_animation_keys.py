@@ -40,3 +40,28 @@ def test_neighbouring_turns_are_on_one_side():
     sided = one_sided(turn)
     assert (np.sum(sided[:, 1:] * sided[:, :-1], axis=2) >= 0).all()
     assert np.allclose(np.abs(np.sum(sided * turn, axis=2)), np.sum(turn * turn, axis=2))
+
+
+def one_by_one(time, value, tolerance):
+    """The moments kept of one track, a stretch at a time."""
+
+    def within(low, high):
+        if high - low < 2:
+            return []
+        share = (time[low + 1 : high] - time[low]) / (time[high] - time[low])
+        away = np.abs(value[low + 1 : high] - (value[low] + share[:, None] * (value[high] - value[low]))).max(axis=1)
+        at = low + 1 + int(away.argmax())
+        return [*within(low, at), at, *within(at, high)] if away.max() > tolerance else []
+
+    return [0, *within(0, len(time) - 1), len(time) - 1]
+
+
+def test_all_tracks_at_once_are_cut_as_each_by_itself():
+    rng = np.random.default_rng(3)
+    value = np.cumsum(rng.normal(0, 0.02, (9, 61, 4)), axis=1)
+    value[3], value[4, 20:50], value[5] = np.round(value[3], 1), value[4, 20], np.linspace(0, 1, 61)[:, None]  # moments that are as far as others; a stretch at rest; a line
+    tolerance = rng.uniform(0.005, 0.05, 9)
+    keys = fewest_keys(np.arange(9), TIME, value, np.full((9, 4), -9.0), tolerance)
+    for track in range(9):
+        kept = one_by_one(TIME, value[track], tolerance[track])
+        assert keys.time[keys.start[track] : keys.start[track + 1]].tolist() == TIME[kept].tolist()
