@@ -12,6 +12,7 @@ from scipy.ndimage import gaussian_filter
 from scipy.special import logsumexp
 
 from sketchtree.matting.colours import PAIRS, Colours
+from sketchtree.watch import Pulse, no_pulse
 
 WINDOWS = (6.0, 12.0, 24.0, 60.0)  # pixels, σ
 ENOUGH = 0.1  # of a window's weight
@@ -30,19 +31,20 @@ class Behind:
     share: Float[np.ndarray, "row column component"]  # of `common`, sums to 1
 
 
-def look_behind(rgb: Float[np.ndarray, "row column 3"], weight: Float[np.ndarray, "row column"], common: Colours) -> Behind:
+def look_behind(rgb: Float[np.ndarray, "row column 3"], weight: Float[np.ndarray, "row column"], common: Colours, *, pulse: Pulse = no_pulse) -> Behind:
     """What is behind each pixel, by pixels that count by their weights (0 to 1)."""
     products = np.stack([rgb[..., i] * rgb[..., j] for i, j in PAIRS], axis=-1)
-    moments = _windowed(np.concatenate([rgb, products], axis=-1), weight)
+    moments = _windowed(np.concatenate([rgb, products], axis=-1), weight, pulse)
     mean = moments[..., :3]
     covariance = moments[..., 3:] - np.stack([mean[..., i] * mean[..., j] for i, j in PAIRS], axis=-1)
     covariance[..., [k for k, (i, j) in enumerate(PAIRS) if i == j]] += _FINEST**2
     return Behind(mean, covariance, common, _shares(rgb, weight, common))
 
 
-def _windowed(values: Float[np.ndarray, "row column value"], weight) -> Float[np.ndarray, "row column value"]:
+def _windowed(values: Float[np.ndarray, "row column value"], weight, pulse: Pulse) -> Float[np.ndarray, "row column value"]:
     found, left = np.zeros_like(values), np.ones((*weight.shape, 1))
     for sigma in WINDOWS:
+        pulse()
         total = _blurred(weight, sigma)[..., None]
         here = _blurred(values * weight[..., None], sigma) / (total + 1e-9)
         taken = left if sigma == WINDOWS[-1] else left * np.clip(total / ENOUGH, 0.0, 1.0)

@@ -12,15 +12,17 @@ from sketchtree.matting.laplacian import laplacian, volume
 from sketchtree.matting.alpha import Matte
 from sketchtree.matting.scribbles import Scribbles
 from sketchtree.photo.photo import Photo
+from sketchtree.watch import Pulse, no_pulse
 
 LAMBDA = 100.0
 _LEAST = 1e-10  # of λ: keeps the system regular where pixels touch no window (the corners of tiny pictures)
 
 
-def closed_form(photo: Photo, scribbles: Scribbles, *, key: Key[Array, ""]) -> Matte:
-    """The closed-form matte; `key` is not used. Its course is the objective αᵀLα, once."""
+def closed_form(photo: Photo, scribbles: Scribbles, *, key: Key[Array, ""], pulse: Pulse = no_pulse) -> Matte:
+    """The closed-form matte; `key` is not used, and the factorisation has no pulse. Its course is the objective αᵀLα, once."""
     fore, back = scribbles.masks(photo)
     matrix = laplacian(photo.rgb / 255.0)
+    pulse()
     alpha = solved(factored(matrix, fore | back), fore)
     return Matte(alpha, "closed-form", (float(alpha.ravel() @ (matrix @ alpha.ravel())),))
 

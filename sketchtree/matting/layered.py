@@ -29,6 +29,7 @@ from sketchtree.matting.opacity import mean, posterior
 from sketchtree.matting.reach import held
 from sketchtree.matting.scribbles import Scribbles
 from sketchtree.photo.photo import Photo
+from sketchtree.watch import Pulse, no_pulse
 
 ROUNDS = 2
 FORE, COMMON = 3, 5  # components of either layer's colours
@@ -55,32 +56,34 @@ class Manner:
 HOPEFUL, CAUTIOUS = Manner(0.7, 0.2, 8.0), Manner(0.3, 0.05, 4.0)
 
 
-def layered(photo: Photo, scribbles: Scribbles, *, key: Key[Array, ""]) -> Matte:
+def layered(photo: Photo, scribbles: Scribbles, *, key: Key[Array, ""], pulse: Pulse = no_pulse) -> Matte:
     """The matte by layers. Its course is the alpha that changed, of all alpha, in each round."""
     fore, back = scribbles.masks(photo)
     draw = numpy_generator(stage_key(key, "layered"))
     rgb = photo.rgb / 255.0
     before = _wood(fit_colours(rgb[fore], np.ones(fore.sum()), FORE, draw))
     common = fit_colours(rgb[back], np.ones(back.sum()), COMMON, draw)
+    pulse()
     limb = held(rgb, fore, back)
-    hopeful, course = _rounds(rgb, fore, back, limb, before, common, HOPEFUL, draw)
-    cautious, other = _rounds(rgb, fore, back, limb, before, common, CAUTIOUS, draw)
+    hopeful, course = _rounds(rgb, fore, back, limb, before, common, HOPEFUL, draw, pulse)
+    cautious, other = _rounds(rgb, fore, back, limb, before, common, CAUTIOUS, draw, pulse)
     if hopeful.sum() <= TELLS * cautious.sum():
         return Matte(hopeful, "layered", course)
     told = "The surroundings have the wood's colours in places; what could be either was left out of the matte. More scribbles there, of both kinds, help."
     return Matte(cautious, "layered", other, (told,))
 
 
-def _rounds(rgb, fore, back, limb, before: Colours, common: Colours, manner: Manner, draw) -> tuple[Float[np.ndarray, "row column"], tuple[float, ...]]:
+def _rounds(rgb, fore, back, limb, before: Colours, common: Colours, manner: Manner, draw, pulse: Pulse) -> tuple[Float[np.ndarray, "row column"], tuple[float, ...]]:
     """(alpha, the course) of one manner."""
     clear, wood = _first(rgb, before, common, manner.first), _raised(np.full(fore.shape, manner.first), limb)
     alpha, course = 1.0 - clear, []
     for turn in range(ROUNDS):
+        pulse()
         weight = clear**manner.surely * (1.0 - limb)
         weight[back], weight[fore] = 1.0, 0.0
         if turn:
             common = _common_again(rgb, weight, back, draw)
-        chance, prior = posterior(rgb, before, look_behind(rgb, weight, common), wood), wood
+        chance, prior = posterior(rgb, before, look_behind(rgb, weight, common, pulse=pulse), wood, pulse=pulse), wood
         clear = chance[0].astype(np.float64)
         wood = _raised(np.clip(_near(chance), manner.least, MOST), limb)
         found = _kept(mean(chance), fore, back)

@@ -13,6 +13,7 @@ from sketchtree.matting.layered import layered
 from sketchtree.matting.normalised import normalised
 from sketchtree.matting.scribbles import Scribbles
 from sketchtree.photo.photo import Photo
+from sketchtree.watch import Pulse, no_pulse
 
 __all__ = ["DEFAULT", "LARGEST", "MATTINGS", "Matte", "find_matte"]
 
@@ -23,8 +24,8 @@ _SMALLEST = 3  # pixels: a window
 _FULL = 250  # of 255: alpha from which a file's own counts as none
 
 
-def find_matte(photo: Photo, scribbles: Scribbles | None, *, key: Key[Array, ""], method: str = DEFAULT, largest: int = LARGEST) -> Matte:
-    """The matte of a photo: its own alpha where it has one, else by a method and scribbles. Raises SketchError for scribbles that mark nothing or both sides at once."""
+def find_matte(photo: Photo, scribbles: Scribbles | None, *, key: Key[Array, ""], method: str = DEFAULT, largest: int = LARGEST, pulse: Pulse = no_pulse) -> Matte:
+    """The matte of a photo: its own alpha where it has one, else by a method and scribbles; `pulse` is called a few times a second meanwhile. Raises SketchError for scribbles that mark nothing or both sides at once."""
     if method not in MATTINGS:
         raise OptionError(f"There is no matting called '{method}'.", remedy=f"Choose one of: {', '.join(MATTINGS)}.")
     if photo.alpha is not None and (photo.alpha < _FULL).any():
@@ -36,18 +37,18 @@ def find_matte(photo: Photo, scribbles: Scribbles | None, *, key: Key[Array, ""]
         raise SketchError(f"{photo.name} has {photo.width} × {photo.height} pixels; {_SMALLEST} × {_SMALLEST} are the least.", remedy="Give a larger photo.")
     scribbles.masks(photo)  # what is wrong with them is said of the photo as it is
     if photo.width * photo.height <= largest:
-        found = MATTINGS[method](photo, scribbles, key=key)
+        found = MATTINGS[method](photo, scribbles, key=key, pulse=pulse)
         return Matte(found.alpha, found.method, found.course, scribbles.warnings + found.warnings)
-    return _smaller(photo, scribbles, method, largest, key)
+    return _smaller(photo, scribbles, method, largest, key, pulse)
 
 
-def _smaller(photo: Photo, scribbles: Scribbles, method: str, largest: int, key) -> Matte:
+def _smaller(photo: Photo, scribbles: Scribbles, method: str, largest: int, key, pulse: Pulse) -> Matte:
     """The matte of a smaller copy, enlarged."""
     scale = (largest / (photo.width * photo.height)) ** 0.5
     size = max(int(photo.width * scale), _SMALLEST), max(int(photo.height * scale), _SMALLEST)
     small = Photo(np.asarray(Image.fromarray(photo.rgb).resize(size, Image.Resampling.BOX)), None, photo.name)
     along = np.array([size[0] / photo.width, size[1] / photo.height])
-    found = MATTINGS[method](small, _apart(scribbles.scaled(along, scale), small), key=key)
+    found = MATTINGS[method](small, _apart(scribbles.scaled(along, scale), small), key=key, pulse=pulse)
     alpha = np.asarray(Image.fromarray(np.asarray(found.alpha)).resize((photo.width, photo.height), Image.Resampling.BILINEAR))
     told = f"{photo.name} has {photo.width} × {photo.height} pixels; the matte was found on {size[0]} × {size[1]} and enlarged."
     return Matte(np.clip(alpha, 0, 1), found.method, found.course, (*scribbles.warnings, told, *found.warnings))

@@ -17,6 +17,7 @@ from sketchtree.matting.closed_form import factored, solved
 from sketchtree.matting.laplacian import laplacian, volume
 from sketchtree.matting.scribbles import Scribbles
 from sketchtree.photo.photo import Photo
+from sketchtree.watch import Pulse, no_pulse
 
 STEPS = 10
 _INNER = 4  # conjugate gradients of a step
@@ -24,22 +25,24 @@ _ENOUGH = 1e-5  # relative fall of f below which it has converged
 _SHORTEST = 2.0**-12  # of a step
 
 
-def normalised(photo: Photo, scribbles: Scribbles, *, key: Key[Array, ""]) -> Matte:
+def normalised(photo: Photo, scribbles: Scribbles, *, key: Key[Array, ""], pulse: Pulse = no_pulse) -> Matte:
     """The normalised matte; `key` is not used. Its course is f(α) after each step, from the start on."""
     fore, back = scribbles.masks(photo)
     matrix, known = laplacian(photo.rgb / 255.0), fore | back
+    pulse()
     factor = factored(matrix, known)
     start = solved(factor, fore)
     start[fore], start[back] = 1.0, 0.0
-    alpha, course = least_ratio(matrix, volume(known.shape), start.ravel(), ~known.ravel(), factor.solve)
+    alpha, course = least_ratio(matrix, volume(known.shape), start.ravel(), ~known.ravel(), factor.solve, pulse=pulse)
     return Matte(alpha.reshape(known.shape), "normalised", course)
 
 
-def least_ratio(matrix, weight, alpha, free: Bool[np.ndarray, " pixel"], precondition) -> tuple[Float[np.ndarray, " pixel"], tuple[float, ...]]:
+def least_ratio(matrix, weight, alpha, free: Bool[np.ndarray, " pixel"], precondition, *, pulse: Pulse = no_pulse) -> tuple[Float[np.ndarray, " pixel"], tuple[float, ...]]:
     """(α, f after each step) from a start within 0 to 1; only free pixels move."""
     ratio, slope = _ratio(matrix, weight, alpha)
     course = [ratio]
     for _ in range(STEPS):
+        pulse()
         moving = free & ~((alpha <= 0) & (slope >= 0)) & ~((alpha >= 1) & (slope <= 0))
         step = _newton(matrix, weight, ratio, slope, moving, precondition)
         alpha, found = _line(matrix, weight, alpha, step, ratio)

@@ -19,6 +19,7 @@ from jaxtyping import Array, Float
 
 from sketchtree.matting.behind import Behind
 from sketchtree.matting.colours import PAIRS, Colours
+from sketchtree.watch import Pulse, no_pulse
 
 GRID = np.array([0.0, 0.02, 0.06, 0.12, 0.2, 0.3, 0.42, 0.54, 0.66, 0.78, 0.89, 0.97, 1.0])
 CELL = np.where((GRID > 0) & (GRID < 1), np.gradient(GRID), 0.0)
@@ -29,7 +30,9 @@ _FORE, _COMMON = 4, 5  # components that mixtures are padded to
 _NEVER = -1e6  # log weight of a component that only pads
 
 
-def posterior(rgb: Float[np.ndarray, "row column 3"], fore: Colours, behind: Behind, wood: Float[np.ndarray, "row column"]) -> Float[np.ndarray, "alpha row column"]:
+def posterior(
+    rgb: Float[np.ndarray, "row column 3"], fore: Colours, behind: Behind, wood: Float[np.ndarray, "row column"], *, pulse: Pulse = no_pulse
+) -> Float[np.ndarray, "alpha row column"]:
     """The probability of each alpha of `GRID` at each pixel; `wood` is the prior probability that it is not 0."""
     rows, columns = wood.shape
     tables = _padded(fore, _FORE) + _padded(behind.common, _COMMON)[1:]
@@ -38,6 +41,7 @@ def posterior(rgb: Float[np.ndarray, "row column 3"], fore: Colours, behind: Beh
     pixels = (rgb.reshape(-1, 3), behind.mean.reshape(-1, 3), behind.covariance.reshape(-1, 6), share, wood.reshape(-1))
     found = []
     for start in range(0, rows * columns, _CHUNK):
+        pulse()
         part = [_filled(column[start : start + _CHUNK]) for column in pixels]
         found.append(np.asarray(_chunk(*part, *tables)))
     return np.concatenate(found, axis=1)[:, : rows * columns].reshape(len(GRID), rows, columns)

@@ -101,6 +101,15 @@ def test_mattes_lie_in_0_to_1_and_the_same_key_gives_the_same_bytes(method):
     assert one.alpha.tobytes() == two.alpha.tobytes()
 
 
+@pytest.mark.parametrize("method", MATTINGS)
+def test_a_matte_that_nobody_wants_any_more_ends_at_a_pulse(method):
+    def enough():
+        raise StopIteration
+
+    with pytest.raises(StopIteration):
+        find_matte(SKY, SCRIBBLES, key=KEY, method=method, pulse=enough)
+
+
 @pytest.mark.parametrize("method", ["normalised", "layered"])
 def test_scribbles_are_kept_exactly(method):
     fore, back = SCRIBBLES.masks(SKY)
