@@ -67,6 +67,18 @@ def test_the_matte_is_told_first_then_the_trunk_then_the_tree(bench):
     assert len(ring) % 2 == 0 and max(ring) <= 100  # pixels
 
 
+def test_pages_are_told_the_contour_that_its_vertices_lie_on(bench):
+    bench.frame(drawn(*SAID, levels=0))
+    told = bench.told[1]
+    (ring,), (vertices,), (parts,) = told.contour, told.vertices, told.parts
+    line, points = np.array(ring).reshape(-1, 2), np.array(vertices).reshape(-1, 2)
+    assert told.size == list(SIZE) and len(parts) == len(points) < len(line) < 200
+    ends = np.roll(line, -1, axis=0) - line
+    along = np.clip(((points[:, None] - line) * ends).sum(-1) / (ends**2).sum(-1), 0, 1)
+    assert np.linalg.norm(points[:, None] - line - along[..., None] * ends, axis=-1).min(axis=1).max() < 0.5
+    assert sum(parts) >= 3  # a tip, a limb to the left, one to the right
+
+
 def test_the_matte_is_as_opaque_as_the_tree(bench):
     import base64
 

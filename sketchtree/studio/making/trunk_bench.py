@@ -9,7 +9,9 @@ from collections.abc import Callable
 from dataclasses import dataclass, field
 
 import numpy as np
+from jaxtyping import Float
 from PIL import Image
+from skimage.measure import approximate_polygon
 
 from sketchtree.errors import OptionError
 from sketchtree.growth_tree import FoundTrunk, GrowthOptions, grown_tree, of_picture
@@ -28,6 +30,7 @@ from sketchtree.templates.store.database import Database
 from sketchtree.watch import Watch
 
 _SIDE = 1024  # pixels of the longer side of the matte that pages get
+_PLAIN = 0.4  # pixels that the contour they get may be off
 
 
 @dataclass(eq=False)
@@ -76,7 +79,16 @@ def told_trunk(revision: int, found: FoundTrunk, place: Place) -> messages.Trunk
         xy=np.round(xy.reshape(-1), 3).tolist(), parent=skeleton.parent.tolist(), width=np.round(2 * skeleton.radius * place.unit(photo), 3).tolist(), drawn=[True] * len(skeleton)
     )
     vertices = [np.round(ring.reshape(-1), 3).tolist() for ring in skeleton.vertices]
-    return messages.Trunks(revision=revision, state="ready", trees=[limbs], vertices=vertices, remark=" ".join(found.warnings))
+    parts = [own.tolist() for own in skeleton.parting]
+    contour = [] if skeleton.outline is None else [_plain(ring) for ring in skeleton.outline.rings]
+    told = {"vertices": vertices, "parts": parts, "contour": contour, "size": [photo.width, photo.height]}
+    return messages.Trunks(revision=revision, state="ready", trees=[limbs], **told, remark=" ".join(found.warnings))
+
+
+def _plain(ring: Float[np.ndarray, "point 2"]) -> list[float]:
+    """A ring of the contour for people to see and to point at: fewer points, and nowhere farther off than `_PLAIN`."""
+    closed = np.vstack([ring, ring[:1]])
+    return np.round(approximate_polygon(closed, _PLAIN)[:-1].reshape(-1), 2).tolist()
 
 
 def opaque(matte: Matte) -> str:
