@@ -8,7 +8,7 @@ from scipy.spatial import cKDTree
 
 from sketchtree.photo_tree import PhotoModel
 
-_NEAR = 0.012  # of the photo's height: a traced limb lies on a true one
+NEAR = 0.012  # of the photo's height: a traced limb lies on a true one
 _PAIRS = {"pair_apple_cl1": "apple_cl1", "pair_apple_cl3": "apple_cl3", "pair_nectarine_6_4_14": "nectarine_6_4_14", "pair_peach_23_03_14": "peach_23_03_14"}
 
 
@@ -18,13 +18,13 @@ def against_hand(name: str, model: PhotoModel, cases: Path | None) -> list[str]:
     if told is None or not told.exists():
         return []
     found = json.loads(told.read_text())
-    must = [_walked(limb["points"], limb["widths"]) for limb in found["limbs"] if not limb.get("optional")]
-    may = np.concatenate([*must, *(_walked(limb["points"], limb["widths"]) for limb in found["limbs"] if limb.get("optional"))])
+    must = [walked(limb["points"], limb["widths"]) for limb in found["limbs"] if not limb.get("optional")]
+    may = np.concatenate([*must, *(walked(limb["points"], limb["widths"]) for limb in found["limbs"] if limb.get("optional"))])
     must = np.concatenate(must)
     traced = model.trees[0].traced
     rows = np.flatnonzero(traced.parent >= 0)
-    ours = np.concatenate([_walked([traced.xy[traced.parent[row]], traced.xy[row]], [2 * traced.radius[traced.parent[row]], 2 * traced.radius[row]]) for row in rows])
-    near = _NEAR * model.photo.height
+    ours = np.concatenate([walked([traced.xy[traced.parent[row]], traced.xy[row]], [2 * traced.radius[traced.parent[row]], 2 * traced.radius[row]]) for row in rows])
+    near = NEAR * model.photo.height
     away, which = cKDTree(may[:, :2]).query(ours[:, :2])
     reach = np.maximum(near, 0.5 * may[which, 2])
     back, _ = cKDTree(ours[:, :2]).query(must[:, :2])
@@ -55,7 +55,7 @@ def _shape(point) -> dict[str, float]:
     return {"height/width": height / width, "middle of its joints, heights up": float(np.median(crown[:, 1]) / height), "depth/width": float(np.sqrt(np.prod(np.linalg.svd(spread, compute_uv=False)[::-1] ** [1.0, -1.0])))}
 
 
-def _walked(points, widths) -> np.ndarray:
+def walked(points, widths) -> np.ndarray:
     """Points along a line about a pixel apart, with the width there."""
     points, widths = np.asarray(points, float), np.asarray(widths, float)
     run = np.r_[0.0, np.cumsum(np.hypot(*np.diff(points, axis=0).T))]
