@@ -32,6 +32,7 @@ from sketchtree.rig.islands import mesh_places
 from sketchtree.rig.leaf_rows import leaf_rows
 from sketchtree.rig.weights import Weights, whole
 from sketchtree.rig.wind import leaf_places
+from sketchtree.watch import Pulse, no_pulse
 
 MOST_JOINTS = 3000
 LEAST_JOINTS, LIMIT_JOINTS = 64, 60_000  # a file counts joints with 16 bits
@@ -53,21 +54,28 @@ class Growing:
     nodes: Nodes
     hosts: Hosts
     key: Key[Array, ""]
+    pulse: Pulse = no_pulse
 
     @classmethod
-    def of(cls, model: Model, plan: GrowthPlan, *, most_joints: int = MOST_JOINTS, key: Key[Array, ""] | None = None) -> "Growing":
-        """`key` is for the leaves that only young trees bear; one of its own if there is none. Raises `OptionError` for fewer joints than `LEAST_JOINTS`, more than `LIMIT_JOINTS`, or a tree without a limb."""
+    def of(cls, model: Model, plan: GrowthPlan, *, most_joints: int = MOST_JOINTS, key: Key[Array, ""] | None = None, pulse: Pulse = no_pulse) -> "Growing":
+        """`key` is for the leaves that only young trees bear; one of its own if there is none. `pulse` is called while the animation is made, the first time that it is asked for.
+
+        Raises `OptionError` for fewer joints than `LEAST_JOINTS`, more than `LIMIT_JOINTS`, or a tree without a limb."""
         if not LEAST_JOINTS <= most_joints <= LIMIT_JOINTS:
             raise OptionError(f"A growing tree can't do with {most_joints} joints.", remedy=f"Ask for {LEAST_JOINTS} to {LIMIT_JOINTS:,}; {MOST_JOINTS:,} are usual.")
         lines = centre_lines(plan.tree)
         if not len(lines):
             raise OptionError("The tree has no branch that could grow.", remedy="Give one with a trunk of some length.")
         limbs, nodes = boughs(plan.tree, lines), Nodes.of(plan.straight, lines)
-        return cls(model, plan, most_joints, lines, limbs, nodes, choose_hosts(lines, limbs, nodes, most_joints, twins=plan.bend != 0), root_key(0) if key is None else key)
+        return cls(model, plan, most_joints, lines, limbs, nodes, choose_hosts(lines, limbs, nodes, most_joints, twins=plan.bend != 0), root_key(0) if key is None else key, pulse)
 
     def at(self, time: float) -> tuple[Mesh, ...]:
         """The meshes at a time, 0-1, as the animated file shows them; what is not there yet has no triangles. Raises OptionError."""
         return posed(self._unit, float(checked_times([time])[0]))
+
+    def get_ready(self) -> None:
+        """Make the animation now, which takes seconds; what is asked for later takes moments."""
+        self._unit  # noqa: B018 - it is kept
 
     def asset(self, *, seconds: float = 10.0, about: dict | None = None) -> Asset:
         """The tree as a file holds it: at rest the final tree; its animation takes so many seconds."""
@@ -84,14 +92,17 @@ class Growing:
         """The asset whose animation takes one second."""
         time = np.linspace(0.0, 1.0, _MOMENTS)
         poses = self.plan.poses(time, pieces=True, whole=False, dtype=np.float64)
+        self.pulse()
         motion = with_shoots(motion_of(self.plan, self.lines, self.limbs, self.nodes, self.hosts, poses), self.hosts)
+        self.pulse()
         ground = np.unique(motion.base)
         armature = _armature(self.plan, motion, ground)
         first = 1 + len(ground)
         parts, morphs = self._parts(first)
+        self.pulse()
         animation = _animation(self.plan, motion, ground, time, poses.size, self.plan.tree.height)
         young = young_leaves(
-            self.plan, self.lines, self.nodes, self.hosts, self.model.dress, self.model.leaves, armature, animation, first, len(parts), key=self.key
+            self.plan, self.lines, self.nodes, self.hosts, self.model.dress, self.model.leaves, armature, animation, first, len(parts), key=self.key, pulse=self.pulse
         )
         parts, morphs = (*parts, *(mesh for mesh, _ in young)), (*morphs, *(morph for _, morph in young))
         return Asset.of(parts, skeleton=self.model.skeleton, name="tree", armature=armature, animation=replace(animation, morphs=morphs))
@@ -101,9 +112,11 @@ class Growing:
         for mesh in self.model.meshes:
             if not mesh.triangle_count:
                 continue
+            self.pulse()
             worn = self._leaves_of(mesh)
             if worn is None:
                 mesh, place = parted(mesh, self.lines, self.limbs, mesh_places(self.lines, self.limbs, mesh))
+                self.pulse()
                 rim = rims(self.lines, self.limbs, self.hosts, place, mesh.position)
                 parts.append(_bound(mesh, influences(self.lines, self.limbs, self.nodes, self.hosts, place, rim), first))
                 continue

@@ -30,6 +30,7 @@ from sketchtree.growth.plan import GrowthPlan
 from sketchtree.keys import stage_key
 from sketchtree.rig.boughs import limb_of_row
 from sketchtree.rig.leaf_rows import leaf_rows
+from sketchtree.watch import Pulse, no_pulse
 
 TIMES = tuple(WHOLE * share for share in (0.04, 0.09, 0.16, 0.24, 0.33, 0.43, 0.54, 0.66, 0.79, 0.92))
 _UNFOLDS, _FALLS = 0.035, 0.05  # of the tree's time: they are whole so long after the moment they belong to, and shed so long after that of the next
@@ -56,7 +57,7 @@ def shoot_of(hosts: Hosts) -> Int[np.ndarray, " joint"]:
 
 
 def young_leaves(
-    plan: GrowthPlan, lines: CentreLines, nodes: Nodes, hosts: Hosts, dress: Dress, final: Leaves, bones: Armature, animation: Animation, first: int, part: int, *, key: Key[Array, ""]
+    plan: GrowthPlan, lines: CentreLines, nodes: Nodes, hosts: Hosts, dress: Dress, final: Leaves, bones: Armature, animation: Animation, first: int, part: int, *, key: Key[Array, ""], pulse: Pulse = no_pulse
 ) -> list[tuple[Mesh, Morph]]:
     """Meshes `leaf_young_1` …, and how each unfolds and is shed. Joints of limbs are counted from `first`, parts from `part`; the animation takes one second."""
     if dress.leaf is None or not len(final) or plan.mode == "scale":  # there the final tree only becomes larger
@@ -65,6 +66,7 @@ def young_leaves(
     joint[final.segment] = NULL
     found: list[tuple[Mesh, Morph]] = []
     for number, time in enumerate(TIMES):
+        pulse()
         young, rows = plan.with_rows_at(time)
         size = max(float(np.sqrt(plan.size_at(time))), 0.05)
         leaves = populate(young, dress.habit, key=stage_key(key, f"young leaves {number}"), model=dress.leaf, season=dress.season, scale=size, max_leaves=_MOST)

@@ -7,7 +7,7 @@ are set once, round everything that is seen at any time: nothing is cropped, not
 import subprocess
 import tempfile
 import threading
-from collections.abc import Sequence
+from collections.abc import Callable, Sequence
 from dataclasses import replace
 from pathlib import Path
 from typing import Protocol
@@ -28,6 +28,7 @@ _SEEN_AT = (0.25, 0.5, 0.75, 0.9, 1.0)  # times at which the extent is looked at
 _SUPERSAMPLE = 2
 _PER_FRAME = 60.0  # seconds that a picture may take
 _MOST_TURN = 3600.0  # degrees
+_DRAWN = 0.95  # of a film, that its pictures are
 
 
 class Grows(Protocol):
@@ -39,11 +40,12 @@ class Grows(Protocol):
 
 def growth_film(
     growing: Grows, path: str | Path, *, size: tuple[int, int] = (640, 640), frames: int = 72, seconds: float = 6.0, turn: float = 0.0, hold: float = 1.5,
-    timeout: float | None = None,
+    timeout: float | None = None, part: Callable[[float], None] = lambda done: None,
 ) -> tuple[bool, str]:
     """Draw a tree that grows, in `frames` pictures of `size` pixels; the last stays `hold` seconds longer. (True, "") or (False, one line that says why not).
 
-    `turn`: degrees by which the camera goes round meanwhile. `timeout`: seconds that any one picture may take. Raises `ExportError` for another extension than those of
+    `turn`: degrees by which the camera goes round meanwhile. `timeout`: seconds that any one picture may take; `part` is told how much is
+    done, 0-1, at every picture, and what it raises ends the work. Raises `ExportError` for another extension than those of
     `film.FILMS`, a place that can't be written, or `.mp4` without an ffmpeg that has H.264, `OptionError` for frames, seconds, a hold or a turn out of range.
     """
     path = Path(path)
@@ -57,9 +59,10 @@ def growth_film(
     scene = _Scene(final, [growing.at(time) for time in _SEEN_AT[:-1]], size, turn)
     with tempfile.TemporaryDirectory(prefix="sketchtree-film-") as folder:
         place = Path(folder)
-        reason = _drawn(growing, scene, place, frames, _PER_FRAME if timeout is None else timeout)
+        reason = _drawn(growing, scene, place, frames, _PER_FRAME if timeout is None else timeout, part)
         if reason:
             return False, reason
+        part(_DRAWN)
         write_film(path, _Pictures(place, frames), seconds, hold=hold)
     return True, ""
 
@@ -131,7 +134,7 @@ def _named(folder: Path, k: int) -> Path:
     return folder / f"{k:04d}.png"
 
 
-def _drawn(growing: Grows, scene: _Scene, folder: Path, frames: int, timeout: float) -> str:
+def _drawn(growing: Grows, scene: _Scene, folder: Path, frames: int, timeout: float, part: Callable[[float], None]) -> str:
     """Draw all pictures into the folder; "" or one line that says why not."""
     asked = folder / "request.npz"
     np.savez(asked, **scene.request)
@@ -140,6 +143,7 @@ def _drawn(growing: Grows, scene: _Scene, folder: Path, frames: int, timeout: fl
         watch = _Watch(child, timeout)
         try:
             for k in range(frames):
+                part(_DRAWN * k / frames)
                 changed = folder / f"changes_{k % 2}.npz"  # the next picture is prepared while one is drawn
                 np.savez(changed, **scene.changes(growing.at(k / (frames - 1)), k / (frames - 1)))
                 watch.answered()

@@ -126,6 +126,19 @@ def test_a_picture_that_takes_too_long_ends_the_film(tmp_path, monkeypatch):
     assert list(tmp_path.iterdir()) == []
 
 
+def test_whoever_is_told_how_much_is_done_can_end_it_and_no_file_is_left(tmp_path):
+    told = []
+
+    def part(done: float) -> None:
+        told.append(done)
+        if len(told) == 3:
+            raise StopIteration
+
+    with pytest.raises(StopIteration):
+        growth_film(Sprout(), tmp_path / "t.gif", size=(64, 64), frames=4, part=part)
+    assert told == sorted(told) and 0 <= told[0] < told[2] < 1 and not list(tmp_path.iterdir())
+
+
 def test_without_opengl_the_reason_is_told(tmp_path, monkeypatch):
     monkeypatch.setattr(picture, "command", lambda *_: ["sh", "-c", "echo no OpenGL >&2; exit 1"])
     assert growth_film(Sprout(), tmp_path / "t.gif", size=(64, 64), frames=3) == (False, picture.NO_OPENGL)
