@@ -25,7 +25,7 @@ _FULL = 250  # of 255: alpha from which a file's own counts as none
 
 
 def find_matte(photo: Photo, scribbles: Scribbles | None, *, key: Key[Array, ""], method: str = DEFAULT, largest: int = LARGEST, pulse: Pulse = no_pulse) -> Matte:
-    """The matte of a photo: its own alpha where it has one, else by a method and scribbles; `pulse` is called a few times a second meanwhile. Raises SketchError for scribbles that mark nothing or both sides at once."""
+    """The matte of a photo: its own alpha where it has one, else by a method and scribbles; `pulse` is called a few times a second meanwhile. Raises SketchError for scribbles of which one side marks nothing."""
     if method not in MATTINGS:
         raise OptionError(f"There is no matting called '{method}'.", remedy=f"Choose one of: {', '.join(MATTINGS)}.")
     if photo.alpha is not None and (photo.alpha < _FULL).any():
@@ -36,13 +36,14 @@ def find_matte(photo: Photo, scribbles: Scribbles | None, *, key: Key[Array, ""]
     if min(photo.width, photo.height) < _SMALLEST:
         raise SketchError(f"{photo.name} has {photo.width} × {photo.height} pixels; {_SMALLEST} × {_SMALLEST} are the least.", remedy="Give a larger photo.")
     scribbles.masks(photo)  # what is wrong with them is said of the photo as it is
+    said = (*scribbles.warnings, *scribbles.overlapping(photo))
     if photo.width * photo.height <= largest:
         found = MATTINGS[method](photo, scribbles, key=key, pulse=pulse)
-        return Matte(found.alpha, found.method, found.course, scribbles.warnings + found.warnings)
-    return _smaller(photo, scribbles, method, largest, key, pulse)
+        return Matte(found.alpha, found.method, found.course, (*said, *found.warnings))
+    return _smaller(photo, scribbles, method, largest, key, pulse, said)
 
 
-def _smaller(photo: Photo, scribbles: Scribbles, method: str, largest: int, key, pulse: Pulse) -> Matte:
+def _smaller(photo: Photo, scribbles: Scribbles, method: str, largest: int, key, pulse: Pulse, said: tuple[str, ...]) -> Matte:
     """The matte of a smaller copy, enlarged."""
     scale = (largest / (photo.width * photo.height)) ** 0.5
     size = max(int(photo.width * scale), _SMALLEST), max(int(photo.height * scale), _SMALLEST)
@@ -51,15 +52,15 @@ def _smaller(photo: Photo, scribbles: Scribbles, method: str, largest: int, key,
     found = MATTINGS[method](small, _apart(scribbles.scaled(along, scale), small), key=key, pulse=pulse)
     alpha = np.asarray(Image.fromarray(np.asarray(found.alpha)).resize((photo.width, photo.height), Image.Resampling.BILINEAR))
     told = f"{photo.name} has {photo.width} × {photo.height} pixels; the matte was found on {size[0]} × {size[1]} and enlarged."
-    return Matte(np.clip(alpha, 0, 1), found.method, found.course, (*scribbles.warnings, told, *found.warnings))
+    return Matte(np.clip(alpha, 0, 1), found.method, found.course, (*said, told, *found.warnings))
 
 
 def _apart(scribbles: Scribbles, photo: Photo) -> Scribbles:
-    """The scribbles with as narrow a brush as it takes that two sides, apart on the photo, stay so on the small one."""
+    """The scribbles with as narrow a brush as it takes that of both sides something is left on the small photo too."""
     try:
         scribbles.masks(photo)
     except SketchError as error:
-        if "as foreground and as background" not in error.message or scribbles.brush < 1e-3:
+        if "lie over all" not in error.message or scribbles.brush < 1e-3:
             raise
         return _apart(scribbles.scaled(np.ones(2), 0.5), photo)
     return scribbles

@@ -1,14 +1,16 @@
 """What did the user mark as tree, and what as anything else? Two sets of lines over a photo, from a JSON or SVG file.
 
-    {"foreground": [[[x, y], ...], ...], "background": [...], "brush": px}
+    {"foreground": [[[x, y], ...], ...], "background": [...], "brush": px, "order": ["foreground", "background", ...]}
 
 Pixels, x right, y DOWN; the middle of the pixel in row r and column c is (c + ½, r + ½). A brush is round and `brush` pixels across. In a drawing every line has its own width. An SVG says by layer or id which is
-which, and its page (viewBox) is the photo.
+which, and its page (viewBox) is the photo. Where lines of both sides lie over each other the newer counts: lines of a drawing are in its order, those of a JSON file in that of `order`, a side's name a line (without it
+the background's lie over the foreground's).
 """
 
 import os
 from collections.abc import Sequence
 from dataclasses import dataclass, field, replace
+from itertools import groupby
 from pathlib import Path
 from typing import Any
 
@@ -39,12 +41,15 @@ class Scribbles:
     name: str = "scribbles"
     warnings: tuple[str, ...] = field(default=())
     brushes: tuple[tuple[float, ...], tuple[float, ...]] | None = None  # of each line of either side, pixels across; None: all are `brush`
+    order: tuple[int, ...] | None = None  # the side (0 foreground, 1 background) of every line as they were drawn; None: the foreground's first
 
     def __post_init__(self):
         for brush in (self.brush, *(one for side in self.brushes or () for one in side)):
             if not (np.isfinite(brush) and brush > 0):
                 raise SketchError(f"{self.name} has a brush of {brush:g} pixels.", remedy="Give `brush` as the line's width in pixels, above 0.")
         assert self.brushes is None or [len(side) for side in self.brushes] == [len(self.foreground), len(self.background)], "a brush a line"
+        counts = [len(self.foreground), len(self.background)]
+        assert self.order is None or [self.order.count(k) for k in (0, 1)] == counts and len(self.order) == sum(counts), "every line once in the order"
         for side in SIDES:
             lines = tuple(np.array(line, np.float64).reshape(-1, 2) for line in getattr(self, side))
             for k, line in enumerate(lines):
@@ -55,30 +60,49 @@ class Scribbles:
             object.__setattr__(self, side, lines)
 
     def masks(self, photo: Photo) -> tuple[Bool[np.ndarray, "row column"], Bool[np.ndarray, "row column"]]:
-        """The pixels under the foreground's and under the background's lines. Raises SketchError where a side has none in the photo, or both have the same."""
-        shape = (photo.height, photo.width)
-        fore, back = (painted(getattr(self, side), self.brush if self.brushes is None else self.brushes[k], shape) for k, side in enumerate(SIDES))
+        """The pixels under the foreground's and under the background's lines; under both, the newer line's. Raises SketchError where a side has none in the photo, or the other's lie over all of it."""
         if not self.foreground and not self.background:
             raise SketchError(f"{self.name} is empty.", remedy="Draw one line along the trunk (foreground) and one beside the tree (background).")
-        for side, mask in zip(SIDES, (fore, back), strict=True):
+        masks, seen = self._drawn(photo)
+        for side, mask, marks in zip(SIDES, masks, seen, strict=True):
             if not getattr(self, side):
                 raise SketchError(f"{self.name} has no {side} line.", remedy=_wanted(side))
-            if not mask.any():
+            if not marks.any():
                 raise SketchError(f"The {side} lines of {self.name} lie outside the photo ({photo.width} × {photo.height} pixels).", remedy=_AGAIN)
+            if not mask.any():
+                other = SIDES[1 - SIDES.index(side)]
+                raise SketchError(f"{self.name}: its {other} lines lie over all of its {side} lines.", remedy=f"{_wanted(side)} Where lines lie over each other, the newer counts.")
+        return masks
+
+    def overlapping(self, photo: Photo) -> tuple[str, ...]:
+        """A warning where lines of both sides lie over each other."""
+        fore, back = self._drawn(photo)[1]
         both = fore & back
-        if both.any():
-            row, column = np.argwhere(both)[0]
-            raise SketchError(
-                f"{self.name} marks {both.sum()} pixels as foreground and as background, the first at ({column}, {row}).",
-                remedy="Erase one of the two lines there, or draw with a smaller `brush`.",
-            )
-        return fore, back
+        if not both.any():
+            return ()
+        row, column = np.argwhere(both)[0]
+        pixels = "1 pixel" if both.sum() == 1 else f"{both.sum()} pixels"
+        return (f"{self.name} marks {pixels} as foreground and as background, the first at ({column}, {row}); the newer line counts.",)
+
+    def _drawn(self, photo: Photo):
+        """(pixels of either side, the newer lines over the older; pixels under either side's lines)."""
+        shape = (photo.height, photo.width)
+        masks, seen = ([np.zeros(shape, bool), np.zeros(shape, bool)] for _ in range(2))
+        first = [0, 0]
+        for side, run in groupby(self.order or (0,) * len(self.foreground) + (1,) * len(self.background)):
+            rows = slice(first[side], first[side] + len(list(run)))
+            first[side] = rows.stop
+            marks = painted(getattr(self, SIDES[side])[rows], self.brush if self.brushes is None else self.brushes[side][rows], shape)
+            seen[side] |= marks
+            masks[side] |= marks
+            masks[1 - side] &= ~marks
+        return tuple(masks), tuple(seen)
 
     def scaled(self, along: Float[np.ndarray, " 2"], scale: float) -> "Scribbles":
         """The same on a photo of another size: x and y times `along`, brushes times `scale`."""
         lines = (tuple(line * along for line in getattr(self, side)) for side in SIDES)
         brushes = None if self.brushes is None else tuple(tuple(scale * brush for brush in side) for side in self.brushes)
-        return Scribbles(*lines, scale * self.brush, self.name, self.warnings, brushes)
+        return Scribbles(*lines, scale * self.brush, self.name, self.warnings, brushes, self.order)
 
     def leaving(self, photo: Photo) -> tuple[str, ...]:
         """A warning for every line that leaves the photo: only what lies inside counts."""
@@ -138,7 +162,19 @@ def _of_json(document: Any, name: str) -> Scribbles:
     sides = [tuple(_line(line, name, side, k) for k, line in enumerate(_list(document.get(side, []), name, side))) for side in SIDES]
     if sum(len(line) for side in sides for line in side) > _MOST:
         raise SketchError(f"{name} has more than {_MOST:,} points.", remedy="Simplify the lines.")
-    return Scribbles(sides[0], sides[1], float(brush), name)
+    return Scribbles(sides[0], sides[1], float(brush), name, order=_order(document.get("order"), [len(side) for side in sides], name))
+
+
+def _order(value: Any, counts: list[int], name: str) -> tuple[int, ...] | None:
+    if value is None:
+        return None
+    sides = value if isinstance(value, list) else []
+    if len(sides) != sum(counts) or [sides.count(side) for side in SIDES] != counts:
+        raise SketchError(
+            f"{name}: 'order' doesn't name a side for each of the {counts[0]} foreground and {counts[1]} background lines.",
+            remedy='Give it as ["foreground", "background", ...] in the order in which they were drawn, or leave it out.',
+        )
+    return tuple(SIDES.index(side) for side in sides)
 
 
 def _list(value: Any, name: str, side: str) -> list:
@@ -173,7 +209,7 @@ def _of_drawing(path: Path, photo: Photo, max_mb: float) -> Scribbles:
 def scribbled(strokes: Sequence[Stroke], name: str) -> Scribbles:
     """The scribbles among strokes over a photo, in its pixels, y UP; each line as wide as it was drawn."""
     sides: dict[str, list[Stroke]] = {side: [] for side in SIDES}
-    nameless = 0
+    order, nameless = [], 0
     for stroke in strokes:
         if stroke.kind in (StrokeKind.MATTE_ADD, StrokeKind.MATTE_ERASE):
             continue  # those edit the matte (`trunk.edit_matte`)
@@ -181,9 +217,10 @@ def scribbled(strokes: Sequence[Stroke], name: str) -> Scribbles:
         nameless += said is None
         if said is not None:
             sides[said].append(stroke)
+            order.append(SIDES.index(said))
     lines = (tuple(turned_over(stroke.points) for stroke in side) for side in sides.values())
     widths = [stroke.width for side in sides.values() for stroke in side if stroke.width]
     usual = float(np.median(widths)) if widths else BRUSH
     brushes = tuple(tuple(float(stroke.width or usual) for stroke in side) for side in sides.values())
     told = (f"{name}: {nameless} lines are in no layer called foreground or background; they were left out.",) if nameless else ()
-    return Scribbles(*lines, usual, name, told, brushes)
+    return Scribbles(*lines, usual, name, told, brushes, tuple(order))

@@ -8,10 +8,14 @@ from dataclasses import dataclass
 import numpy as np
 from jaxtyping import Bool, Float, UInt8
 
+from sketchtree.errors import SketchError
+
+LEAST = 2  # pixels, either way
+
 
 @dataclass(frozen=True, eq=False)
 class Photo:
-    """One picture. Requirements, checked at construction: at least 2 × 2 pixels."""
+    """One picture. Requirements, checked at construction: at least `LEAST` pixels either way (else SketchError)."""
 
     rgb: UInt8[np.ndarray, "row column 3"]  # sRGB, upright
     alpha: UInt8[np.ndarray, "row column"] | None = None  # where the file has one that is not full everywhere
@@ -20,7 +24,9 @@ class Photo:
 
     def __post_init__(self):
         rgb = np.array(self.rgb, np.uint8)
-        assert rgb.ndim == 3 and rgb.shape[2] == 3 and min(rgb.shape[:2]) >= 2, "a photo has rows, columns and three channels"
+        assert rgb.ndim == 3 and rgb.shape[2] == 3, "a photo has rows, columns and three channels"
+        if min(rgb.shape[:2]) < LEAST:
+            raise SketchError(f"{self.name} has {rgb.shape[1]} × {rgb.shape[0]} pixels; {LEAST} × {LEAST} are the least.", remedy="Give a larger photo.")
         rgb.flags.writeable = False
         object.__setattr__(self, "rgb", rgb)
 

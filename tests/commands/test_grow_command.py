@@ -153,11 +153,11 @@ BACK = [[20, 10], [20, 190]]
         ({"back": ()}, "has no background line"),
         ({"fore": ()}, "has no foreground line"),
         ({"fore": (), "back": ()}, "is empty"),
-        ({"fore": (BACK,), "back": (BACK,)}, "as foreground and as background"),
+        ({"fore": (BACK,), "back": (BACK,)}, "its background lines lie over all of its foreground lines"),
         ({"fore": ([[900, 10], [900, 90]],)}, "lie outside the photo"),
     ],
 )
-def test_scribbles_that_say_nothing_or_both_are_refused(folder, capsys, marks, says):
+def test_scribbles_that_leave_one_side_nothing_are_refused(folder, capsys, marks, says):
     refused(capsys, folder, "tree.png", "--scribbles", "@" + scribbles(folder, "bad.json", **marks), says=says)
 
 

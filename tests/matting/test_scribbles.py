@@ -53,10 +53,11 @@ def test_layers_of_an_svg_say_which_is_which_and_its_page_is_the_photo(tmp_path)
         ({"background": [BESIDE]}, "has no foreground line. Draw a line along the trunk."),
         ({"foreground": [], "background": []}, "is empty. Draw one line along the trunk"),
         ({"foreground": [[[99, 99], [120, 90]]], "background": [BESIDE]}, r"The foreground lines of s.json lie outside the photo \(30 × 40 pixels\)"),
-        ({"foreground": [TRUNK], "background": [TRUNK]}, r"pixels as foreground and as background, the first at \("),
+        ({"foreground": [TRUNK], "background": [TRUNK]}, "s.json: its background lines lie over all of its foreground lines. Draw a line along the trunk. Where lines lie over each other, the newer counts."),
+        ({"foreground": [TRUNK], "background": [TRUNK], "order": ["background", "foreground"]}, "its foreground lines lie over all of its background lines. Draw a line beside the tree"),
     ],
 )
-def test_scribbles_that_mark_nothing_or_both_are_named(tmp_path, document, said):
+def test_scribbles_that_leave_one_side_nothing_are_named(tmp_path, document, said):
     with pytest.raises(SketchError, match=said):
         read_scribbles(written(tmp_path, document), PHOTO).masks(PHOTO)
 
@@ -70,6 +71,8 @@ def test_scribbles_that_mark_nothing_or_both_are_named(tmp_path, document, said)
         ({"foreground": [[]], "background": []}, "foreground line 1 has no points"),
         ({"foreground": [TRUNK], "background": [BESIDE], "brush": 0}, "has a brush of 0 pixels"),
         ({"foreground": [TRUNK], "background": [BESIDE], "brush": "wide"}, "'brush': 'wide'; a number was expected"),
+        ({"foreground": [TRUNK], "background": [BESIDE], "order": ["foreground"]}, r"'order' doesn't name a side for each of the 1 foreground and 1 background lines"),
+        ({"foreground": [TRUNK], "background": [BESIDE], "order": 7}, r'Give it as \["foreground", "background", ...\] in the order in which they were drawn, or leave it out'),
         ('{"foreground": [[[1, 1e999]]], "background": []}', "foreground line 1 has a coordinate that is not a finite number"),
     ],
 )
@@ -107,3 +110,26 @@ def test_brushes_shrink_with_the_photo():
 def test_a_brush_that_paints_nothing_is_refused():
     with pytest.raises(SketchError, match="has a brush of 0 pixels. Give `brush` as the line's width in pixels, above 0."):
         Scribbles(([[10.0, 20.0]],), ([[2.0, 4.0]],), brushes=((0.0,), (3.0,)))
+
+
+ACROSS = [[2, 20], [28, 20]]
+
+
+@pytest.mark.parametrize(("order", "newer"), [(None, "background"), (["foreground", "background"], "background"), (["background", "foreground"], "foreground")])
+def test_where_lines_lie_over_each_other_the_newer_counts(tmp_path, order, newer):
+    found = read_scribbles(written(tmp_path, {"foreground": [TRUNK], "background": [ACROSS]} | ({"order": order} if order else {})), PHOTO)
+    fore, back = found.masks(PHOTO)
+    assert not (fore & back).any() and (fore[20, 15], back[20, 15]) == (newer == "foreground", newer == "background")
+    assert found.overlapping(PHOTO) == ("s.json marks 16 pixels as foreground and as background, the first at (13, 18); the newer line counts.",)
+
+
+def test_lines_of_a_drawing_lie_over_each_other_as_they_were_drawn(tmp_path):
+    trunk, beside, again = (f'<path id="{name}" d="{d}" fill="none" stroke="red" stroke-width="3"/>' for name, d in (("foreground-1", "M15 35 L15 10"), ("background-1", "M2 20 L28 20"), ("foreground-2", "M20 5 L20 35")))
+    found = read_scribbles(written(tmp_path, f'<svg xmlns="http://www.w3.org/2000/svg" viewBox="0 0 30 40">{trunk}{beside}{again}</svg>', "s.svg"), PHOTO)
+    fore, back = found.masks(PHOTO)
+    assert found.order == (0, 1, 0)
+    assert back[20, 15] and fore[20, 20] and found.scaled(np.array([0.5, 0.5]), 0.5).order == (0, 1, 0)
+
+
+def test_lines_that_lie_apart_are_not_remarked_on():
+    assert Scribbles((TRUNK,), (BESIDE,)).overlapping(PHOTO) == ()

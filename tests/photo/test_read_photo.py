@@ -211,3 +211,8 @@ def test_a_raw_file_is_refused_instead_of_its_thumbnail(scene, tmp_path, name, d
 def test_a_folder_is_no_photo(tmp_path):
     with pytest.raises(SketchError, match="is a folder, not a photo"):
         read_photo(tmp_path)
+
+
+def test_pixels_in_memory_are_two_by_two_at_least():
+    with pytest.raises(SketchError, match="photo has 1 × 5 pixels; 2 × 2 are the least. Give a larger photo."):
+        as_photo(np.zeros((5, 1, 3), np.uint8))
