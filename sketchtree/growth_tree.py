@@ -132,6 +132,7 @@ class Beginning:
 class Worn:
     """A finished tree, as `pipeline.TreeModel` but for the drawing that it does not have."""
 
+    template: str | None
     skeleton: TreeSkeleton
     leaves: Leaves
     blossom: Leaves | None
@@ -233,7 +234,7 @@ def grown_tree(
             host, told = _host(beginning, tree, key)
             skeleton, more = _grafted(host, levels, tree.max_segments, beginning.dress.habit, key)
             pruned = skeleton if beginning.kind == "drawing" else Prune(tree.prune).run(skeleton).skeleton
-        model = _worn(pruned, beginning.dress, key, (*told, *more), watch)
+        model = _worn(pruned, beginning, key, (*told, *more), watch)
     plan = GrowthPlan.of(model.skeleton, mode=growth.mode, bend=growth.bend)
     return GrownTree(beginning, model, plan, levels, tuple(dict.fromkeys((*beginning.warnings, *model.warnings))))
 
@@ -283,8 +284,9 @@ def _grafted(host: TreeSkeleton, levels: int, most: int, habit: Habit, key: Key[
     return tree, ()
 
 
-def _worn(skeleton: TreeSkeleton, dress: Dress, key: Key[Array, ""], told: tuple[str, ...], watch: Watch) -> Worn:
+def _worn(skeleton: TreeSkeleton, beginning: Beginning, key: Key[Array, ""], told: tuple[str, ...], watch: Watch) -> Worn:
     """Leaves and meshes, as `pipeline.finish` makes them."""
+    dress = beginning.dress
     with watch("foliage"):
         leaves, flowers = pipeline.foliage(skeleton, dress, key=key)
         if leaves.kept < 1:
@@ -294,7 +296,7 @@ def _worn(skeleton: TreeSkeleton, dress: Dress, key: Key[Array, ""], told: tuple
     with watch("mesh"):
         wood = wood_worn(skeleton, dress, key=key)
         meshes = (*wood.meshes, *(leaf_mesh(worn, season=dress.season) for worn in (leaves, flowers) if worn is not None and len(worn)))
-    return Worn(skeleton, leaves, flowers, meshes, (*told, *wood.warnings), dress, wood.made)
+    return Worn(beginning.template, skeleton, leaves, flowers, meshes, (*told, *wood.warnings), dress, wood.made)
 
 
 @dataclass(frozen=True)

@@ -69,14 +69,21 @@ def asset_of(model, made: Made, files: FileOptions | None = None) -> Asset:
         return Asset.of(model.meshes, skeleton=model.skeleton, about=about_of(model, made))
     from sketchtree.tree_asset import forest_asset, tree_asset
 
-    return (tree_asset if hasattr(model, "drawn") else forest_asset)(model, files, about=about_of(model, made))
+    return (forest_asset if hasattr(model, "trees") else tree_asset)(model, files, about=about_of(model, made))
 
 
-def about_of(model, made: Made, **more) -> dict:
-    """What a file of ours tells of its tree; `more`: what is known beside that."""
-    drawn, dress = getattr(model, "drawn", None), getattr(model, "dress", None)
-    template = {} if drawn is None else {"template": drawn.exemplar.name if drawn.exemplar else None}
-    return {"program": "SketchTree", "version": __version__, "seed": made.seed, "units": "metres", "up": "y"} | template | more | ({} if dress is None else worn_in_words(dress))
+def about_of(model, made: Made) -> dict:
+    """What a file of ours tells of its tree."""
+    dress = getattr(model, "dress", None)
+    of_tree = {} if dress is None else {"template": _template_of(model)} | worn_in_words(dress)
+    return {"program": "SketchTree", "version": __version__, "seed": made.seed, "units": "metres", "up": "y"} | of_tree
+
+
+def _template_of(model) -> str | None:
+    """By which a tree grew: its drawing's, or that which a tree without a drawing names."""
+    if hasattr(model, "drawn"):
+        return model.drawn.exemplar.name if model.drawn.exemplar else None
+    return model.template
 
 
 def worn_in_words(dress) -> dict:

@@ -18,6 +18,7 @@ from sketchtree.animation.posing import posed
 from sketchtree.animation.rims import rims
 from sketchtree.animation.seams import parted
 from sketchtree.animation.unfolding import cohorts
+from sketchtree.animation.wanted import MOST_JOINTS, check_joints
 from sketchtree.animation.young_leaves import with_shoots, young_leaves
 from sketchtree.asset import Animation, Armature, Asset, Keys
 from sketchtree.axes import NULL
@@ -34,8 +35,6 @@ from sketchtree.rig.weights import Weights, whole
 from sketchtree.rig.wind import leaf_places
 from sketchtree.watch import Pulse, no_pulse
 
-MOST_JOINTS = 3000
-LEAST_JOINTS, LIMIT_JOINTS = 64, 60_000  # a file counts joints with 16 bits
 _MOMENTS = 241  # at which the motion is worked out
 _NEAR, _NEAR_WOOD = 1e-4, 0.25  # how far a joint may be from its place: of the tree's height, or of the wood's radius there
 _LIKE = 0.01  # how far its size may be, as a share of its last one
@@ -60,9 +59,8 @@ class Growing:
     def of(cls, model: Model, plan: GrowthPlan, *, most_joints: int = MOST_JOINTS, key: Key[Array, ""] | None = None, pulse: Pulse = no_pulse) -> "Growing":
         """`key` is for the leaves that only young trees bear; one of its own if there is none. `pulse` is called while the animation is made, the first time that it is asked for.
 
-        Raises `OptionError` for fewer joints than `LEAST_JOINTS`, more than `LIMIT_JOINTS`, or a tree without a limb."""
-        if not LEAST_JOINTS <= most_joints <= LIMIT_JOINTS:
-            raise OptionError(f"A growing tree can't do with {most_joints} joints.", remedy=f"Ask for {LEAST_JOINTS} to {LIMIT_JOINTS:,}; {MOST_JOINTS:,} are usual.")
+        Raises `OptionError` for a number of joints that is out of range, or a tree without a limb."""
+        check_joints(most_joints)
         lines = centre_lines(plan.tree)
         if not len(lines):
             raise OptionError("The tree has no branch that could grow.", remedy="Give one with a trunk of some length.")
@@ -102,7 +100,7 @@ class Growing:
         self.pulse()
         animation = _animation(self.plan, motion, ground, time, poses.size, self.plan.tree.height)
         young = young_leaves(
-            self.plan, self.lines, self.nodes, self.hosts, self.model.dress, self.model.leaves, armature, animation, first, len(parts), key=self.key, pulse=self.pulse
+            self.plan, self.lines, self.nodes, self.hosts, self.model, armature, animation, first, len(parts), key=self.key, pulse=self.pulse
         )
         parts, morphs = (*parts, *(mesh for mesh, _ in young)), (*morphs, *(morph for _, morph in young))
         return Asset.of(parts, skeleton=self.model.skeleton, name="tree", armature=armature, animation=replace(animation, morphs=morphs))

@@ -6,7 +6,8 @@ as grown ones, which on a small tree is large: by √M of their size.
 
 In a file they are drawn back to their feet at rest, so that the tree at rest is the final one; the one morph target of each mesh unfolds them. They must not
 swell as their wood does, so they go with joints that only move: that of the ground where nothing bends, else with *shoots*, twins of the nodes'
-joints without their size. Each leaf is put where its joint takes it to its place at its time.
+joints without their size. Each leaf is put where its joint takes it to its place at its time. Where the tree is one of a coarser level of detail, they
+have as few triangles a leaf as its own have.
 """
 
 from dataclasses import replace
@@ -20,7 +21,9 @@ from sketchtree.animation.posing import joint_frames
 from sketchtree.asset import Animation, Armature, Morph
 from sketchtree.axes import NULL
 from sketchtree.dressing import Dress
+from sketchtree.foliage.card_shape import card
 from sketchtree.foliage.cards import leaf_mesh
+from sketchtree.foliage.leaf_cards import leaf_cards
 from sketchtree.foliage.leaves import Leaves, select
 from sketchtree.foliage.populate import populate
 from sketchtree.geometry.limbs import CentreLines
@@ -28,6 +31,7 @@ from sketchtree.geometry.mesh import Mesh
 from sketchtree.growth.age import WHOLE
 from sketchtree.growth.plan import GrowthPlan
 from sketchtree.keys import stage_key
+from sketchtree.levels.make import Model
 from sketchtree.rig.boughs import limb_of_row
 from sketchtree.rig.leaf_rows import leaf_rows
 from sketchtree.watch import Pulse, no_pulse
@@ -57,11 +61,13 @@ def shoot_of(hosts: Hosts) -> Int[np.ndarray, " joint"]:
 
 
 def young_leaves(
-    plan: GrowthPlan, lines: CentreLines, nodes: Nodes, hosts: Hosts, dress: Dress, final: Leaves, bones: Armature, animation: Animation, first: int, part: int, *, key: Key[Array, ""], pulse: Pulse = no_pulse
+    plan: GrowthPlan, lines: CentreLines, nodes: Nodes, hosts: Hosts, model: Model, bones: Armature, animation: Animation, first: int, part: int, *, key: Key[Array, ""], pulse: Pulse = no_pulse
 ) -> list[tuple[Mesh, Morph]]:
     """Meshes `leaf_young_1` …, and how each unfolds and is shed. Joints of limbs are counted from `first`, parts from `part`; the animation takes one second."""
+    dress, final = model.dress, model.leaves
     if dress.leaf is None or not len(final) or plan.mode == "scale":  # there the final tree only becomes larger
         return []
+    triangles = sum(mesh.triangle_count for mesh in model.meshes if mesh.name == "leaf") / len(final)  # of one leaf
     joint = _joint_of_row(plan, lines, nodes, hosts, first, bones)
     joint[final.segment] = NULL
     found: list[tuple[Mesh, Morph]] = []
@@ -79,10 +85,16 @@ def young_leaves(
         carries = np.unique(own)
         back = np.tile(np.eye(4), (len(frame), 1, 1))
         back[carries] = rest[carries] @ np.linalg.inv(frame[carries])
-        mesh, offset = _drawn_back(leaf_mesh(leaves, season=dress.season), leaves, own, back)
+        mesh, offset = _drawn_back(_mesh(leaves, dress.season, triangles), leaves, own, back)
         later = TIMES[number + 1] if number + 1 < len(TIMES) else WHOLE
         found.append((replace(mesh, name=f"leaf_young_{len(found) + 1}"), Morph(part + len(found), offset, *_course(time, later))))
     return found
+
+
+def _mesh(leaves: Leaves, season: str, triangles: float) -> Mesh:
+    """The leaves, of so many triangles each if that is less than the full card has."""
+    full = len(card(leaves.model)[2])
+    return leaf_mesh(leaves, season=season) if triangles >= full else leaf_cards(leaves, season=season, triangles=max(int(triangles * len(leaves)), 1))
 
 
 def _joint_of_row(plan: GrowthPlan, lines: CentreLines, nodes: Nodes, hosts: Hosts, first: int, bones: Armature):

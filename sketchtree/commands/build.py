@@ -8,7 +8,7 @@ from click.core import ParameterSource
 
 from sketchtree.commands import options
 from sketchtree.commands.progress import Progress
-from sketchtree.errors import OptionError
+from sketchtree.errors import ExportError
 
 
 @click.command("build")
@@ -35,10 +35,9 @@ def build(sketch: Path, output: Path, as_drawn: bool, seed: int, quiet: bool, js
     from sketchtree.keys import root_key
     from sketchtree.sketch.files.project import holds_photo, holds_scribbles
 
-    if not as_drawn and holds_scribbles(sketch):
-        raise OptionError(
-            f"The tree of {sketch.name} is taken from scribbles on its photo, and `build` reads a drawing.", remedy="Give it to `sketchtree grow`; `--as-drawn` builds the tree of its strokes."
-        )
+    scribbled = not as_drawn and holds_scribbles(sketch)
+    if scribbled:
+        _check_scribbled(sketch, output)
     from sketchtree.templates.store.database import Database
     from sketchtree.watch import Watch
 
@@ -49,7 +48,9 @@ def build(sketch: Path, output: Path, as_drawn: bool, seed: int, quiet: bool, js
     with progress.running():
         templates = None if db is None and reading.template == "none" else Database.open(db)
         beside = {"skeleton": wanted["skeleton"], "preview": wanted["preview"]}
-        if not as_drawn and holds_photo(sketch):
+        if scribbled:
+            record = _of_scribbles(sketch, output, files, beside, seed, imported, began, templates, reading, tree, watch)
+        elif not as_drawn and holds_photo(sketch):
             record = _of_photo(sketch, output, files, beside, seed, imported, began, templates, reading, tree, watch)
         else:
             model = pipeline.sketch_to_tree(sketch, templates, key=root_key(seed), reading=reading, tree=tree, watch=watch)
@@ -59,6 +60,33 @@ def build(sketch: Path, output: Path, as_drawn: bool, seed: int, quiet: bool, js
             record = writing.record(run, model.drawn, model, extra_warnings=unseen)
         writing.write_report(report, record)
     writing.conclude(record, output, progress)
+
+
+def _check_scribbled(project: Path, output: Path) -> None:
+    """Refuse, before the work, what does nothing with a project of scribbles. Raises OptionError, ExportError."""
+    from sketchtree.commands import grow_asked
+    from sketchtree.export.files import PROJECTS
+
+    grow_asked.refuse_idle("scribbled", project, grow_asked.given(click.get_current_context()))
+    if output.suffix.lower() in PROJECTS:
+        raise ExportError(f"Can't write {output}: {project.name} is the project already, and its tree is made anew of what is scribbled in it.", remedy="Copy it, or write .glb.")
+
+
+def _of_scribbles(project: Path, output: Path, files, beside: dict, seed: int, imported: float, began: float, templates, reading, tree, watch) -> dict:
+    """The tree of a project's scribbles, grown up and written; its report."""
+    from sketchtree.commands import grow_asked, scribbled, writing
+    from sketchtree.growth_report import growth_report, of_crown
+    from sketchtree.growth_tree import check_tree, grown_tree
+    from sketchtree.options import options_as_dict
+
+    check_tree(tree, templates)
+    said = grow_asked.given(click.get_current_context())
+    begun, seed = scribbled.begun(project, templates, seed=seed, seed_chosen="seed" in said, season_chosen="season" in said, reading=reading, tree=tree, watch=watch)
+    grown = grown_tree(begun, tree=tree, watch=watch)
+    run = writing.Run("build", seed, imported, began, watch, options_as_dict(reading, tree, files, begun.trunk.wanted))
+    with watch("export"):
+        unseen = writing.write_tree(grown.model, output, run, files=files, sketches=(project,), **beside)
+    return growth_report(grown, [of_crown(grown, output.name)], None, **writing.of_run(run), warnings=unseen)
 
 
 def _of_photo(project: Path, output: Path, files, beside: dict, seed: int, imported: float, began: float, templates, reading, tree, watch) -> dict:

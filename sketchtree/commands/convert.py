@@ -33,23 +33,25 @@ def convert(source: Path, target: Path, seed: int, quiet: bool, json_log: bool, 
     imported = time.perf_counter() - began
     progress = Progress(("read", "mesh", "export"), quiet=quiet, json_log=json_log)
     from sketchtree.export.read import read_contents
+    from sketchtree.sketch.files.project import holds_scribbles
     from sketchtree.watch import Watch
 
     watch = Watch(progress, progress.part)
     with progress.running():
+        made = holds_scribbles(source)
         with watch("read"):
-            contents = read_contents(source)
+            contents, told, seed = _of_scribbles(source, seed, db, wanted) if made else (read_contents(source), (), seed)
         bare = contents.asset is None
         if target.suffix.lower() in SKELETONS:
             _refuse_dress(wanted, target, "a skeleton wears nothing")
             with watch("export"):
-                warnings, said = (), _write_skeleton(source, target, contents)
+                warnings, said = told, _write_skeleton(source, target, contents)
             counts = None
         else:
-            if not bare:
+            if not bare and not made:
                 _refuse_dress(wanted, source, "its meshes are dressed already")
             with watch("mesh"):
-                asset, worn, warnings = _dressed(source, contents, seed, db, wanted) if bare else (contents.asset, "", ())
+                asset, worn, warnings = _dressed(source, contents, seed, db, wanted) if bare else (contents.asset, "", told)
             with watch("export"):
                 warnings += _write_asset(target, asset) if target.suffix.lower() in MESHES else _write_picture(target, asset)
             counts = {kind: sum(part.triangle_count for part in asset.parts if part.name.startswith(kind)) for kind in ("wood", "leaf")}
@@ -59,6 +61,20 @@ def convert(source: Path, target: Path, seed: int, quiet: bool, json_log: bool, 
     for warning in warnings:
         progress.say(f"Note: {warning}", event="warning")
     progress.say(f"{target}: {said}, {seconds['total']:.1f} s", event="done")
+
+
+def _of_scribbles(source: Path, seed: int, db: Path | None, wanted: dict):
+    """(what a project of scribbles is made into, what a person should know of that, the seed in use)."""
+    from sketchtree.commands import scribbled
+    from sketchtree.export.read import Contents
+    from sketchtree.options import TreeOptions
+    from sketchtree.tree_output import Made, asset_of
+
+    chosen = click.get_current_context().get_parameter_source("seed") is not ParameterSource.DEFAULT
+    tree = TreeOptions(leaf=wanted["leaf"], bark=wanted["bark"], season=wanted["season"] or "summer")
+    grown, seed = scribbled.grown(source, db, seed=seed, seed_chosen=chosen, season_chosen=wanted["season"] is not None, tree=tree)
+    asset = asset_of(grown.model, Made(seed))
+    return Contents(asset, asset.skeleton, {"units": "metres", "frame": "world", "seed": seed}), grown.warnings, seed
 
 
 def _write_skeleton(source: Path, target: Path, contents) -> str:

@@ -29,11 +29,12 @@ _FILE = click.Path(path_type=Path)
 @click.option("--bend", type=float, default=0.0, show_default=True, metavar="DEGREES", help="-60 (branches come to hang) to 60 (they rise); the paper's pictures go from -25 to 20.")
 @click.option("--time", "moment", type=float, metavar="0-1", help="The tree at that time of its growth, not moving.")
 @click.option("--seconds", type=float, default=10.0, show_default=True, metavar="S", help="How long it grows, 0.1 to 600.")
-@click.option("--joints", type=int, metavar="N", help="At most so many joints move it, 64 to 60,000 (default: 3,000): fewer open faster in other programs, more move more finely.")
+@click.option("--joints", type=int, metavar="N", help="At most so many joints move it, 64 to 60,000 (default: 3,000; of `--lod 2` 1,500, of `--lod 3` 750): fewer open faster in other programs, more move more finely.")
 @click.option("--movie", type=_FILE, metavar="M.mp4", help="Write a film too: .mp4 .gif .webp .apng.")
 @click.option("--series", type=_FILE, metavar="DIR", help="Write the tree at even times too: NAME_0000.glb ... in this folder.")
 @click.option("--frames", type=int, metavar="N", help="Pictures of the film (default 72), trees of the series (default 24): 2 to 720.")
 @click.option("--variations", type=int, default=1, show_default=True, metavar="N", help="So many crowns on one trunk, 1 to 64: NAME_1.glb, NAME_2.glb ...; the first is the one without this option.")
+@options.lod
 @options.reading
 @options.tree(200_000, "the tree")
 @options.common
@@ -64,7 +65,7 @@ def grow(source: Path, output: Path, seed: int, quiet: bool, json_log: bool, rep
         chosen = "seed" in grow_asked.given(click.get_current_context())
         begun, seed = grow_read.read(kind, source, wanted, templates, seed=seed, seed_chosen=chosen, reading=reading, tree=tree, trunk=trunk, watch=watch)
         trunk = trunk if begun.trunk is None else begun.trunk.wanted  # a project has its own
-        run = writing.Run("grow", seed, imported, began, watch, choices.options_as_dict(reading, tree, growth, trunk) | {name: wanted[name] for name in ("moment", "seconds", "variations")})
+        run = writing.Run("grow", seed, imported, began, watch, choices.options_as_dict(reading, tree, growth, trunk) | {name: wanted[name] for name in ("moment", "seconds", "variations", "lod", "joints")})
         record = grow_write.grow_all(begun, growth, tree, output, run, wanted, kept=grow_asked.inputs(source, wanted))
         writing.write_report(report, record)
     writing.conclude(record, output, progress)

@@ -6,6 +6,7 @@ from pathlib import Path
 import click
 from click.core import ParameterSource
 
+from sketchtree.animation.wanted import LEAST_JOINTS, LIMIT_JOINTS
 from sketchtree.errors import ExportError, OptionError
 from sketchtree.export.files import MESHES, PROJECTS, SKELETONS
 from sketchtree.sketch.files.project import holds_scribbles
@@ -50,15 +51,13 @@ def _holds_skeleton(path: Path) -> bool:
 
 def check_options(kind: str, source: Path, output: Path, wanted: dict, said: set[str]) -> None:
     """Refuse what does nothing, and what is out of range. Raises OptionError, SketchError."""
-    idle = next((name for name in _UNUSED[kind] if name in said), None)
-    if idle is not None:
-        raise OptionError(f"`--{idle.replace('_', '-')}` does nothing here: {source.name} {_IS[kind]}.", remedy="Leave it out, or give another input.")
+    refuse_idle(kind, source, said)
     if kind == "picture":
         _check_marks(source, wanted)
     _range("variations", wanted["variations"], 1, 64)
     _range("frames", wanted["frames"], 2, 720)
     _range("seconds", wanted["seconds"], 0.1, 600)
-    _range("joints", wanted["joints"], 64, 60_000)
+    _range("joints", wanted["joints"], LEAST_JOINTS, LIMIT_JOINTS)
     _range("time", wanted["moment"], 0, 1)
     moves = output.suffix.lower() in ANIMATED and wanted["moment"] is None
     if "frames" in said and wanted["movie"] is None and wanted["series"] is None:
@@ -67,10 +66,19 @@ def check_options(kind: str, source: Path, output: Path, wanted: dict, said: set
         raise OptionError("`--seconds` says how long the tree grows, and nothing that is asked for moves.", remedy="Write .glb, .gltf or .usd without `--time`, add `--movie FILE`, or leave it out.")
     if "joints" in said and not moves and wanted["movie"] is None and wanted["series"] is None:
         raise OptionError("`--joints` says how finely the tree moves, and nothing that is asked for moves.", remedy="Write .glb, .gltf or .usd without `--time`, or leave it out.")
+    if wanted["lod"] and output.suffix.lower() not in (*MESHES, ".png") and wanted["movie"] is None and wanted["series"] is None and wanted["preview"] is None:
+        raise OptionError(f"`--lod {wanted['lod']}` says how fine the meshes are, and `{output.suffix.lower()}` files hold none.", remedy="Leave it out, or write a mesh.")
     if kind == "skeleton" and wanted["variations"] > 1 and not wanted["levels"]:
         raise OptionError(f"`--variations {wanted['variations']}` differ in what is grafted on, and nothing is.", remedy="Add `--levels 2`, say.")
     if kind == "picture" and wanted["variations"] > 1 and wanted["levels"] == 0:
         raise OptionError(f"`--variations {wanted['variations']}` differ in what is grafted on, and `--levels 0` grafts nothing.", remedy="Give 1 to 5 levels.")
+
+
+def refuse_idle(kind: str, source: Path, said: set[str]) -> None:
+    """Refuse, among the options that the user named, one that does nothing with such an input. Raises OptionError."""
+    idle = next((name for name in _UNUSED[kind] if name in said), None)
+    if idle is not None:
+        raise OptionError(f"`--{idle.replace('_', '-')}` does nothing here: {source.name} {_IS[kind]}.", remedy="Leave it out, or give another input.")
 
 
 def _check_marks(source: Path, wanted: dict) -> None:

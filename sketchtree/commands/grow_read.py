@@ -18,7 +18,9 @@ def read(kind: str, source: Path, wanted: dict, templates, *, seed: int, seed_ch
     if kind == "picture":
         return _of_picture(source, wanted, templates, key=root_key(seed), reading=reading, tree=tree, trunk=trunk, watch=watch), seed
     if kind == "scribbled":
-        return _of_scribbles(source, templates, seed=seed, seed_chosen=seed_chosen, reading=reading, tree=tree, watch=watch)
+        from sketchtree.commands.scribbled import begun
+
+        return begun(source, templates, seed=seed, seed_chosen=seed_chosen, season_chosen=_season_chosen(), reading=reading, tree=tree, watch=watch)
     if kind == "drawing":
         return of_drawing(source, templates, key=root_key(seed), reading=reading, tree=tree, watch=watch), seed
     with watch("read"):
@@ -46,26 +48,6 @@ def _of_picture(source: Path, wanted: dict, templates, *, key, reading, tree, tr
     return of_picture(found, tree, templates, key=key)
 
 
-def _of_scribbles(source: Path, templates, *, seed: int, seed_chosen: bool, reading, tree, watch):
-    """The tree of a project's scribbles, of its own seed, template, height and looks where the user names no others."""
-    from sketchtree.export.skeletons.hdf5 import read_choices
-    from sketchtree.keys import root_key
-    from sketchtree.scribbled_tree import beginning_of, read_scribbled
-
-    with watch("read"):
-        wanted, told = read_scribbled(source, reading), read_choices(source)
-    seed = seed if seed_chosen else told["seed"]
-    asked = click.get_current_context().get_parameter_source("season") is not ParameterSource.DEFAULT
-    own = {name: told[name] for name in ("leaf", "bark", "wood") if getattr(tree, name) is None and told.get(name) is not None}
-    own |= {"season": told["season"]} if not asked and told.get("season") else {}
-    own |= {"solid": True} if told.get("solid") and not tree.solid else {}
-    said = wanted.reading
-    reading = dataclasses.replace(reading, template=said.template if reading.template == "auto" else reading.template, height=reading.height or said.height)
-    templates = None if reading.template == "none" else templates
-    begun = beginning_of(wanted, templates, key=root_key(seed), reading=reading, tree=dataclasses.replace(tree, **own), watch=watch)
-    return dataclasses.replace(begun, levels=wanted.choices.levels), seed
-
-
 def _of_skeleton(source: Path, wanted: dict, templates, *, seed: int, seed_chosen: bool, reading, tree):
     """A tree that is there already, dressed as its file tells where the user does not."""
     from sketchtree.growth_tree import of_skeleton
@@ -78,12 +60,15 @@ def _of_skeleton(source: Path, wanted: dict, templates, *, seed: int, seed_chose
         from sketchtree.errors import TemplateError
 
         raise TemplateError(f"There is no template called “{template}”.", remedy=f"Choose auto, none or one of: {', '.join(templates.names if templates else ())}.")
-    asked = click.get_current_context().get_parameter_source("season") is not ParameterSource.DEFAULT
     own = {name: told[name] for name in ("leaf", "bark", "wood") if getattr(tree, name) is None and told.get(name) is not None}
-    own |= {"season": told["season"]} if not asked and told.get("season") else {}
+    own |= {"season": told["season"]} if not _season_chosen() and told.get("season") else {}
     own |= {"solid": True} if told.get("solid") and not tree.solid else {}
     begun = of_skeleton(skeleton, dataclasses.replace(tree, **own), templates, key=root_key(seed), template=template or None, height=reading.height)
     return dataclasses.replace(begun, warnings=(*units, *begun.warnings)), seed
+
+
+def _season_chosen() -> bool:
+    return click.get_current_context().get_parameter_source("season") is not ParameterSource.DEFAULT
 
 
 def _skeleton(source: Path):

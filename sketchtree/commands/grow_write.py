@@ -1,8 +1,10 @@
 """What does `sketchtree grow` write? Every crown whole or not at all: one that grows, one at a time, a series, a film; and the trunk that was found."""
 
+import dataclasses
 from collections.abc import Iterator, Mapping
 from pathlib import Path
 
+from sketchtree.animation.wanted import joints_of
 from sketchtree.commands.grow_asked import ANIMATED, of_crown, series_files
 from sketchtree.export.files import MESHES, SKELETONS
 
@@ -17,7 +19,7 @@ def grow_all(begun, growth, tree, output: Path, run, wanted: dict, *, kept: tupl
 
     first, moving, crowns, warnings = None, None, [], ()
     for crown in range(wanted["variations"]):
-        grown, paths = grown_tree(begun, growth, tree, crown=crown, watch=run.watch), of_crown(crown, output, wanted)
+        grown, paths = _at_level(grown_tree(begun, growth, tree, crown=crown, watch=run.watch), wanted["lod"], run.watch), of_crown(crown, output, wanted)
         with run.watch("export"):
             asset, told = _write(grown, paths, run, wanted, kept)
         crowns.append(told_of(grown, paths["output"].name))
@@ -29,13 +31,23 @@ def grow_all(begun, growth, tree, output: Path, run, wanted: dict, *, kept: tupl
     return growth_report(first, crowns, moving, **writing.of_run(run), warnings=warnings)
 
 
+def _at_level(grown, lod: int, watch):
+    """The same tree in the meshes of a level of detail, 0-3."""
+    if lod == 0:
+        return grown
+    from sketchtree.levels.make import level_of_detail
+
+    with watch("mesh"):
+        return dataclasses.replace(grown, model=dataclasses.replace(grown.model, meshes=level_of_detail(grown.model, lod)))
+
+
 def _write(grown, paths: dict, run, wanted: dict, kept: tuple[Path, ...]):
     """(what was animated, if anything was; warnings): every file of one crown."""
     from sketchtree.tree_output import write_skeleton_of
 
     output, moment = paths["output"], wanted["moment"]
     moves = output.suffix.lower() in ANIMATED and moment is None
-    growing = _growing(grown, wanted["joints"]) if moves or paths["movie"] is not None or wanted["series"] is not None or (moment or 1.0) < 1 or moment == 0 or grown.plan.bend else None
+    growing = _growing(grown, wanted["joints"] or joints_of(wanted["lod"])) if moves or paths["movie"] is not None or wanted["series"] is not None or (moment or 1.0) < 1 or moment == 0 or grown.plan.bend else None
     asset, told = None, ()
     if moves:
         from sketchtree.export.write import write_asset
@@ -60,16 +72,16 @@ def _write(grown, paths: dict, run, wanted: dict, kept: tuple[Path, ...]):
     return asset, told
 
 
-def _growing(grown, joints: int | None):
-    from sketchtree.animation.growing import MOST_JOINTS, Growing
+def _growing(grown, joints: int):
+    from sketchtree.animation.growing import Growing
 
-    return Growing.of(grown.model, grown.plan, most_joints=MOST_JOINTS if joints is None else joints)
+    return Growing.of(grown.model, grown.plan, most_joints=joints)
 
 
 def _about(grown, run) -> dict:
     from sketchtree.tree_output import about_of
 
-    return about_of(grown.model, run.made, template=grown.beginning.template)
+    return about_of(grown.model, run.made)
 
 
 def _meshes(grown, growing, moment: float) -> tuple:

@@ -76,6 +76,11 @@ def leaves(command):
     return _LEAVES(command)
 
 
+def lod(command):
+    """--lod 0-3, of commands whose files hold one level of detail."""
+    return _apply(tuple(option for option in _FILES if _named(option, "lod")), command)
+
+
 def files(command):
     """Options of what goes into a mesh file."""
     return _apply(_FILES, command)

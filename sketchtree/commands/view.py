@@ -4,6 +4,7 @@ import time
 from pathlib import Path
 
 import click
+from click.core import ParameterSource
 
 from sketchtree.commands import options
 from sketchtree.commands.progress import Progress
@@ -20,14 +21,14 @@ from sketchtree.commands.progress import Progress
 @click.option("--level", type=click.IntRange(0), default=0, show_default=True, help="Level of detail to show, where the file holds several.")
 @options.common
 def view(tree: Path, screenshot: Path | None, turntable: Path | None, seed: int, quiet: bool, json_log: bool, report: Path | None, db: Path | None, **wanted) -> None:
-    """Show the tree in a file: a mesh (.glb .gltf .usd .obj .ply .stl) as it is, a skeleton (.swc .mtg .json .h5 .sketchtree) as bare wood."""
+    """Show the tree in a file: a mesh (.glb .gltf .usd .obj .ply .stl) as it is, a skeleton (.swc .mtg .json .h5 .sketchtree) as bare wood, a project of scribbles as the tree that is made of them."""
     began = time.perf_counter()
     _check(tree, screenshot, turntable, report, wanted)
     size = _size(wanted["size"], (1200, 900) if turntable is None else (640, 640))
     imported = time.perf_counter() - began
     progress = Progress(("read", "draw"), quiet=quiet, json_log=json_log)
     with progress.running():
-        meshes = _meshes(tree, wanted["level"], seed)
+        meshes = _meshes(tree, wanted["level"], seed, db)
         drawn = time.perf_counter()
         warnings = [f"{path} was not drawn: {reason}" for path, reason in _draw(meshes, tree, screenshot, turntable, size, wanted) if reason]
     triangles = sum(mesh.triangle_count for mesh in meshes)
@@ -68,11 +69,17 @@ def _size(text: str, default: tuple[int, int]) -> tuple[int, int]:
     return int(parts[0]), int(parts[1])
 
 
-def _meshes(tree: Path, level: int, seed: int):
+def _meshes(tree: Path, level: int, seed: int, db: Path | None):
     """The meshes to show."""
     from sketchtree.errors import OptionError
     from sketchtree.export.read import read_contents
+    from sketchtree.sketch.files.project import holds_scribbles
 
+    if holds_scribbles(tree):
+        from sketchtree.commands import scribbled
+
+        chosen = click.get_current_context().get_parameter_source("seed") is not ParameterSource.DEFAULT
+        return list(scribbled.grown(tree, db, seed=seed, seed_chosen=chosen)[0].model.meshes)
     contents = read_contents(tree)
     if contents.asset is None:
         from sketchtree.dressing import Dress, dressed

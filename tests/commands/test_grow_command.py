@@ -190,6 +190,7 @@ def test_edits_of_vertices_that_hit_nothing_are_told(folder, capsys, edits, says
         (("--frames", "9"), "none is asked for"),
         (("--seconds", "4"), "nothing that is asked for moves"),
         (("--joints", "4"), "`--joints 4` is out of range"),
+        (("--lod", "2"), "`--lod 2` says how fine the meshes are, and `.swc` files hold none."),
         (("--joints", "400"), "nothing that is asked for moves"),
         (("--variations", "3"), "nothing is"),
         (("--scribbles", "@marks.json"), "`--scribbles` does nothing here: tree.swc holds a tree already"),
@@ -270,3 +271,15 @@ def test_a_tree_that_build_made_grows_in_the_looks_it_has(tmp_path):
     assert about["season"] == "autumn" and about["leaf"] == "apple"
     assert run(["grow", str(tmp_path / "b.glb"), "-o", str(tmp_path / "g.glb"), "--quiet", "--time", "1"]) == 0
     assert read_contents(tmp_path / "g.glb").asset.about == about
+
+
+def test_a_coarser_level_of_detail_moves_by_fewer_joints_and_is_a_smaller_file(folder):
+    sizes, joints = [], []
+    for more in ((), ("--lod", "3")):
+        assert grow(folder, "tree.swc", "--leaf", "oak", "--levels", "2", "--report", "@r.json", *more, output="g.glb") == 0
+        asset = read_contents(folder / "g.glb").asset
+        sizes.append([(folder / "g.glb").stat().st_size, sum(part.triangle_count for part in asset.parts if "young" not in part.name)])
+        joints.append(json.loads((folder / "r.json").read_text())["growth"]["joints"])
+        young = [part for part in asset.parts if "young" in part.name]
+        assert young and len(asset.armature) == joints[-1]
+    assert sizes[1][0] < 0.6 * sizes[0][0] and sizes[1][1] <= 0.06 * sizes[0][1] and joints[1] <= min(joints[0], 755)

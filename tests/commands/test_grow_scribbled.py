@@ -1,17 +1,25 @@
-"""`sketchtree grow` of a project whose tree is taken from scribbles on its photo."""
+"""`sketchtree grow`, and every other command, of a project whose tree is taken from scribbles on its photo."""
 
 import io
 import json
 
+import jsonschema
 import numpy as np
 import pytest
 from click.testing import CliRunner
 from PIL import Image, ImageDraw
 
 from sketchtree.commands.build import build
+from sketchtree.commands.convert import convert
+from sketchtree.commands.forest import forest
 from sketchtree.commands.grow import grow
+from sketchtree.commands.infer import infer
+from sketchtree.commands.inspect import inspect
+from sketchtree.commands.view import view
 from sketchtree.editing.document import Document, Underlay
+from sketchtree.export.read import read_contents
 from sketchtree.options import ReadingOptions
+from sketchtree.report import report_schema
 from sketchtree.sketch.strokes import Stroke, StrokeKind
 from sketchtree.studio.making.jobs import Jobs
 from sketchtree.trunk.wanted import TrunkChoices
@@ -80,6 +88,54 @@ def test_what_the_project_says_already_is_not_asked_for(project, tmp_path):
     assert answer.exit_code != 0 and "`--scribbles` does nothing here: bare.sketchtree keeps a photo with what is scribbled on it." in str(answer.exception or answer.output)
 
 
-def test_build_says_who_makes_its_tree(project, tmp_path):
-    answer = CliRunner().invoke(build, [str(project), "-o", str(tmp_path / "bare.glb")])
-    assert answer.exit_code != 0 and "The tree of bare.sketchtree is taken from scribbles on its photo, and `build` reads a drawing." in str(answer.exception or answer.output)
+def said(command, *words) -> str:
+    """What a command that ends well says."""
+    answer = CliRunner().invoke(command, [str(word) for word in words])
+    assert answer.exit_code == 0, answer.output
+    return answer.output
+
+
+def test_build_and_convert_make_the_tree_that_grow_ends_with_to_the_last_byte(project, tmp_path):
+    said(grow, project, "-o", tmp_path / "grown.glb", "--time", "1")
+    said(build, project, "-o", tmp_path / "built.glb", "--report", tmp_path / "built.json", "--skeleton", tmp_path / "built.swc")
+    said(convert, project, tmp_path / "converted.glb")
+    made = (tmp_path / "built.glb").read_bytes()
+    assert made == (tmp_path / "grown.glb").read_bytes() == (tmp_path / "converted.glb").read_bytes()
+    report = json.loads((tmp_path / "built.json").read_text())
+    jsonschema.validate(report, report_schema())
+    assert report["command"] == "build" and report["seed"] == 4 and report["growth"]["input"] == "picture" and report["growth"]["levels"] == 1 and report["growth"]["joints"] is None
+    assert report["segments"]["total"] == len(rows(tmp_path / "built.swc")) - 1 and report["options"]["matting"] == "layered"
+
+
+def test_build_writes_its_levels_of_detail_and_other_looks(project, tmp_path):
+    said(build, project, "-o", tmp_path / "coarse.glb", "--lod", "3", "--leaf", "none", "--season", "bare")
+    said(convert, project, tmp_path / "bare.glb", "--leaf", "none")
+    coarse, bare = (read_contents(tmp_path / name).asset for name in ("coarse.glb", "bare.glb"))
+    assert sum(part.triangle_count for part in coarse.parts) < 0.1 * sum(part.triangle_count for part in bare.parts) and {part.name for part in bare.parts} <= {"wood", "wood_twigs"}
+
+
+def test_it_is_looked_at_as_the_tree_that_is_made_of_it(project, tmp_path, monkeypatch):
+    seen = []
+    monkeypatch.setattr("sketchtree.view.picture.preview", lambda meshes, path, **how: (seen.extend(meshes), (True, ""))[1])
+    said(view, project, "--screenshot", tmp_path / "bare.png")
+    assert [mesh.name.split("_")[0] for mesh in seen][:1] == ["wood"] and seen[-1].name == "leaf"
+
+
+@pytest.mark.parametrize(
+    "command, more, says",
+    [
+        (build, ("-o", "copy.sketchtree"), "bare.sketchtree is the project already, and its tree is made anew of what is scribbled in it."),
+        (build, ("-o", "tree.glb", "--fill"), "`--fill` does nothing here: bare.sketchtree keeps a photo with what is scribbled on it."),
+        (infer, ("-o", "drawn.swc"), "`infer` reads drawings. `sketchtree grow bare.sketchtree -o TRUNK.swc --levels 0` writes its trunk in 3D."),
+        (inspect, ("-o", "seen.png"), "`inspect` reads drawings. `sketchtree grow bare.sketchtree -o TREE.glb --matte MATTE.png --trunk TRUNK.swc` writes what is found in it."),
+        (forest, ("-o", "forest.glb"), "`forest` reads drawings. `sketchtree build bare.sketchtree -o TREE.glb` makes its tree."),
+    ],
+)
+def test_what_can_not_be_made_of_it_is_refused_by_name(project, tmp_path, command, more, says):
+    answer = CliRunner().invoke(command, [str(project), more[0], str(tmp_path / more[1]), *more[2:]])
+    assert answer.exit_code != 0 and says in str(answer.exception or answer.output) and not (tmp_path / more[1]).exists()
+
+
+def test_as_drawn_means_its_strokes_and_there_are_none(project, tmp_path):
+    answer = CliRunner().invoke(build, [str(project), "-o", str(tmp_path / "bare.glb"), "--as-drawn"])
+    assert answer.exit_code != 0 and "has no branch strokes: all it holds is scribbles over a photo." in str(answer.exception or answer.output)
