@@ -18,10 +18,11 @@ _GONE = 1e-9  # m²: a triangle as small is not there
 
 
 def posed(asset: Asset, second: float) -> tuple[Mesh, ...]:
-    """The meshes of the finest level; triangles without area are left out."""
+    """The meshes of the finest level; triangles without area are left out. What no joint moves stays."""
     matrix, rest = joint_frames(asset.armature, asset.animation, second)
+    frame = matrix @ np.linalg.inv(rest)
     morphs = {morph.part: morph for morph in asset.animation.morphs}
-    return tuple(_moved(mesh, morphs.get(number), matrix, rest, second) for number, mesh in enumerate(asset.parts))
+    return tuple(_posed(part.merged(), morphs.get(number), frame, second) for number, part in enumerate(asset.parts))
 
 
 def joint_frames(bones: Armature, animation: Animation, second: float) -> tuple[Float[np.ndarray, "joint 4 4"], Float[np.ndarray, "joint 4 4"]]:
@@ -80,12 +81,18 @@ def _turned(keys: Keys, second: float):
     return mixed / np.linalg.norm(mixed, axis=1, keepdims=True)
 
 
-def _moved(mesh: Mesh, morph, matrix, rest, second: float) -> Mesh:
-    position = mesh.position
+def _posed(mesh: Mesh, morph, frame, second: float) -> Mesh:
     if morph is not None:
-        position = position + np.interp(second, morph.time, morph.weight) * morph.offset
-    joint, weight = mesh.extra["JOINTS_0"].astype(np.int64), mesh.extra["WEIGHTS_0"]
-    frame = matrix @ np.linalg.inv(rest)
+        mesh = replace(mesh, position=mesh.position + np.interp(second, morph.time, morph.weight) * morph.offset)
+    mesh = _skinned(mesh, frame) if "JOINTS_0" in mesh.extra else mesh
+    corner = mesh.position[mesh.triangle]
+    area = np.linalg.norm(np.cross(corner[:, 1] - corner[:, 0], corner[:, 2] - corner[:, 0]), axis=1)
+    return replace(mesh, triangle=mesh.triangle[area > 2.0 * _GONE])
+
+
+def _skinned(mesh: Mesh, frame) -> Mesh:
+    """Where the joints' frames, from rest to the moment, take it."""
+    position, joint, weight = mesh.position, mesh.extra["JOINTS_0"].astype(np.int64), mesh.extra["WEIGHTS_0"]
     moved, normal = np.zeros_like(position), np.zeros_like(mesh.normal)
     turned = _normal_frames(frame)
     for k in range(joint.shape[1]):
@@ -95,10 +102,8 @@ def _moved(mesh: Mesh, morph, matrix, rest, second: float) -> Mesh:
         normal += share * np.einsum("vij,vj->vi", turned[of], mesh.normal)
     length = np.linalg.norm(normal, axis=1, keepdims=True)
     normal = np.where(length > 1e-9, normal / np.maximum(length, 1e-9), mesh.normal)
-    corner = moved[mesh.triangle]
-    area = np.linalg.norm(np.cross(corner[:, 1] - corner[:, 0], corner[:, 2] - corner[:, 0]), axis=1)
     extra = {name: column for name, column in mesh.extra.items() if name not in ("JOINTS_0", "WEIGHTS_0")}
-    return replace(mesh, position=moved, normal=normal, triangle=mesh.triangle[area > 2.0 * _GONE], extra=extra)
+    return replace(mesh, position=moved, normal=normal, extra=extra)
 
 
 def _normal_frames(frame):

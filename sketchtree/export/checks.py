@@ -4,17 +4,19 @@ import re
 
 import numpy as np
 
-from sketchtree.asset import Armature, Asset
+from sketchtree.asset import Animation, Armature, Asset, Keys, Morph
 from sketchtree.axes import NULL
 from sketchtree.errors import ExportError
 from sketchtree.geometry.instances import Instances
 from sketchtree.geometry.mesh import Mesh
 
 _STRAY = "Check the skeleton it was made from for stray points."
+_MADE = "Make the animation anew (`sketchtree grow`)."
+_CHANNELS = {"translation": 3, "rotation": 4, "scale": 3}
 
 
 def check_asset(asset: Asset) -> None:
-    """Raises `ExportError` where a number of its parts or bones is not finite."""
+    """Raises `ExportError` where a number of its parts or bones is not finite, or its animation can't be played."""
     for level in asset.levels:
         for part in level.parts:
             check_mesh(part.mesh if isinstance(part, Instances) else part)
@@ -22,6 +24,10 @@ def check_asset(asset: Asset) -> None:
                 check_places(part)
     if asset.armature is not None:
         check_bones(asset.armature)
+        for part in (part for level in asset.levels for part in level.parts if not isinstance(part, Instances)):
+            _check_joints(part, len(asset.armature))
+    if asset.animation is not None:
+        check_animation(asset.animation, asset)
 
 
 def check_mesh(mesh: Mesh) -> None:
@@ -49,6 +55,53 @@ def check_bones(bones: Armature) -> None:
         raise ExportError("A bone's place, turn or length is not a finite number.", remedy=_STRAY)
     if len(bones) == 0 or bones.parent[0] != NULL or (bones.parent[1:] < 0).any() or (bones.parent >= np.arange(len(bones))).any():
         raise ExportError("The bones are no tree with one root that stands first.", remedy="Put every bone after its parent.")
+
+
+def check_animation(animation: Animation, asset: Asset) -> None:
+    """Raises `ExportError` where it moves what is not there, its times don't rise, or a number is not finite."""
+    if asset.armature is None:
+        raise ExportError(f"The animation `{animation.name}` moves joints, and there are no bones.", remedy=_MADE)
+    for path, channels in _CHANNELS.items():
+        _check_keys(getattr(animation, path), path, channels, len(asset.armature))
+    moved = [morph.part for morph in animation.morphs]
+    for morph in animation.morphs:
+        _check_morph(morph, asset.parts)
+    if len(set(moved)) < len(moved):
+        raise ExportError("A mesh has more than one morph.", remedy=_MADE)
+
+
+def _check_joints(mesh: Mesh, bones: int) -> None:
+    joint = mesh.extra.get("JOINTS_0")
+    if joint is not None and joint.size and not 0 <= joint.min() <= joint.max() < bones:
+        raise ExportError(f"A vertex of mesh `{mesh.name}` goes with a joint that is not among the {bones} bones.", remedy=_MADE)
+
+
+def _check_keys(keys: Keys, path: str, channels: int, bones: int) -> None:
+    tracks, count = len(keys.joint), len(keys.time)
+    if len(keys.start) != tracks + 1 or keys.start[0] != 0 or keys.start[-1] != count or (np.diff(keys.start) < 1).any() or np.shape(keys.value) != (count, channels):
+        raise ExportError(f"The tracks of the animation's {path} don't fit its {count:,} keys.", remedy=_MADE)
+    if tracks and not 0 <= keys.joint.min() <= keys.joint.max() < bones:
+        raise ExportError(f"The animation's {path} moves a joint that is not among the {bones} bones.", remedy=_MADE)
+    if len(np.unique(keys.joint)) < tracks:
+        raise ExportError(f"The animation's {path} has two tracks for one joint.", remedy=_MADE)
+    if not (_finite(keys.time) and _finite(keys.value)):
+        raise ExportError(f"A key of the animation's {path} is not a finite number.", remedy=_MADE)
+    follows = np.ones(count, bool)
+    follows[keys.start[:-1]] = False
+    if (keys.time < 0).any() or (np.diff(keys.time, prepend=0.0)[follows] <= 0).any():
+        raise ExportError(f"The times of the animation's {path} don't rise from 0 on.", remedy=_MADE)
+
+
+def _check_morph(morph: Morph, parts: tuple) -> None:
+    if not 0 <= morph.part < len(parts) or isinstance(parts[morph.part], Instances):
+        raise ExportError(f"A morph is of part {morph.part}, and there is no such mesh.", remedy=_MADE)
+    mesh = parts[morph.part]
+    if np.shape(morph.offset) != mesh.position.shape:
+        raise ExportError(f"The morph of mesh `{mesh.name}` moves {len(morph.offset):,} vertices, and there are {len(mesh.position):,}.", remedy=_MADE)
+    if not (_finite(morph.offset) and _finite(morph.time) and _finite(morph.weight)):
+        raise ExportError(f"A number of the morph of mesh `{mesh.name}` is not finite.", remedy=_MADE)
+    if len(morph.time) == 0 or len(morph.time) != len(morph.weight) or morph.time[0] < 0 or (np.diff(morph.time) <= 0).any():
+        raise ExportError(f"The times of the morph of mesh `{mesh.name}` don't rise from 0 on, a weight each.", remedy=_MADE)
 
 
 def _finite(column) -> bool:

@@ -4,8 +4,9 @@ import numpy as np
 import pytest
 from growing_models import area, growing, model
 
-from sketchtree.animation.growing import LEAST_JOINTS, Growing
+from sketchtree.animation.growing import Growing
 from sketchtree.animation.posing import joint_frames
+from sketchtree.animation.wanted import LEAST_JOINTS
 from sketchtree.errors import OptionError
 from sketchtree.growth.plan import MODES, GrowthPlan
 
