@@ -5,11 +5,12 @@
 // `known` mirrors what the program said last; `ui` is this page's own and is never sent.
 
 import type {
-  Alternatives, Changed, Edit, Event, Foliage, Ghost, Growing, Limb, Matches, Options, Proposed, Read, Request, Stroke, Strokes, Traced, Tree, Trouble, Underlay, Welcome, Working,
+  Alternatives, Changed, Edit, Event, Foliage, Ghost, Growing, Limb, Matches, Matte, Options, Proposed, Read, Request, Stroke, Strokes, Traced, Tree, Trouble, Trunk, Trunks, Underlay,
+  Welcome, Working,
 } from "./messages";
 import { Echo } from "./link/echo";
 
-export type Tool = "branch" | "crown" | "obstacle" | "erase" | "select" | "pan";
+export type Tool = "branch" | "crown" | "obstacle" | "foreground" | "background" | "matte_add" | "matte_erase" | "vertices" | "foot" | "erase" | "select" | "pan";
 
 /** Arrays of a binary frame by name. */
 export type Arrays = Map<string, Float32Array | Uint32Array | Uint16Array | Uint8Array | Int16Array | Int8Array>;
@@ -35,6 +36,10 @@ export interface Known {
   foliage: Foliage | null;
   proposed: Proposed | null; // strokes that nobody drew
   growing: Growing | null; // how far the photo's tree is
+  trunk: Trunk | null; // how it is taken from scribbles
+  matte: Matte | null; // that they tell
+  trunks: Trunks | null; // what is said of the trunk in it
+  found: Trunks | null; // the trunk itself, that was found last
   tree: Tree | null; // head of the frame that is shown; its meshes are tree/'s
   drawnTree: Tree | null; // of the last frame of the drawing's tree; a photo's tree stands in its place
   photoTree: Tree | null; // of the photo's
@@ -52,10 +57,15 @@ export interface Ui {
   uncertainty: boolean;
   figure: boolean; // the 1.8 m person
   tint: boolean; // what is foliage in a photo is tinted
+  matteView: "tint" | "alone" | "off"; // over the photo, or white on black in its place
+  matteStrength: number; // 0-1, of the tint
+  skeleton: boolean; // of the trunk in a photo
   theme: "light" | "dark";
   palm: boolean; // a pen was seen: fingers pan and never draw
   stabiliser: number; // 0-1
   width: number; // of the pen, page units
+  brush: number; // that scribbles
+  paint: number; // that paints the matte
 }
 
 export type Topic = keyof Known | keyof Ui | "frame" | "ghost" | "changed";
@@ -66,11 +76,11 @@ export class Store {
   readonly known: Known = {
     welcome: null, connected: false, strokes: new Map(), options: null, edits: [], underlay: null, name: null, revision: 0, undo: null, redo: null,
     saved: true, file: null, working: null, matches: null, alternatives: null, read: null, traced: null, foliage: null, proposed: null, growing: null,
-    tree: null, drawnTree: null, photoTree: null, limbs: [], trouble: null,
+    trunk: null, matte: null, trunks: null, found: null, tree: null, drawnTree: null, photoTree: null, limbs: [], trouble: null,
   };
   readonly ui: Ui = {
-    tool: "branch", layout: "beside", turn: 0, selected: null, pointed: null, selectedStrokes: [], uncertainty: false, figure: true, tint: true, theme: "light", palm: false,
-    stabiliser: 0.5, width: 4,
+    tool: "branch", layout: "beside", turn: 0, selected: null, pointed: null, selectedStrokes: [], uncertainty: false, figure: true, tint: true, matteView: "tint",
+    matteStrength: 0.5, skeleton: true, theme: "light", palm: false, stabiliser: 0.5, width: 4, brush: 4, paint: 10,
   };
   frame: { head: Tree; arrays: Arrays } | null = null; // the frame just come; listeners of "frame" take it at once
   ghost: { head: Ghost; arrays: Arrays } | null = null;
@@ -81,6 +91,7 @@ export class Store {
   private readonly echo = new Echo(); // what the program has, and what is on its way
 
   private drawnLimbs: Limb[] = [];
+  private saidTrunk: Trunk | null = null; // as the program has it
   private readonly listeners = new Map<Topic, Set<Listener>>();
 
   /** Be told whenever one of these changes; returns what ends it. */
@@ -134,12 +145,18 @@ export class Store {
       case "welcome": known.welcome = event; this.tell("welcome"); break;
       case "changed": this.tell("changed", ...this.change(event)); break;
       case "working": known.working = event; this.tell("working"); break;
-      case "trouble": known.trouble = event; this.tell("trouble"); break;
+      case "trouble":
+        known.trouble = event;
+        if (known.trunk !== this.saidTrunk) { known.trunk = this.saidTrunk; this.tell("trunk"); } // it may be what was refused
+        this.tell("trouble");
+        break;
       case "matches": known.matches = event; this.tell("matches"); break;
       case "alternatives": known.alternatives = event; this.tell("alternatives"); break;
       case "read": known.read = event; this.tell("read"); break;
       case "traced": known.traced = event; this.tell("traced"); break;
       case "foliage": known.foliage = event; this.tell("foliage"); break;
+      case "matte": known.matte = event; this.tell("matte"); break;
+      case "trunks": this.trunks(event); break;
       case "saved":
         if (known.welcome) known.welcome = { ...known.welcome, files: event.files };
         known.name = event.drawing;
@@ -156,6 +173,22 @@ export class Store {
       case "tree": this.tree(event, arrays); break;
       case "ghost": this.ghost = { head: event, arrays }; this.tell("ghost"); this.ghost = null; break;
     }
+  }
+
+  /** Take the tree from scribbles so: shown at once, and said. A quick succession under one label is one step. */
+  chooseTrunk(change: Partial<Trunk>, label: string): void {
+    if (!this.known.trunk) return;
+    this.known.trunk = { ...this.known.trunk, ...change };
+    this.tell("trunk");
+    this.send({ type: "choosetrunk", trunk: this.known.trunk, label });
+  }
+
+  /** What is said of the trunk; the one that was found stays until there is another, or none. */
+  private trunks(event: Trunks): void {
+    this.known.trunks = event;
+    if (event.state === "ready" && event.trees.length) this.known.found = event;
+    else if (event.state === "none") this.known.found = null;
+    this.tell("trunks");
   }
 
   /** A frame: the photo's tree stands in the place of the drawing's, which goes on behind it. */
@@ -200,6 +233,7 @@ export class Store {
     if (known.strokes !== before || event.put.length || event.gone.length) topics.push("strokes");
     if (event.options) { known.options = event.options; topics.push("options"); }
     if (event.edits) { known.edits = event.edits; topics.push("edits"); }
+    if (event.trunk) { known.trunk = this.saidTrunk = event.trunk; topics.push("trunk"); }
     if (event.underlay_changed || event.since === 0) { known.underlay = event.underlay ?? null; topics.push("underlay"); }
     if (event.name != null) { known.name = event.name; topics.push("name"); }
     known.revision = event.revision;

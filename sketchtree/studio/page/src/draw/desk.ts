@@ -4,6 +4,8 @@ import type { Stroke, Underlay } from "../messages";
 import type { Store } from "../store";
 import type { PageCamera } from "./camera";
 import type { Sample } from "./line/samples";
+import type { Deed } from "./trunk/points";
+import { isOfWay } from "./trunk/way";
 
 export type Eraser = "whole" | "part";
 
@@ -22,10 +24,13 @@ export interface Desk {
   hovered: string | null; // stroke under the pen
   lasso: number[]; // page units
   eraser: { x: number; y: number; radius: number } | null; // page units
+  ring: { x: number; y: number; radius: number } | null; // of the brush, page units
+  deed: Deed | null; // what the pen would do to the contour in a photo
   erases: Eraser;
   underlay: Underlay | null; // while it is being moved
   movesUnderlay: boolean;
   trouble: string | null; // stroke at fault
+  tellDeed: (x: number, y: number) => void; // say it beside a pixel of the photo
   repaint: () => void; // everything
   repaintLive: () => void; // only what is in hand
 }
@@ -41,9 +46,9 @@ export function wrapped(degrees: number): number {
   return turned === -180 ? 180 : turned;
 }
 
-/** The strokes that are drawn on the page as it is turned now: these can be changed here. */
+/** The strokes that are drawn on the page as it is turned now, and say something there: these can be changed here. */
 export function here(store: Store): Stroke[] {
-  return [...store.known.strokes.values()].filter((stroke) => isSamePage(stroke.view_deg, store.ui.turn));
+  return [...store.known.strokes.values()].filter((stroke) => isSamePage(stroke.view_deg, store.ui.turn) && isOfWay(store, stroke));
 }
 
 /** Page units that look as long as so many CSS pixels. */

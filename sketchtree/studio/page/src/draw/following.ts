@@ -9,6 +9,8 @@ import { around } from "./line/nearness";
 import { projected } from "./turned";
 
 export const PEN = 4; // CSS pixels: width of the pen on a drawing just opened
+const BRUSH = 5; // of the brush that scribbles
+const PAINT = 14; // and of the one that paints the matte
 const EMPTY = { left: 0.5, top: 0.86 }; // where on an empty page the tree's root is to be
 
 export function followDrawing(desk: Desk): void {
@@ -39,7 +41,7 @@ export function followDrawing(desk: Desk): void {
   let photo: string | null = null;
   store.on("underlay", () => {
     const here = photoHere(store)?.digest ?? null;
-    if (here !== null && here !== photo && fit()) store.set("width", Number((PEN / camera.scale).toPrecision(2)));
+    if (here !== null && here !== photo && fit()) for (const [name, size] of [["width", PEN], ["brush", BRUSH], ["paint", PAINT]] as const) store.set(name, Number((size / camera.scale).toPrecision(2)));
     photo = here;
   });
   store.on("turn", () => { if (camera.showsAll) fit(); }); // from another side a tree is wider, or narrower

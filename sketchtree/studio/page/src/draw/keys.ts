@@ -7,26 +7,36 @@ import type { Pen } from "./hand/pen";
 import { moved } from "./line/reshaping";
 import { selectedLimb } from "./selection";
 import { erase, replace } from "./steps";
+import { act } from "./trunk/points";
+import { nextPoint, pointBetween } from "./trunk/points_keys";
+import { brushOf } from "./trunk/sizes";
+import { isOffered, way } from "./trunk/way";
 
 const TURN = 15; // degrees
 const WIDER = 1.25;
 const CLOSER = 1.25;
 const NUDGE = 2; // CSS pixels
+const NEXT = { tint: "alone", alone: "off", off: "tint" } as const;
 
 export interface Shortcut {
   keys: string[]; // as in `KeyboardEvent.key`, letters small; "Mod+" for Ctrl or ⌘
   shown: string; // for people
   does: string;
-  group: "Tools" | "Edit" | "View" | "File";
+  group: "Tools" | "Trunk from scribbles" | "Edit" | "View" | "File";
   act: (desk: Desk) => void;
 }
 
-const tool = (key: string, name: Tool, does: string): Shortcut =>
-  ({ keys: [key], shown: key.toUpperCase(), does, group: "Tools", act: ({ store }) => store.set("tool", name) });
+const tool = (key: string, name: Tool, does: string, group: Shortcut["group"] = "Tools"): Shortcut =>
+  ({ keys: [key], shown: key.toUpperCase(), does, group, act: ({ store }) => { if (isOffered(store, name)) store.set("tool", name); } });
+
+const scribble = (key: string, name: Tool, does: string): Shortcut => tool(key, name, does, "Trunk from scribbles");
 
 const turn = (by: number) => ({ store }: Desk): void => store.set("turn", wrapped(Math.round((store.ui.turn + by) / TURN) * TURN));
 
-const width = (factor: number) => ({ store }: Desk): void => store.set("width", Number((store.ui.width * factor).toPrecision(3)));
+const width = (factor: number) => ({ store }: Desk): void => {
+  const sized = brushOf(store.ui.tool);
+  store.set(sized, Number((store.ui[sized] * factor).toPrecision(3)));
+};
 
 const nudge = (dx: number, dy: number) => (desk: Desk): void => {
   const chosen = here(desk.store).filter((stroke) => desk.store.ui.selectedStrokes.includes(stroke.id));
@@ -43,8 +53,18 @@ export const SHORTCUTS: Shortcut[] = [
   tool("e", "erase", "Erase; with Alt only a part"),
   tool("v", "select", "Select, reshape; with Alt move"),
   tool("h", "pan", "Move the page; or hold Space"),
-  { keys: ["["], shown: "[", does: "Thinner pen", group: "Tools", act: width(1 / WIDER) },
-  { keys: ["]"], shown: "]", does: "Thicker pen", group: "Tools", act: width(WIDER) },
+  { keys: ["["], shown: "[", does: "Thinner pen, smaller brush", group: "Tools", act: width(1 / WIDER) },
+  { keys: ["]"], shown: "]", does: "Thicker pen, larger brush", group: "Tools", act: width(WIDER) },
+  scribble("t", "foreground", "Scribble on the tree"),
+  scribble("n", "background", "Scribble on what is not tree"),
+  scribble("a", "matte_add", "Paint wood into the matte"),
+  scribble("x", "matte_erase", "Paint out of the matte"),
+  scribble("p", "vertices", "The contour's points"),
+  scribble("r", "foot", "Where the trunk stands"),
+  { keys: ["m"], shown: "M", does: "The matte: tint, black and white, none", group: "Trunk from scribbles", act: nextView },
+  { keys: ["PageDown"], shown: "Page ↓ ↑", does: "The next point, the last; Delete removes it", group: "Trunk from scribbles", act: (desk) => nextPoint(desk, 1) },
+  { keys: ["PageUp"], shown: "", does: "", group: "Trunk from scribbles", act: (desk) => nextPoint(desk, -1) },
+  { keys: ["Insert"], shown: "Insert", does: "A point half way to the next", group: "Trunk from scribbles", act: pointBetween },
   { keys: ["Mod+z"], shown: "Ctrl Z", does: "Undo", group: "Edit", act: ({ store }) => store.send({ type: "undo" }) },
   { keys: ["Mod+y", "Mod+Shift+z"], shown: "Ctrl Y", does: "Redo", group: "Edit", act: ({ store }) => store.send({ type: "redo" }) },
   { keys: ["Delete", "Backspace"], shown: "Delete", does: "Delete what is selected", group: "Edit", act: deleteSelected },
@@ -64,6 +84,11 @@ export const SHORTCUTS: Shortcut[] = [
   { keys: ["Mod+0", "0"], shown: "0", does: "Show the whole drawing", group: "View", act: showAll },
 ];
 
+/** A photo's matte is seen in another way. */
+function nextView({ store }: Desk): void {
+  if (way(store) === "scribbles") store.set("matteView", NEXT[store.ui.matteView]);
+}
+
 /** A limb chosen in the tree or by its stroke goes to the other side. */
 export function flip(store: Store): void {
   const limb = selectedLimb(store);
@@ -75,7 +100,13 @@ export function lock(store: Store): void {
   if (limb) store.send({ type: "lock", limb: limb.id, on: !limb.locked });
 }
 
-function deleteSelected({ store }: Desk): void {
+function deleteSelected(desk: Desk): void {
+  const { store } = desk;
+  if (store.ui.tool === "vertices") {
+    if (desk.deed) act(desk, desk.deed);
+    desk.deed = null;
+    return desk.repaintLive();
+  }
   const own = new Set(here(store).map((stroke) => stroke.id));
   const strokes = store.ui.selectedStrokes.filter((id) => own.has(id));
   if (strokes.length) erase(store, strokes);

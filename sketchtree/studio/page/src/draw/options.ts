@@ -5,16 +5,23 @@ import { choice } from "../parts/choice";
 import { element } from "../parts/element";
 import { slider, type Slider } from "../parts/slider";
 import { toggle } from "../parts/toggle";
-import { setPhoto } from "./photo";
+import { byHand, setPhoto } from "./photo";
+import { brushOf } from "./trunk/sizes";
 import type { Desk, Eraser } from "./desk";
 
+const POINTS = "Click a point: it goes · the contour: a new one · drag along: all between go";
+const POINTS_BY_HAND = "Tap a point: it goes · the contour: a new one · drag along: all between go";
+const FOOT = "Click where the trunk stands";
 const THINNEST = 1; // CSS pixels
 const THICKEST = 24;
+const WIDEST = 120; // of a brush
 
 export function mountOptions(desk: Desk): HTMLElement {
   const { store } = desk;
   const root = element("div", { class: "page-options", role: "group", aria: { label: "Options of the tool" } });
-  const pen = penOptions(desk);
+  const pen = penOptions(desk, "width");
+  const brush = penOptions(desk, "brush");
+  const paint = penOptions(desk, "paint");
   const eraser = choice<Eraser>({
     label: "What the eraser takes", value: desk.erases,
     options: [{ value: "whole", label: "Whole lines", testId: "erase-whole" }, { value: "part", label: "Parts", testId: "erase-part" }],
@@ -24,9 +31,11 @@ export function mountOptions(desk: Desk): HTMLElement {
   const underlay = underlayOptions(desk);
   const show = (): void => {
     const { tool, selectedStrokes } = store.ui;
-    const draws = tool === "branch" || tool === "crown" || tool === "obstacle";
-    hint.textContent = selectedStrokes.length > 1 ? "Drag moves them" : selectedStrokes.length === 1 ? "Drag reshapes · Alt moves" : "Click or encircle lines";
-    const parts: HTMLElement[] = draws ? [pen] : tool === "erase" ? [eraser.root] : tool === "select" ? [hint] : [];
+    const sized = { width: pen, brush, paint }[brushOf(tool)];
+    const draws = sized !== pen || tool === "branch" || tool === "crown" || tool === "obstacle";
+    const says = tool === "select" || tool === "vertices" || tool === "foot";
+    hint.textContent = tool === "vertices" ? (byHand() ? POINTS_BY_HAND : POINTS) : tool === "foot" ? FOOT : selectedStrokes.length > 1 ? "Drag moves them" : selectedStrokes.length === 1 ? "Drag reshapes · Alt moves" : "Click or encircle lines";
+    const parts: HTMLElement[] = draws ? [sized] : tool === "erase" ? [eraser.root] : says ? [hint] : [];
     if (store.known.underlay && (tool === "select" || draws)) parts.splice(tool === "select" ? 0 : 1, 1, underlay); // it says more than the hint
     underlay.classList.toggle("brief", draws);
     root.hidden = parts.length === 0;
@@ -42,19 +51,21 @@ function sameParts(root: HTMLElement, parts: HTMLElement[]): boolean {
   return root.childElementCount === parts.length && parts.every((part, at) => root.children[at] === part);
 }
 
-function penOptions(desk: Desk): HTMLElement {
+function penOptions(desk: Desk, of: ReturnType<typeof brushOf>): HTMLElement {
   const { store, camera } = desk;
-  const shown = (): number => store.ui.width * camera.scale;
+  const shown = (): number => store.ui[of] * camera.scale;
+  const pen = of === "width";
   const width: Slider = slider({
-    label: "Width", min: Math.log(THINNEST), max: Math.log(THICKEST), step: 0.01, value: Math.log(shown()), hint: "Width of the pen ([ and ])",
-    show: (value) => `${Math.exp(value).toFixed(1)} px`, onInput: (value) => store.set("width", Number((Math.exp(value) / camera.scale).toPrecision(3))),
+    label: pen ? "Width" : "Brush", min: Math.log(THINNEST), max: Math.log(pen ? THICKEST : WIDEST), step: 0.01, value: Math.log(shown()), testId: pen ? undefined : `brush-${of}`,
+    hint: pen ? "Width of the pen ([ and ])" : "Size of the brush ([ and ])",
+    show: (value) => `${Math.exp(value).toFixed(1)} px`, onInput: (value) => store.set(of, Number((Math.exp(value) / camera.scale).toPrecision(3))),
   });
   const steady = slider({
     label: "Steady", min: 0, max: 1, step: 0.05, value: store.ui.stabiliser, hint: "How much a shaking hand is steadied",
     show: (value) => `${Math.round(100 * value)} %`, onInput: (value) => store.set("stabiliser", value),
   });
   const follow = (): void => { if (!width.input.matches(":focus")) width.set(Math.log(shown()), `${shown().toFixed(1)} px`); };
-  store.on("width", follow);
+  store.on(of, follow);
   camera.on(follow);
   follow();
   return element("div", { class: "page-pen" }, width.root, steady.root);

@@ -3,6 +3,7 @@
 import type { Underlay } from "../messages";
 import type { Store } from "../store";
 import { isSamePage } from "./desk";
+import { hasCrown, way } from "./trunk/way";
 
 /** The photo that strokes mark now; null: there is none, or the page is turned away from it. */
 export function photoHere(store: Store): Underlay | null {
@@ -39,10 +40,6 @@ export function followPhoto(store: Store): void {
     was = is;
     if (!is) return;
     store.set("turn", 0);
-    store.set("tool", hasCrown(store) ? "branch" : "crown");
+    store.set("tool", way(store) === "scribbles" ? "foreground" : hasCrown(store) ? "branch" : "crown");
   });
-}
-
-function hasCrown(store: Store): boolean {
-  return [...store.known.strokes.values()].some((stroke) => stroke.kind === "crown");
 }

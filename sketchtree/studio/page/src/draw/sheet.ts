@@ -11,15 +11,15 @@ const FILE: Pick<Shortcut, "shown" | "does">[] = [
 
 const PEN: Pick<Shortcut, "shown" | "does">[] = [
   { shown: "Wheel", does: "Closer and farther" }, { shown: "Space + drag", does: "Move the page" },
-  { shown: "Right drag", does: "Turn the page about the tree; on a photo, draw a branch" },
+  { shown: "Right drag", does: "Turn the page about the tree; on a photo, a branch, or what is not tree" },
   { shown: "Two fingers", does: "Move and zoom the page" }, { shown: "Alt + erase", does: "Cut out a part" },
-  { shown: "Shift + click", does: "Select one more" },
+  { shown: "Shift + click", does: "Select one more; with points, from here to the next click" },
 ];
 
 export function makeSheet(): Dialog {
   const made = dialog({ title: "Keys and gestures", testId: "keys", wide: true });
   const groups: [string, Pick<Shortcut, "shown" | "does">[]][] = [
-    ...(["Tools", "Edit", "View"] as const).map((group): [string, Shortcut[]] => [group, SHORTCUTS.filter((one) => one.group === group && one.shown)]),
+    ...(["Tools", "Trunk from scribbles", "Edit", "View"] as const).map((group): [string, Shortcut[]] => [group, SHORTCUTS.filter((one) => one.group === group && one.shown)]),
     ["Pen, mouse, fingers", PEN], ["File", FILE],
   ];
   made.body.classList.add("keys");

@@ -1,5 +1,6 @@
 // How is a step of drawing said to the program? One request each, so that one undo takes it back.
 
+import { isScribble } from "./trunk/scribbles";
 import { MAX_POINTS, type SentStroke, type Stroke } from "../messages";
 import type { Store } from "../store";
 import type { Sample } from "./line/samples";
@@ -27,17 +28,18 @@ export interface Drawn {
 export function stroke({ id, kind, line, pressed, width, turn, grain }: Drawn): SentStroke {
   const kept = line.slice(0, MAX_POINTS);
   const start = kept[0]?.time ?? 0;
+  const brushed = isScribble({ kind });
   const round = (value: number): number => Number((Math.round(value / grain) * grain).toPrecision(9));
   return {
     id, kind, xy: kept.flatMap((sample) => [round(sample.x), round(sample.y)]),
     pressure: pressed ? kept.map((sample) => Math.min(1, Math.max(0, Math.round(sample.pressure * 1000) / 1000))) : null,
     time: kept.map((sample) => Math.min(1e9, Math.max(0, Math.round(sample.time - start)))),
-    width: kind === "branch" ? Number(width.toPrecision(4)) : null, closed: kind !== "branch", view_deg: turn,
+    width: kind === "branch" || brushed ? Number(width.toPrecision(4)) : null, closed: kind !== "branch" && !brushed, view_deg: turn,
   };
 }
 
-export function draw(store: Store, made: SentStroke): void {
-  store.send({ type: "strokes", label: made.kind, put: [made] });
+export function draw(store: Store, made: SentStroke, label: string = made.kind): void {
+  store.send({ type: "strokes", label, put: [made] });
 }
 
 export function erase(store: Store, gone: string[]): void {

@@ -6,11 +6,18 @@ import type { Store, Tool } from "../store";
 import type { IconName } from "../style/icons";
 import { flip, lock } from "./keys";
 import { selectedLimb } from "./selection";
+import { isOffered, way } from "./trunk/way";
 
 const TOOLS: { tool: Tool; icon: IconName; label: string; hint: string; key: string }[] = [
   { tool: "branch", icon: "branch", label: "Branch", hint: "Draw a branch, from where it grows to its tip", key: "B" },
   { tool: "crown", icon: "crown", label: "Crown", hint: "Outline the crown; it closes by itself", key: "C" },
   { tool: "obstacle", icon: "obstacle", label: "Obstacle", hint: "Outline a wall or a rock: branches keep out of it", key: "O" },
+  { tool: "foreground", icon: "foreground", label: "Tree", hint: "Scribble on the tree: trunk, limbs, a few twigs", key: "T" },
+  { tool: "background", icon: "background", label: "Not tree", hint: "Scribble on what is not tree: sky, ground, what stands behind", key: "N" },
+  { tool: "matte_add", icon: "paintIn", label: "Paint in", hint: "Paint wood into the matte", key: "A" },
+  { tool: "matte_erase", icon: "paintOut", label: "Paint out", hint: "Paint out of the matte what is no wood", key: "X" },
+  { tool: "vertices", icon: "points", label: "Points", hint: "The contour's points: remove, add or merge them", key: "P" },
+  { tool: "foot", icon: "pin", label: "Foot", hint: "Click where the trunk stands", key: "R" },
   { tool: "erase", icon: "erase", label: "Erase", hint: "Erase lines; with Alt only a part", key: "E" },
   { tool: "select", icon: "select", label: "Select", hint: "Select, reshape and move", key: "V" },
   { tool: "pan", icon: "pan", label: "Move the page", hint: "Move the page; or hold Space and drag", key: "H" },
@@ -22,13 +29,22 @@ export function mountTools(root: HTMLElement, store: Store): void {
     one.classList.add("tool");
     return { tool, one };
   });
+  const offer = (): void => {
+    for (const { tool, one } of made) one.hidden = !isOffered(store, tool);
+    for (const one of branch) one.hidden = way(store) === "scribbles";
+  };
+  const branch = branchButtons(store);
   const showTool = (): void => made.forEach(({ tool, one }) => press(one, store.ui.tool === tool));
   store.on("tool", showTool);
   showTool();
-  root.append(...made.map(({ one }) => one), element("span", { class: "rail-gap", role: "separator" }), ...branchButtons(store));
+  const gap = element("span", { class: "rail-gap", role: "separator" });
+  branch.unshift(gap);
+  root.append(...made.map(({ one }) => one), ...branch);
+  store.on(["underlay", "trunk"], offer);
+  offer();
 }
 
-function branchButtons(store: Store): HTMLButtonElement[] {
+function branchButtons(store: Store): HTMLElement[] {
   const quiet = { iconOnly: true, look: "quiet" } as const;
   const flips = button({
     ...quiet, label: "Flip", icon: "flip", hint: "Flip the branch to the other side of the page", key: "F", testId: "tool-flip", onPress: () => flip(store),

@@ -17,6 +17,7 @@ import { photoCard } from "./photo/card";
 import { mountSide } from "./side/mount";
 import { mountStatus } from "./status/mount";
 import { troubleCard } from "./status/trouble";
+import { trunkCard } from "./trunk/card";
 import { mountStrip } from "./strip/strip";
 import { camera } from "../draw/camera";
 import { newPage } from "../draw/new_page";
@@ -49,7 +50,7 @@ export function mountPanels(roots: PanelRoots, store: Store, views: Views): void
   const hint = hintCard(store, () => newPage(store));
   const words = document.createElement("div");
   words.className = "page-words";
-  words.append(goneBanner(store), troubleCard(store), hint.root, photoCard(store), turnedNote(store));
+  words.append(goneBanner(store), troubleCard(store), hint.root, photoCard(store), trunkCard(store), turnedNote(store));
   const hides = (): boolean => words.offsetHeight > 0 && roots.page.clientHeight > LOW && (store.ui.layout === "beside" || roots.page.clientWidth < WIDE);
   const covered = (): void => camera.cover("head", hides() ? words.offsetTop + words.offsetHeight : 0);
   new ResizeObserver(covered).observe(words);

@@ -6,6 +6,7 @@ import { cut } from "../line/cutting";
 import { distance } from "../line/nearness";
 import { distanceToSpan } from "../line/thinning";
 import { freshId, replace } from "../steps";
+import { isScribble } from "../trunk/scribbles";
 import type { Tool, Touch } from "./touch";
 
 const REACH = 9; // CSS pixels
@@ -76,7 +77,8 @@ function isRootAtEnd(desk: Desk, stroke: Stroke): boolean {
 
 /** The eraser passed over it on its way. */
 function touched(stroke: Stroke, from: Touch, to: Touch, radius: number): boolean {
-  if (distance(stroke, to.x, to.y) <= radius) return true;
+  const reach = isScribble(stroke) ? Math.max(radius, (stroke.width ?? 0) / 2) : radius; // a brush is as wide as it looks
+  if (distance(stroke, to.x, to.y) <= reach) return true;
   for (let at = 0; at + 3 < stroke.xy.length; at += 2) {
     const [ax, ay, bx, by] = [stroke.xy[at]!, stroke.xy[at + 1]!, stroke.xy[at + 2]!, stroke.xy[at + 3]!];
     if (distanceToSpan({ x: ax, y: ay }, from, to) <= radius || crosses(ax, ay, bx, by, from, to)) return true;

@@ -1,7 +1,7 @@
 // Who is touching the page, and what for? Pen, mouse and fingers are told apart here: one of them draws, two fingers move the page, a palm does nothing.
 //
 // Rules    a pen was seen: fingers move the page and never draw      a contact as large as a palm is none      a second finger soon after the first takes back
-//          what the first began      the middle button, or any with the space bar, moves the page; the right one turns it, and on a photo draws a branch      an event told twice counts once
+//          what the first began      the middle button, or any with the space bar, moves the page; the right one turns it, and on a photo draws a branch, or the other of two scribbles      an event told twice counts once
 
 import type { Desk } from "../desk";
 import { Fingers } from "./fingers";

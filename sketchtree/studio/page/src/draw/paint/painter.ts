@@ -11,6 +11,9 @@ import { type Palette } from "./palette";
 import { paintGrid, paintGround, paintUnderlay } from "./paper";
 import { type Look, paintStroke, smooth, type State } from "./strokes";
 import { paintTint, paintTraced } from "./traced";
+import { paintBrush, paintHover, paintTrunk } from "../trunk/paint";
+import { isScribble } from "../trunk/scribbles";
+import { way } from "../trunk/way";
 
 const BEHIND = 0.45; // how strong a photo is, at most, over its tree
 const DEFAULT_WIDTH = 0.006; // of the drawing's height: strokes that have no width of their own
@@ -18,6 +21,7 @@ const DEFAULT_WIDTH = 0.006; // of the drawing's height: strokes that have no wi
 /** Everything that stays when the pen is lifted. */
 export function paintDrawing(
   on: CanvasRenderingContext2D, ratio: number, desk: Desk, palette: Palette, picture: HTMLImageElement | null, tint: CanvasImageSource | null,
+  mask: CanvasImageSource | null,
 ): void {
   const { camera, store } = desk;
   const over = store.ui.layout === "over";
@@ -28,8 +32,10 @@ export function paintDrawing(
   const seen = under && over && store.known.photoTree ? { ...underlay, opacity: Math.min(underlay.opacity, BEHIND) } : underlay; // the tree is below it
   if (under && seen) paintUnderlay(on, camera, palette, seen, picture, desk.movesUnderlay);
   const photo = photoHere(store);
-  if (photo && tint && store.ui.tint) paintTint(on, camera, underlay ?? photo, tint);
+  const scribbled = way(store) === "scribbles";
+  if (photo && tint && store.ui.tint && !scribbled) paintTint(on, camera, underlay ?? photo, tint);
   if (!photo) paintGround(on, camera, palette, groundLevel(desk)); // it has ground of its own
+  if (photo && scribbled) return paintTrunk(on, ratio, desk, desk.underlay ?? photo, mask, palette);
   if (!isSamePage(store.ui.turn, 0) || turnedStrokes(desk)) paintGuides(on, desk, palette);
   on.setTransform(ratio * camera.scale, 0, 0, ratio * camera.scale, ratio * camera.x, ratio * camera.y);
   const look: Look = { palette, scale: camera.scale, width: usualWidth(desk), cased: over || under };
@@ -56,10 +62,11 @@ function stateOf(desk: Desk, stroke: Stroke, pointed: ReadonlySet<string>): Stat
 
 /** What is in hand: the line being drawn, the lasso, the eraser. */
 export function paintLive(on: CanvasRenderingContext2D, ratio: number, desk: Desk, palette: Palette): void {
-  const { camera, live, lasso, eraser } = desk;
+  const { camera, live, lasso } = desk;
   clear(on, ratio);
   on.setTransform(ratio * camera.scale, 0, 0, ratio * camera.scale, ratio * camera.x, ratio * camera.y);
-  if (live && live.line.length > 1) paintInHand(on, live, palette, camera.scale);
+  if (live && !isScribble(live) && live.line.length > 1) paintInHand(on, live, palette, camera.scale);
+  paintBrush(on, live && !isScribble(live) ? { ...desk, live: null } : desk, palette, camera.scale);
   if (lasso.length > 4) {
     on.strokeStyle = palette.accent;
     on.lineWidth = 1.25 / camera.scale;
@@ -67,6 +74,12 @@ export function paintLive(on: CanvasRenderingContext2D, ratio: number, desk: Des
     on.stroke(smooth(lasso, true));
     on.setLineDash([]);
   }
+  paintEraser(on, desk, palette);
+  on.setTransform(ratio, 0, 0, ratio, 0, 0);
+  paintHover(on, desk, palette);
+}
+
+function paintEraser(on: CanvasRenderingContext2D, { eraser, camera }: Desk, palette: Palette): void {
   if (!eraser) return;
   on.beginPath();
   on.arc(eraser.x, eraser.y, eraser.radius, 0, 2 * Math.PI);
@@ -135,7 +148,9 @@ function usualWidth(desk: Desk): number {
 
 function clear(on: CanvasRenderingContext2D, ratio: number): void {
   on.setTransform(1, 0, 0, 1, 0, 0);
-  on.clearRect(0, 0, on.canvas.width, on.canvas.height);
+  const half = Math.ceil(on.canvas.height / 2); // in halves: Chromium with software drawing may leave what a whole canvas showed before, where nothing is painted after
+  on.clearRect(0, 0, on.canvas.width, half);
+  on.clearRect(0, half, on.canvas.width, on.canvas.height - half);
   on.setTransform(ratio, 0, 0, ratio, 0, 0);
   on.lineCap = on.lineJoin = "round";
 }

@@ -1,6 +1,6 @@
 // What shows of the tree in the photo? Its limbs, as wide as they are, each with its line; and a tint where foliage is.
 
-import type { Traced, TracedTree, Underlay } from "../../messages";
+import type { TracedTree, Underlay } from "../../messages";
 import type { PageCamera } from "../camera";
 import type { Palette } from "./palette";
 
@@ -18,13 +18,13 @@ interface Shapes {
 
 const shapes = new WeakMap<TracedTree, Shapes>();
 
-/** In page units; the canvas is set to them. */
-export function paintTraced(on: CanvasRenderingContext2D, traced: Traced, palette: Palette, scale: number): void {
+/** In page units; the canvas is set to them. `strength`: of a limb's thickness. */
+export function paintTraced(on: CanvasRenderingContext2D, traced: { trees: TracedTree[] }, palette: Palette, scale: number, strength = BODY): void {
   for (const tree of traced.trees) {
     const { body, drawn, found } = shapesOf(tree);
     on.fillStyle = palette.traced;
-    on.globalAlpha = BODY;
-    on.fill(body);
+    on.globalAlpha = strength;
+    if (strength > 0) on.fill(body);
     on.globalAlpha = 1;
     for (const [line, width] of [[found, FOUND], [drawn, LINE]] as const) {
       on.strokeStyle = palette.paper;

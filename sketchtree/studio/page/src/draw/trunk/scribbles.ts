@@ -4,18 +4,25 @@ import type { Stroke } from "../../messages";
 import type { Palette } from "../paint/palette";
 
 const STRENGTH = 0.55;
-const COLOURS: Partial<Record<Stroke["kind"], "traced" | "wrong">> = { foreground: "traced", matte_add: "traced", background: "wrong", matte_erase: "wrong" };
+const COLOURS: Partial<Record<Stroke["kind"], "tree" | "beside">> = { foreground: "tree", matte_add: "tree", background: "beside", matte_erase: "beside" };
 
 /** Is it said of a photo, and no part of a drawn tree? */
 export function isScribble(stroke: Pick<Stroke, "kind">): boolean {
   return stroke.kind in COLOURS;
 }
 
+/** Is it painted into the matte that comes of the others, or out of it? */
+export function isPaint(stroke: Pick<Stroke, "kind">): boolean {
+  return stroke.kind === "matte_add" || stroke.kind === "matte_erase";
+}
+
+export function colourOf(kind: Stroke["kind"], palette: Palette): string {
+  return palette[COLOURS[kind] ?? "ink"];
+}
+
 /** In page units. */
 export function paintScribble(on: CanvasRenderingContext2D, stroke: Stroke, line: Path2D, palette: Palette, width: number): void {
-  const colour = COLOURS[stroke.kind];
-  if (!colour) return;
-  on.strokeStyle = palette[colour];
+  on.strokeStyle = colourOf(stroke.kind, palette);
   on.globalAlpha *= STRENGTH;
   on.lineWidth = width;
   on.stroke(line);

@@ -14,6 +14,7 @@ import { editsList } from "../edits/list";
 import { barkPicker } from "../looks/bark_picker";
 import { leafPicker } from "../looks/leaf_picker";
 import { seasonPicker } from "../looks/season_picker";
+import { way } from "../../draw/trunk/way";
 import { photoSection } from "../photo/section";
 import { alternatives } from "../readings/alternatives";
 import { uncertainty } from "../readings/uncertainty";
@@ -31,7 +32,9 @@ export function mountSide(root: HTMLElement, store: Store): void {
   const [ofGenerations, ofDensity, ...others] = drawn;
   const tree = section("tree", "Tree", true, seed(store), ofGenerations!, ofDensity!, gravity(store), height(store), ...others).root;
   root.append(photoSection(store), tree, part("looks", "Looks", seasonPicker, leafPicker, barkPicker), depth, hand.root);
-  store.on("photoTree", () => {
-    for (const one of [...drawn, depth, hand.root]) one.hidden = store.known.photoTree !== null;
-  });
+  const show = (): void => {
+    const ofPhoto = store.known.photoTree !== null || way(store) === "scribbles";
+    for (const one of [...drawn, depth, hand.root]) one.hidden = ofPhoto;
+  };
+  store.on(["photoTree", "trunk", "underlay"], show);
 }

@@ -11,7 +11,7 @@ export function figuresLine(store: Store, trip: RoundTrip): HTMLElement {
   const show = (): void => {
     const { tree, strokes, welcome } = store.known;
     if (tree?.phase === "glance") return;
-    if (!tree || strokes.size === 0) {
+    if (!tree?.segments || strokes.size === 0) {
       root.replaceChildren(element("span", {}, strokes.size === 0 ? "Nothing drawn yet" : "No tree yet"));
       return;
     }
