@@ -22,7 +22,7 @@ def read(tmp_path_factory):
 def test_it_moves_as_it_was_made(read, time):
     for mine, other in zip(growing("full", -20.0).at(time), posed(read[1], 6.0 * time), strict=True):
         assert mine.name == other.name
-        assert np.allclose(mine.position, other.position, atol=0.012)  # weights are 255ths in the file
+        assert np.allclose(mine.position, other.position, atol=1e-4)  # shares of joints are 65535ths in the file
 
 
 def test_every_channel_of_a_joint_is_one_sampler_with_times_that_rise(read):
@@ -45,3 +45,12 @@ def test_every_channel_of_a_joint_is_one_sampler_with_times_that_rise(read):
 def test_a_file_that_can_not_move_says_so(tmp_path):
     told = write_asset(tmp_path / "tree.obj", growing("age").asset())
     assert any("does not move" in line for line in told)
+
+
+def test_shares_of_joints_are_16_bits_that_sum_to_one_and_a_mesh_of_whole_ones_has_bytes(read):
+    data = read[0].read_bytes()
+    content = json.loads(data[20 : 20 + int.from_bytes(data[12:16], "little")])
+    kinds = {mesh["name"]: content["accessors"][mesh["primitives"][0]["attributes"]["WEIGHTS_0"]]["componentType"] for mesh in content["meshes"]}
+    assert kinds["wood"] == 5123 and {kind for name, kind in kinds.items() if name.startswith("leaf_young")} == {5121}
+    for part in read[1].parts:
+        assert np.allclose(part.extra["WEIGHTS_0"].sum(axis=1), 1.0, atol=1e-12)

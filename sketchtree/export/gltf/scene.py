@@ -56,7 +56,8 @@ class _Nodes:
         self.bones = asset.armature
         self.bends = asset.armature is not None
         self.joint = self.skin = None
-        morphs = asset.animation.morphs if asset.animation is not None else ()
+        self.moves = asset.animation is not None
+        morphs = asset.animation.morphs if self.moves else ()
         self.targets = {id(asset.parts[morph.part]): morph for morph in morphs}
         self.morphed: dict[int, int] = {}  # the node of each part that has a morph
 
@@ -108,7 +109,7 @@ class _Nodes:
             return self.add({"name": name, "mesh": mesh_number(self.tables, part.mesh, name), "extensions": instancing(self.tables, part)})
         skinned = self.joint is not None and is_skinned(part)
         morph = self.targets.get(id(part))
-        node = {"name": name, "mesh": mesh_number(self.tables, part, name, skinned=skinned, target=None if morph is None else morph.offset)}
+        node = {"name": name, "mesh": mesh_number(self.tables, part, name, skinned=skinned, moves=self.moves, target=None if morph is None else morph.offset)}
         if morph is not None:
             self.morphed[morph.part] = len(self.nodes)
         if skinned and self.skin is None:

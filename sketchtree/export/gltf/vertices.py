@@ -3,7 +3,8 @@
     POSITION NORMAL TEXCOORD_n TANGENT   32-bit floats; tangents where there is a normal map
     TEXCOORD_n, n > 0, within 0-1        normalised 16 bits: wind and places in small textures need no more
     COLOR_n                              normalised bytes, four channels
-    JOINTS_n WEIGHTS_n                   bytes (joints: two where there are more than 256); weights sum to 255
+    JOINTS_n WEIGHTS_n                   bytes (joints: two where there are more than 256); weights sum to 255. Of a mesh that an animation moves far, weights are
+                                         normalised 16 bits where some are shares: a 255th of ten metres shows
     indices                              16 bits up to 65,535 vertices
 """
 
@@ -20,14 +21,14 @@ _NARROW = 65535  # the last index of 16 bits restarts a strip
 _JOINTS = re.compile(r"(JOINTS|WEIGHTS)_\d+")
 
 
-def mesh_number(tables: Tables, mesh: Mesh, name: str, *, skinned: bool = False, target=None) -> int:
-    """Its place in the table of meshes. Joints and weights are left out unless it is `skinned`. `target`: how far a morph moves each vertex, [vertex 3]."""
+def mesh_number(tables: Tables, mesh: Mesh, name: str, *, skinned: bool = False, moves: bool = False, target=None) -> int:
+    """Its place in the table of meshes. Joints and weights are left out unless it is `skinned`; `moves`: by an animation of the file. `target`: how far a morph moves each vertex, [vertex 3]."""
     key = ("mesh", id(mesh), name)
     if key in tables.known:
         return tables.known[key]
     wide = len(mesh.position) > _NARROW
     primitive = {
-        "attributes": _columns(tables, mesh, skinned),
+        "attributes": _columns(tables, mesh) | (_influences(tables, mesh, moves) if skinned else {}),
         "indices": tables.column(mesh.triangle.astype("<u4" if wide else "<u2").ravel(), INDEX),
         "material": material_number(tables, mesh.material),
         "mode": 4,
@@ -46,7 +47,7 @@ def is_skinned(mesh: Mesh) -> bool:
     return "JOINTS_0" in mesh.extra
 
 
-def _columns(tables: Tables, mesh: Mesh, skinned: bool) -> dict:
+def _columns(tables: Tables, mesh: Mesh) -> dict:
     attributes = {
         "POSITION": tables.column(mesh.position.astype("<f4"), bounds=True),
         "NORMAL": tables.column(unit32(mesh.normal)),
@@ -62,8 +63,6 @@ def _columns(tables: Tables, mesh: Mesh, skinned: bool) -> dict:
     for name, column in mesh.extra.items():
         if not _JOINTS.fullmatch(name):
             attributes[name] = _color(tables, column) if name.startswith("COLOR_") else _further(tables, name, column)
-    if skinned:
-        attributes |= _influences(tables, mesh)
     return attributes
 
 
@@ -79,12 +78,14 @@ def _color(tables: Tables, color) -> int:
     return tables.column(as_bytes(whole), normalized=True)
 
 
-def _influences(tables: Tables, mesh: Mesh) -> dict:
+def _influences(tables: Tables, mesh: Mesh, moves: bool) -> dict:
     """JOINTS_0 and WEIGHTS_0; a joint without weight is joint 0, as the format asks."""
     weight = np.asarray(mesh.extra["WEIGHTS_0"], float)
     total = weight.sum(axis=1, keepdims=True)
-    byte = np.floor(255.0 * weight / np.where(total > 0, total, 1.0) + 1e-9).astype(np.int64)
-    byte[np.arange(len(byte)), weight.argmax(axis=1)] += 255 - byte.sum(axis=1)
-    joint = np.where(byte > 0, mesh.extra["JOINTS_0"], 0)
+    share = weight / np.where(total > 0, total, 1.0)
+    whole, kind = (65535, "<u2") if moves and ((share > 0) & (share < 1)).any() else (255, "u1")
+    part = np.floor(whole * share + 1e-9).astype(np.int64)
+    part[np.arange(len(part)), weight.argmax(axis=1)] += whole - part.sum(axis=1)
+    joint = np.where(part > 0, mesh.extra["JOINTS_0"], 0)
     small = joint.astype("<u1" if joint.size == 0 or joint.max() < 256 else "<u2")
-    return {"JOINTS_0": tables.column(small), "WEIGHTS_0": tables.column(byte.astype("u1"), normalized=True)}
+    return {"JOINTS_0": tables.column(small), "WEIGHTS_0": tables.column(part.astype(kind), normalized=True)}
