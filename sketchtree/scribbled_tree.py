@@ -30,7 +30,7 @@ from sketchtree.sketch.strokes import SCRIBBLES, Sketch, Stroke, StrokeKind
 from sketchtree.templates.store.database import Database
 from sketchtree.trunk.edit_matte import sketched
 from sketchtree.trunk.wanted import TrunkChoices
-from sketchtree.watch import Watch
+from sketchtree.watch import Pulse, Watch, no_pulse
 
 _SAYS = (StrokeKind.FOREGROUND, StrokeKind.BACKGROUND)
 _NAME = "The drawing"
@@ -63,10 +63,10 @@ def on_photo(strokes: Iterable[Stroke], corner: tuple[float, float], across: tup
     return tuple(dataclasses.replace(stroke, points=(stroke.points - corner) * across, width=None if stroke.width is None else stroke.width * size) for stroke in front)
 
 
-def matte_of(wanted: Scribbled, *, key: Key[Array, ""]) -> Matte:
-    """The matte that the scribbles tell, without what is painted into it. Raises SketchError where they tell none."""
+def matte_of(wanted: Scribbled, *, key: Key[Array, ""], pulse: Pulse = no_pulse) -> Matte:
+    """The matte that the scribbles tell, without what is painted into it; `pulse` is called a few times a second meanwhile. Raises SketchError where they tell none."""
     said = scribbled(wanted.saying, _NAME) if wanted.saying else None
-    return find_matte(wanted.photo, said, key=stage_key(key, "matte"), method=wanted.choices.matting)
+    return find_matte(wanted.photo, said, key=stage_key(key, "matte"), method=wanted.choices.matting, pulse=pulse)
 
 
 def repainted(matte: Matte, wanted: Scribbled) -> Matte:

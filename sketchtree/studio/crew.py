@@ -4,7 +4,7 @@
     full     the whole tree; meanwhile, of the last one, what pages that join need and the undrawn limb that is picked
     side     everything else: pictures, other readings, glances, files in and out
 
-and, once a photo lies under the page, three more (`tracer`, `grower`). One more once a tree is taken from scribbles (`trunker`), one more while somebody looks at the tree as it grows (`growth`).
+and, once a photo lies under the page, three more (`tracer`, `grower`). One more once a tree is taken from scribbles (`trunker`), one more while somebody looks at the tree as it grows, and one while a film of that is made (`growth`).
 
 Each begins when it is first needed, and is begun again should it end. The newest request wins; a hurried answer goes before the full tree of the same revision.
 """
@@ -21,9 +21,9 @@ from sketchtree.editing.document import Document
 from sketchtree.editing.settled import Settled
 from sketchtree.errors import SketchTreeError
 from sketchtree.studio import messages
-from sketchtree.studio.engine import Fault, Outcome
+from sketchtree.studio.engine import Fault, Outcome, Tell, untold
 from sketchtree.studio.grower import Grower
-from sketchtree.studio.growth import Ageing, Ager
+from sketchtree.studio.growth import FILMS, Ager, Growing, Grown, Whose
 from sketchtree.studio.hand import Ended, Hand
 from sketchtree.studio.laid_photo import LaidPhoto
 from sketchtree.studio.making.basis import Basis
@@ -83,7 +83,7 @@ class Crew:
         trunk = Hand("trunk", self._database, lambda number, value: self._trunker.heard(number, value), partial(self._ended, "trunk"))
         self._trunker = Trunker(trunk, laid, lambda outcome: self.on_outcome(outcome), self._run)
         self._tracer = Tracer(*photo, laid, lambda revision, event: self.on_outcome(Outcome(revision, event)), self._grower.seen, self._run)
-        self._ager = Ager(lambda: Hand("age", self._database, lambda number, value: None, partial(self._ended, "age")))
+        self._ager, self._filmer = (Ager(lambda: Hand("age", self._database, lambda number, value: None, partial(self._ended, "age"))) for _ in range(2))
         self._begun = 1
         self._empty: bytes | None = None  # the tree of a page without a stroke, if that was told last
         self._hands["full"].begin()  # the others once there is a tree, or when they are asked
@@ -100,6 +100,7 @@ class Crew:
         self._grower.end()
         self._trunker.end()
         self._ager.end()
+        self._filmer.end()
 
     def make(self, revision: int, document: Document) -> None:
         """As `Engine.make`."""
@@ -224,9 +225,13 @@ class Crew:
         self._trunker.stop()
         self._trunker.stop()
 
-    async def grown(self, document: Document, name: str, options: dict) -> dict[str, bytes]:
+    async def grown(self, document: Document, name: str, options: dict, tell: Tell = untold) -> dict[str, bytes]:
         """As `Engine.grown`."""
-        return await self._grower.files(document, name, options)
+        return await self._of_photo(document).files(document, name, options, tell)
+
+    def _of_photo(self, document: Document) -> Grower | Trunker:
+        """Who makes the tree of its photo."""
+        return self._trunker if document.trunk.on else self._grower
 
     async def marks(self, document: Document) -> bytes:
         """As `Engine.marks`."""
@@ -294,13 +299,21 @@ class Crew:
             return await asyncio.to_thread(document_of, data, name)
         return await self._hands["side"].ask("read", data, name)[1]
 
-    async def export(self, document: Document, name: str, options: dict) -> dict[str, bytes]:
+    async def export(self, document: Document, name: str, options: dict, tell: Tell = untold) -> dict[str, bytes]:
         """As `Engine.export`."""
-        return await self._hands["side"].ask("export", document, name, options)[1]
+        return await self._hands["side"].made("export", document, name, options, hears=lambda value: tell(*value[1:]))
 
-    async def aged(self, document: Document, ageing: Ageing) -> bytes:
+    async def aged(self, document: Document, growing: Growing, tell: Tell = untold) -> bytes:
         """As `Engine.aged`."""
-        return await self._ager.made(document, ageing)
+        return await self._ager.made(self._whose(document, growing.tree), growing.ageing, tell)
+
+    async def moving(self, document: Document, name: str, tree: str, grown: Grown, tell: Tell = untold) -> dict[str, bytes]:
+        """As `Engine.moving`. A film takes long: pages get their growths meanwhile."""
+        film = name.endswith(FILMS)
+        return await (self._filmer if film else self._ager).files(self._whose(document, tree), name, grown.ageing, grown.seconds, tell, film=film)
+
+    def _whose(self, document: Document, tree: str) -> Whose:
+        return self._of_photo(document).whose(document) if tree == "photo" else Whose.drawn(document)
 
     async def project(self, document: Document) -> bytes:
         """As `Engine.project`."""

@@ -14,7 +14,7 @@ from sketchtree.errors import SketchTreeError
 from sketchtree.studio import messages
 
 if TYPE_CHECKING:
-    from sketchtree.studio.growth import Ageing
+    from sketchtree.studio.growth import Growing, Grown
 
 
 class Fault(SketchTreeError):
@@ -24,6 +24,14 @@ class Fault(SketchTreeError):
     def here(cls) -> "Fault":
         """One whose details are in the terminal."""
         return cls("Something went wrong in the program.", remedy="Undo the last step; the terminal that runs the studio has the details.")
+
+
+Tell = Callable[[str, float], None]
+"""Is told the stage that runs, and how much of the work is done, 0-1."""
+
+
+def untold(stage: str, done: float) -> None:
+    """Nobody asks how far it is."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -73,8 +81,9 @@ class Engine(Protocol):
     def stop_growing(self) -> None:
         """That tree is not wanted as it is now."""
 
-    async def grown(self, document: Document, name: str, options: dict) -> dict[str, bytes]:
-        """The files that the photo's tree becomes, by name. Raises SketchTreeError."""
+    async def grown(self, document: Document, name: str, options: dict, tell: Tell = untold) -> dict[str, bytes]:
+        """The files that the photo's tree becomes, by name: the one that grows towards its foliage, or that of its scribbles. `tell` hears how far it is; whoever does not want them any more
+        cancels it. Raises SketchTreeError."""
 
     async def marks(self, document: Document) -> bytes:
         """The strokes that mark the photo, in its pixels, as SVG. Raises SketchTreeError where there is no photo."""
@@ -97,11 +106,14 @@ class Engine(Protocol):
     async def read(self, data: bytes, name: str) -> Document:
         """A document of a file: any drawing, or a project. Raises SketchTreeError."""
 
-    async def export(self, document: Document, name: str, options: dict) -> dict[str, bytes]:
-        """The files that this tree becomes, by name. Raises SketchTreeError."""
+    async def export(self, document: Document, name: str, options: dict, tell: Tell = untold) -> dict[str, bytes]:
+        """The files that the tree of the drawing becomes, by name, likewise."""
 
-    async def aged(self, document: Document, ageing: "Ageing") -> bytes:
-        """The growth of this tree, as an animated GLB; nothing else waits for it. Raises SketchTreeError. Whoever does not want it any more cancels it."""
+    async def aged(self, document: Document, growing: "Growing", tell: Tell = untold) -> bytes:
+        """The growth of this tree, or of the photo's, as an animated GLB, likewise; nothing else waits for it."""
+
+    async def moving(self, document: Document, name: str, tree: str, grown: "Grown", tell: Tell = untold) -> dict[str, bytes]:
+        """The files, by name, of the growth of this tree, or of the photo's (`tree`: drawn or photo): animated ones, or a film; likewise."""
 
     async def project(self, document: Document) -> bytes:
         """The bytes of a project file."""

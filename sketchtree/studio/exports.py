@@ -1,4 +1,4 @@
-"""What does the page get to keep? The tree as files of any kind, the project, and the command line that makes the same tree."""
+"""What does the page get to keep? The tree as files of any kind, its growth, the project, and the command line that makes the same."""
 
 import dataclasses
 import io
@@ -12,9 +12,12 @@ import msgspec
 from msgspec import Meta
 
 from sketchtree.editing.document import Document
+from sketchtree.errors import OptionError
 from sketchtree.options import ReadingOptions, TreeOptions
 from sketchtree.photo.wanted import PhotoOptions
+from sketchtree.studio import messages
 from sketchtree.studio.folder import PROJECT
+from sketchtree.studio.growth import FILMS, Grown
 from sketchtree.studio.making.photo_asked import Wish, is_photo
 from sketchtree.studio.underlays import suffix_of
 
@@ -24,33 +27,42 @@ _THE_DAY = (1980, 1, 1, 0, 0, 0)  # of every file in a ZIP: the first there is
 
 
 class Export(msgspec.Struct, forbid_unknown_fields=True, frozen=True, kw_only=True):
-    """What to export, as `sketchtree build` has it."""
+    """What to export, as `sketchtree build` has it, or `sketchtree grow`."""
 
     format: Format
-    tree: Literal["drawn", "photo"] = "drawn"  # photo: the one that grows in the photo under the page, as `sketchtree photo` makes it
+    tree: Literal["drawn", "photo"] = "drawn"  # photo: the one of the photo under the page, as `sketchtree photo` makes it of its marks, or `sketchtree grow` of its scribbles
     lod: Annotated[int, Meta(ge=0, le=3)] = 0
     levels: Literal["one", "together", "apart"] = "one"
     leaves: Literal["merged", "instanced"] = "merged"
     pack: Literal["game"] | None = None
     wood: Literal["one-piece", "tubes"] | None = None
     solid: bool = False
+    growth: Grown | None = None  # the tree as it grows, animated or as a film; of the options above none counts
     revision: int | None = None  # that the page shows
+    id: messages.Id | None = None  # how far it is, is told under this one (`messages.Making`)
 
     @property
     def options(self) -> dict:
-        """All but the format, the tree and the revision."""
-        return {name: getattr(self, name) for name in self.__struct_fields__ if name not in ("format", "tree", "revision")}
+        """What the tree's files hang on, beside the format."""
+        return {name: getattr(self, name) for name in ("lod", "levels", "leaves", "pack", "wood", "solid")}
 
 
 def command_line(document: Document, export: Export) -> str:
     """What makes the same tree of the saved project, or of the photo and the strokes that mark it; every option that is not as by default is spelled out."""
     name = document.name if not document.name.startswith("-") else f"./{document.name}"
-    wish = Wish.of(document, "") if export.tree == "photo" else None
+    scribbled = export.tree == "photo" and document.trunk.on
+    if export.growth is not None:
+        if document.trunk.on != (export.tree == "photo"):
+            raise OptionError("No command makes this tree grow: `grow` takes a project's own drawing, or its scribbles.", remedy="Save the file here; or export a GLB of the tree, and give that to `grow`.")
+        return shlex.join([*_growing(name, export), *(_spelled(_kept_by_none(document.tree), TreeOptions(), ()) if scribbled else [])])
+    if scribbled:
+        document = document.replace(reading=ReadingOptions(), tree=_kept_by_none(document.tree), seed=0)  # its project says the rest
+    wish = Wish.of(document, "") if export.tree == "photo" and not scribbled else None
     tree = document.tree if wish is None else wish.tree
     tree = tree if export.wood is None else dataclasses.replace(tree, wood=export.wood)
     tree = dataclasses.replace(tree, solid=True) if export.solid else tree
     if wish is None:
-        words = ["sketchtree", "build", name + PROJECT, "-o", name + export.format, *(["--as-drawn"] if is_photo(document.underlay) else [])] + _spelled(document.reading, ReadingOptions(), _LATER["reading"])
+        words = ["sketchtree", "build", name + PROJECT, "-o", name + export.format, *(["--as-drawn"] if is_photo(document.underlay) and not scribbled else [])] + _spelled(document.reading, ReadingOptions(), _LATER["reading"])
     else:
         words = ["sketchtree", "photo", name + suffix_of(document.underlay.picture), "--strokes", name + ".svg", "-o", name + export.format]
         words += _spelled(wish.reading, ReadingOptions(), _LATER["reading"]) + _of_photo(wish.wanted)
@@ -62,6 +74,21 @@ def command_line(document: Document, export: Export) -> str:
     if document.seed:
         words += ["--seed", str(document.seed)]
     return shlex.join(words)
+
+
+def _kept_by_none(tree: TreeOptions) -> TreeOptions:
+    """What a tree of scribbles hangs on, and its project does not say again to whoever reads it."""
+    return TreeOptions(prune=tree.prune, max_segments=tree.max_segments)
+
+
+def _growing(name: str, export: Export) -> list[str]:
+    """`sketchtree grow` of the saved project: the tree as it grows."""
+    grown, output = export.growth, name + export.format
+    words = ["sketchtree", "grow", name + PROJECT, "-o", output if export.format not in FILMS else name + ".glb"]
+    words += ["--movie", output] if export.format in FILMS else []
+    said = {"mode": grown.mode, "bend": grown.bend, "seconds": grown.seconds}
+    plain = Grown()
+    return words + [word for one, value in said.items() if value != getattr(plain, one) for word in (f"--{one}", value if one == "mode" else f"{value:g}")]
 
 
 def zipped(files: dict[str, bytes]) -> bytes:

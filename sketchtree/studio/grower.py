@@ -14,7 +14,8 @@ from functools import partial
 from sketchtree.editing.document import Document
 from sketchtree.errors import SketchError, SketchTreeError
 from sketchtree.studio import messages
-from sketchtree.studio.engine import Outcome
+from sketchtree.studio.engine import Outcome, Tell, untold
+from sketchtree.studio.growth import Held, Whose
 from sketchtree.studio.hand import Ended, Hand
 from sketchtree.studio.laid_photo import LaidPhoto
 from sketchtree.studio.making.photo_asked import Asked, Wish
@@ -82,15 +83,28 @@ class Grower:
         self._clear()
         self._hand.end()
 
-    async def files(self, document: Document, name: str, options: dict) -> dict[str, bytes]:
-        """The files that the tree of a drawing becomes. Raises SketchTreeError."""
+    async def files(self, document: Document, name: str, options: dict, tell: Tell = untold) -> dict[str, bytes]:
+        """The files that the tree of a drawing becomes. Raises SketchTreeError; cancelled, its making ends."""
+        wish, foliages = self._wish(document)
+        return await self._hand.made("grown_files", wish, foliages, name, options, hears=lambda value: tell(*value[1:]))
+
+    def whose(self, document: Document) -> Whose:
+        """The tree of a drawing, as one that is to grow. Raises SketchTreeError."""
+        wish, _ = self._wish(document)
+
+        async def fetched(tell: Tell) -> bytes:
+            return await self._hand.made("standing", *self._wish(document), hears=lambda value: tell(*value[1:]))
+
+        return Whose(Held(("photo", wish.key), wish), fetched)
+
+    def _wish(self, document: Document) -> tuple[Wish, dict[str, bytes]]:
+        """(what is wanted of the process, which has the photo now; the foliage that is known)."""
         asked = self._laid.lay(document)
         wish = None if asked is None else Wish.of(document, asked.picture)
         if wish is None:
             raise _NO_TREE
         self._laid.show(self._hand, asked)
-        foliages = self._seen.foliages if self._seen is not None and self._seen.asked.key == asked.key else {}
-        return await self._hand.ask("grown_files", wish, foliages, name, options)[1]
+        return wish, dict(self._seen.foliages) if self._seen is not None and self._seen.asked.key == asked.key else {}
 
     def heard(self, number: int, value: tuple) -> None:
         """The process tells how far it is."""

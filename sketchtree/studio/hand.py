@@ -40,6 +40,7 @@ class Hand:
         self.role, self._database, self._tell, self._on_end = role, database, tell, ended
         self._loop = asyncio.get_running_loop()
         self._waiting: dict[int, asyncio.Future] = {}
+        self._hears: dict[int, Callable[[object], None]] = {}  # who is told what one job tells
         self._number, self._pipe, self._process = 0, None, None
         self.begun = 0  # how many times: another process knows nothing of what the one before had made
 
@@ -77,6 +78,27 @@ class Hand:
         self._send(kind, arguments)
         return self._number, answer
 
+    async def made(self, kind: str, *arguments: object, hears: Callable[[object], None] | None = None) -> object:
+        """The answer to one job; `hears` is told what it tells on its way. Whoever does not want it any more cancels it: it ends at its next pulse, and nothing else does."""
+        number, answer = self.ask(kind, *arguments)
+        if hears is not None:
+            self._hears[number] = hears
+        try:
+            return await answer
+        except asyncio.CancelledError:
+            self.drop(number)
+            raise
+
+    def drop(self, number: int) -> None:
+        """This job is not wanted."""
+        if self.runs and number in self._waiting:
+            self._send("drop", (), number)
+
+    @property
+    def newest(self) -> int:
+        """The number of the job that was asked last."""
+        return self._number
+
     def waits_for(self, number: int) -> bool:
         """Is the answer to that job still to come?"""
         return number in self._waiting
@@ -86,9 +108,9 @@ class Hand:
         if self.runs:
             self._send("stop", ())
 
-    def _send(self, kind: str, arguments: tuple) -> None:
+    def _send(self, kind: str, arguments: tuple, number: int | None = None) -> None:
         try:
-            self._pipe.send((self._number, kind, pickle.dumps(arguments)))
+            self._pipe.send((self._number if number is None else number, kind, pickle.dumps(arguments)))
         except OSError:  # it ended a moment ago
             self._ended(self._pipe)
 
@@ -112,9 +134,11 @@ class Hand:
 
     def _came(self, number: int, what: str, value: object) -> None:
         if what == "event":
-            self._tell(number, value)
+            hears = self._hears.get(number)
+            self._tell(number, value) if hears is None else hears(value)
             return
         answer = self._waiting.pop(number, None)
+        self._hears.pop(number, None)
         if answer is None or answer.done():
             return
         if what == "trouble":
@@ -137,7 +161,7 @@ class Hand:
 
     def _lose(self) -> None:
         """What was asked of a process that is gone can be asked again."""
-        waiting, self._waiting = self._waiting, {}
+        waiting, self._waiting, self._hears = self._waiting, {}, {}
         for answer in waiting.values():
             if not answer.done():
                 answer.set_exception(Ended("A process that makes the tree ended.", remedy="It is begun again with the next step."))

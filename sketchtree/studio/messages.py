@@ -290,6 +290,7 @@ class Welcome(_Said):
     formats: list[Choice]  # of export; name is the extension with its dot
     folder: str  # its name, not its path
     files: list[str]  # drawings and projects in it
+    moving: list[Choice] = []  # of export of its growth: files that move, and films that this machine can make
     recovered: bool = False  # this drawing comes from a session that ended suddenly
 
 
@@ -452,6 +453,14 @@ class Growing(_Said):
     remark: str = ""  # why it failed
 
 
+class Making(_Said):
+    """How far something is that a page asked for by HTTP, under this id: a growth, a file."""
+
+    id: Id
+    stage: str
+    done: Share
+
+
 class Array(_Record):
     """Where an array lies in the frame, and what it is."""
 
@@ -557,4 +566,4 @@ class Ghost(_Said):
     arrays: list[Array]
 
 
-Event = Welcome | Changed | Working | Trouble | Matches | Alternatives | Saved | Read | Traced | Foliage | Matte | Trunks | Proposed | Growing | Tree | Ghost
+Event = Welcome | Changed | Working | Trouble | Matches | Alternatives | Saved | Read | Traced | Foliage | Matte | Trunks | Proposed | Growing | Making | Tree | Ghost

@@ -59,6 +59,8 @@ class Outbox:
             self._troubles += 1
             self._waiting.pop(("trouble", self._troubles - _TROUBLES), None)
             self._waiting["trouble", self._troubles] = said
+        elif isinstance(event, messages.Making):
+            self._newest(("making", event.id), said)
         else:
             self._newest(type(event), said)
         self._some.set()

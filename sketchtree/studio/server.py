@@ -6,9 +6,9 @@
     /picture/WHAT/NAME.png                thumbnails
     /underlay/DIGEST                      the picture to trace over
     POST /upload?name=&as=                a drawing or project to open; a picture to trace over, to mark a tree in, or to read strokes from
-    POST /export                          the tree, as files
-    POST /growth                          the tree as it grows, an animated GLB; hanging up stops its making
-    /download  /marks  /command           the project; the strokes that mark the photo, as SVG; the command line that makes the same tree
+    POST /export                          the tree, as files, or its growth; hanging up stops their making
+    POST /growth                          the tree as it grows, an animated GLB, likewise
+    /download  /marks  /command?export=   the project; the strokes that mark the photo, as SVG; the command line that makes the same as that export
 """
 
 import asyncio
@@ -25,23 +25,30 @@ from starlette.routing import Route, WebSocketRoute
 from starlette.types import ASGIApp
 from starlette.websockets import WebSocket, WebSocketDisconnect
 
+from sketchtree.editing.document import Document
 from sketchtree.errors import SketchTreeError
 from sketchtree.studio import exports, filing, messages
+from sketchtree.studio.engine import Tell, untold
 from sketchtree.studio.folder import PROJECT, is_name
-from sketchtree.studio.growth import Ageing
+from sketchtree.studio.growth import Growing
 from sketchtree.studio.security import Guard, Guarded
 from sketchtree.studio.session import Session
 from sketchtree.studio.underlays import kind_of
 
 _REQUEST = msgspec.json.Decoder(messages.Request)
 _EXPORT = msgspec.json.Decoder(exports.Export)
-_AGEING = msgspec.json.Decoder(Ageing)
+_GROWING = msgspec.json.Decoder(Growing)
 _SMALL = 10_000  # bytes of a request that says what to export
+_PAUSE = 0.1  # seconds between two tellings of how far something is
 _KEY = re.compile(r"[A-Za-z0-9_.:-]{1,120}")
 _KINDS = {
     ".html": "text/html; charset=utf-8", ".js": "text/javascript; charset=utf-8", ".css": "text/css; charset=utf-8", ".svg": "image/svg+xml",
     ".png": "image/png", ".woff2": "font/woff2", ".json": "application/json", ".wasm": "application/wasm", ".map": "application/json",
 }  # fmt: skip
+
+
+class Unread(SketchTreeError):
+    """What a page asks can't be read."""
 
 
 class Studio:
@@ -68,7 +75,7 @@ class Studio:
             WebSocketRoute("/ws", self._socket),
             Route("/{path:path}", self._file),
         ]
-        handlers = {HTTPException: _not_so, SketchTreeError: _cannot}
+        handlers = {HTTPException: _not_so, SketchTreeError: _cannot, Unread: _unread}
         return Guarded(Starlette(routes=routes, exception_handlers=handlers), guard)
 
     # The page
@@ -153,31 +160,44 @@ class Studio:
         return _json({"revision": desk.revision})
 
     async def _export(self, request: Request) -> Response:
-        try:
-            wanted = _EXPORT.decode(await _body(request, _SMALL))
-        except (msgspec.MsgspecError, UnicodeError, RecursionError) as error:
-            return _json({"message": f"What to export can't be read: {str(error)[:300]}.", "remedy": "Load the page again."}, 400)
+        wanted = _read(_EXPORT, await _body(request, _SMALL), "What to export")
         desk = self._session.desk
         await desk.ready.wait()
         document = desk.document
-        async with self._exporting:
-            of_photo = wanted.tree == "photo" and wanted.format != PROJECT  # a project keeps the photo and its strokes
-            export = desk.engine.grown if of_photo else desk.engine.export
-            files = await export(document, document.name + wanted.format, wanted.options)
+        files = await _while_heard(request, self._exported(document, wanted, self._teller(wanted.id)))
         if len(files) == 1:
             ((name, data),) = files.items()
             return _attachment(name, data)
         return _attachment(document.name + ".zip", await asyncio.to_thread(exports.zipped, files))
 
+    async def _exported(self, document: Document, wanted: exports.Export, tell: Tell) -> dict[str, bytes]:
+        name, engine = document.name + wanted.format, self._session.desk.engine
+        if wanted.growth is not None:
+            return await engine.moving(document, name, wanted.tree, wanted.growth, tell)
+        of_photo = wanted.tree == "photo" and wanted.format != PROJECT  # a project keeps the photo and its strokes
+        async with self._exporting:
+            return await (engine.grown if of_photo else engine.export)(document, name, wanted.options, tell)
+
+    def _teller(self, name: str | None) -> Tell:
+        """Tells pages how far something is that goes by that id."""
+        if name is None:
+            return untold
+        loop, told = asyncio.get_running_loop(), float("-inf")
+
+        def tell(stage: str, done: float) -> None:
+            nonlocal told
+            if loop.time() - told >= _PAUSE:
+                told = loop.time()
+                self._session.desk.tell(messages.Making(id=name, stage=stage, done=min(max(float(done), 0.0), 1.0)))
+
+        return tell
+
     async def _growth(self, request: Request) -> Response:
-        try:
-            wanted = _AGEING.decode(await _body(request, _SMALL))
-        except (msgspec.MsgspecError, UnicodeError, RecursionError) as error:
-            return _json({"message": f"How the tree is to grow can't be read: {str(error)[:300]}.", "remedy": "Load the page again."}, 400)
+        wanted = _read(_GROWING, await _body(request, _SMALL), "How the tree is to grow")
         desk = self._session.desk
         await desk.ready.wait()
         revision = desk.revision
-        data = await _while_heard(request, desk.engine.aged(desk.document, wanted))
+        data = await _while_heard(request, desk.engine.aged(desk.document, wanted, self._teller(wanted.id)))
         return Response(data, media_type="model/gltf-binary", headers={"X-Revision": str(revision)})
 
     async def _download(self, request: Request) -> Response:
@@ -192,11 +212,16 @@ class Studio:
 
     async def _command(self, request: Request) -> Response:
         await self._session.desk.ready.wait()
-        try:
-            wanted = msgspec.convert({"format": ".glb"} | dict(request.query_params), exports.Export, strict=False)
-        except msgspec.ValidationError as error:
-            return _json({"message": f"What to export can't be read: {str(error)[:300]}.", "remedy": "Load the page again."}, 400)
+        wanted = _read(_EXPORT, request.query_params.get("export", '{"format": ".glb"}'), "What to export")
         return PlainTextResponse(exports.command_line(self._session.document, wanted))
+
+
+def _read(decoder: msgspec.json.Decoder, said: bytes | str, what: str):
+    """What a page asks. Raises Unread."""
+    try:
+        return decoder.decode(said)
+    except (msgspec.MsgspecError, UnicodeError, RecursionError) as error:
+        raise Unread(f"{what} can't be read: {str(error)[:300]}.", remedy="Load the page again.") from error
 
 
 async def _send(socket: WebSocket, said: str | bytes) -> None:
@@ -274,3 +299,7 @@ async def _not_so(request: Request, error: HTTPException) -> Response:
 
 async def _cannot(request: Request, error: SketchTreeError) -> Response:
     return _json({"message": error.message, "remedy": error.remedy}, 422)
+
+
+async def _unread(request: Request, error: Unread) -> Response:
+    return _json({"message": error.message, "remedy": error.remedy}, 400)

@@ -7,6 +7,7 @@ there, and sends what should have come out differently. Pictures that have to be
 
 import asyncio
 import hashlib
+import shutil
 from collections.abc import Callable
 from typing import Any
 
@@ -37,7 +38,7 @@ class Stocked:
         self._puts: set[asyncio.Task] = set()
         for name in (
             "cancel", "refresh", "ghost", "glance", "alternatives", "read", "export", "project", "trace", "with_traced", "grow", "stop_growing", "grown", "marks", "proposed",
-            "aged",
+            "aged", "moving",
         ):  # fmt: skip
             setattr(self, name, getattr(crew, name))
 
@@ -132,7 +133,7 @@ class Stocked:
 
     async def catalogue(self) -> messages.Welcome:
         """As `Engine.catalogue`."""
-        name = f"catalogue {' '.join(examples.names())}"
+        name = f"catalogue {' '.join(examples.names())} {shutil.which('ffmpeg')}"  # which films there are hangs on it
         data = await asyncio.to_thread(self._stock.get, name)
         if data is not None:
             try:

@@ -7,19 +7,24 @@ What is shown stays until the next is there, and goes when the tree is not taken
 
 import asyncio
 from collections.abc import Callable, Coroutine, Mapping
+from functools import partial
 
 import msgspec
 
 from sketchtree.editing.document import Document
-from sketchtree.errors import SketchTreeError
+from sketchtree.errors import SketchError, SketchTreeError
 from sketchtree.studio import messages
-from sketchtree.studio.engine import Outcome
+from sketchtree.studio.engine import Outcome, Tell, untold
+from sketchtree.studio.growth import Held, Whose
 from sketchtree.studio.hand import Ended, Hand
 from sketchtree.studio.laid_photo import LaidPhoto
+from sketchtree.studio.making.photo_asked import Asked
 from sketchtree.studio.making.trunk_asked import TrunkWish
 
 _REST = 0.6  # seconds without a change before it is made
 _PAUSE = 0.2  # seconds between two tellings of how far it is
+_PATIENCE = 4.0  # seconds in which what is stopped ends by itself, before its process is ended: a system of equations has no pulse
+_NO_TREE = SketchError("No scribbles tell a tree yet.", remedy="Draw along its trunk, and beside it.")
 
 
 class Trunker:
@@ -29,6 +34,7 @@ class Trunker:
         self._hand, self._laid, self._outcome, self._run = hand, laid, tell, run
         self._loop = asyncio.get_running_loop()
         self._now: tuple[int, TrunkWish] | None = None  # the newest drawing
+        self._asked: Asked | None = None  # the photo that it lies on
         self._works: tuple[TrunkWish, int] | None = None  # what is made, and the number of its job
         self._done: tuple[TrunkWish, str, str] | None = None  # what is not to be made again: its state, and why
         self._soon: asyncio.TimerHandle | None = None
@@ -44,7 +50,7 @@ class Trunker:
         if wish is None:
             self._nothing(revision)
             return
-        self._now, self._is_on = (revision, wish), True
+        self._now, self._asked, self._is_on = (revision, wish), asked, True
         self._laid.show(self._hand, asked)
         if at_once:
             self._done = None
@@ -59,7 +65,7 @@ class Trunker:
                     self._outcome(Outcome(revision, msgspec.structs.replace(event, revision=revision)))
             return
         self._tell("waits")
-        self._soon = self._loop.call_later(0.0 if at_once else _REST, self._begin, asked)
+        self._soon = self._loop.call_later(0.0 if at_once else _REST, self._begin)
 
     def stop(self) -> None:
         """What is made, or is to be, is not wanted."""
@@ -73,6 +79,28 @@ class Trunker:
         self._clear()
         self._hand.end()
 
+    async def files(self, document: Document, name: str, options: dict, tell: Tell = untold) -> dict[str, bytes]:
+        """The files that the tree of a drawing becomes, grown up. Raises SketchTreeError; cancelled, its making ends."""
+        return await self._hand.made("trunk_files", self._wish(document), name, options, hears=_only(tell))
+
+    def whose(self, document: Document) -> Whose:
+        """The tree of a drawing, as one that is to grow. Raises SketchTreeError."""
+        wish = self._wish(document)
+
+        async def fetched(tell: Tell) -> bytes:
+            return await self._hand.made("trunk_standing", self._wish(document), hears=_only(tell))
+
+        return Whose(Held(("trunk", wish.key), wish), fetched)
+
+    def _wish(self, document: Document) -> TrunkWish:
+        """What is wanted of the process, which has the photo now."""
+        asked = self._laid.lay(document)
+        wish = None if asked is None else TrunkWish.of(document, asked.picture)
+        if wish is None:
+            raise _NO_TREE
+        self._laid.show(self._hand, asked)
+        return wish
+
     def heard(self, number: int, value: tuple) -> None:
         """The process tells what it found, and how far it is."""
         if self._works is None or self._works[1] != number or self._now is None:
@@ -84,10 +112,10 @@ class Trunker:
             self._told_at = self._loop.time()
             self._say(state="grows", stage=value[1], done=min(max(float(value[2]), 0.0), 1.0))
 
-    def _begin(self, asked) -> None:
+    def _begin(self) -> None:
         self._soon = None
         revision, wish = self._now
-        self._laid.show(self._hand, asked)
+        self._laid.show(self._hand, self._asked)
         number, answer = self._hand.ask("trunk", revision, wish)
         self._works = wish, number
         self._tell("grows")
@@ -124,8 +152,17 @@ class Trunker:
         """Nothing is made from now on."""
         self._clear()
         if self._works is not None:
-            self._works = None
+            (_, number), self._works = self._works, None
             self._hand.stop()
+            self._loop.call_later(_PATIENCE, partial(self._make_sure, number))
+
+    def _make_sure(self, number: int) -> None:
+        """A job that does not end when it should is ended with its process; what was asked since is asked again."""
+        if self._hand.waits_for(number):
+            again, self._works = self._works is not None, None
+            self._hand.begin()
+            if again:
+                self._begin()
 
     def _clear(self) -> None:
         if self._soon is not None:
@@ -141,3 +178,8 @@ class Trunker:
 
     def _say(self, **fields) -> None:
         self._outcome(Outcome(self._now[0], messages.Growing(revision=self._now[0], **fields)))
+
+
+def _only(tell: Tell) -> Callable[[tuple], None]:
+    """How far a job is; what it found on the way is for those who look at the photo."""
+    return lambda value: tell(*value[1:]) if value[0] == "working" else None

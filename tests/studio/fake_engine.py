@@ -11,7 +11,7 @@ from sketchtree.editing.settled import COURSE, Depths, Settled
 from sketchtree.errors import OptionError, SketchError
 from sketchtree.sketch.strokes import Stroke, StrokeKind
 from sketchtree.studio import messages
-from sketchtree.studio.engine import Outcome
+from sketchtree.studio.engine import Outcome, untold
 
 
 class FakeEngine:
@@ -68,7 +68,7 @@ class FakeEngine:
     def stop_growing(self):
         self.stopped += 1
 
-    async def grown(self, document, name, options):
+    async def grown(self, document, name, options, tell=untold):
         return {name: b"of the photo"}
 
     async def proposed(self, document):
@@ -111,15 +111,20 @@ class FakeEngine:
             names = [f"{name}-{k}" for k in range(2)]
         return Document(strokes={one: Stroke(one, [[0, 0], [0, 10]]) for one in names}, name=name)
 
-    async def export(self, document, name, options):
+    async def export(self, document, name, options, tell=untold):
+        tell("mesh", 0.5)
         if options["solid"]:
             raise OptionError("`--solid` needs a package.", remedy="Install it.")
         return {name: b"one"} if options["levels"] != "apart" else {name: b"one", "räum/tree.png": b"two"}
 
-    async def aged(self, document, ageing):
+    async def aged(self, document, growing, tell=untold):
         if not document.strokes:
             raise SketchError("There is no tree that could grow.", remedy="Draw a trunk first.")
-        return f"{ageing.mode} {ageing.bend:g}".encode()
+        tell("grow", 0.5)
+        return f"{growing.tree} {growing.mode} {growing.bend:g}".encode()
+
+    async def moving(self, document, name, tree, grown, tell=untold):
+        return {name: f"{tree} {grown.mode} {grown.bend:g} {grown.seconds:g}".encode()}
 
     async def project(self, document):
         return json.dumps({"strokes": list(document.strokes)}).encode()

@@ -12,7 +12,7 @@ from sketchtree.editing.document import Document
 from sketchtree.errors import SketchError
 from sketchtree.sketch.strokes import Stroke
 from sketchtree.studio import growth
-from sketchtree.studio.growth import Ageing, Ager
+from sketchtree.studio.growth import Ageing, Ager, Held, Whose
 
 DRAWING = Document(strokes={"trunk": Stroke("trunk", np.array([[0.0, 0.0], [0.0, 9.0]]))})
 
@@ -21,15 +21,24 @@ class OneHand:
     """A process that answers when it is told to."""
 
     def __init__(self):
-        self.asked, self.stops, self.ends = [], 0, 0
+        self.asked, self.stops, self.ends, self.begun, self.hears = [], 0, 0, 0, None
 
-    def ask(self, kind, document, mode, bend):
+    async def made(self, *asked, hears=None):
         answer = asyncio.get_running_loop().create_future()
-        self.asked.append(((kind, mode, bend), answer))
-        return len(self.asked) - 1, answer
+        self.asked.append((asked, answer))
+        self.hears = hears
+        try:
+            return await answer
+        except asyncio.CancelledError:
+            self.stops += 1
+            raise
 
-    def stop(self):
-        self.stops += 1
+    def ready(self):
+        self.begun = self.begun or 1
+
+    @property
+    def newest(self):
+        return len(self.asked) - 1
 
     def end(self):
         self.ends += 1
@@ -53,7 +62,7 @@ def play(scene):
 
 
 async def begun(ager, document=DRAWING, **ageing):
-    task = asyncio.create_task(ager.made(document, Ageing(**ageing)))
+    task = asyncio.create_task(ager.made(Whose.drawn(document), Ageing(**ageing)))
     await asyncio.sleep(0.001)
     return task
 
@@ -62,9 +71,10 @@ def test_the_same_growth_is_made_once():
     async def scene(hand, ager):
         task = await begun(ager, bend=5)
         hand.asked[0][1].set_result(b"glb")
-        assert await task == b"glb" and hand.asked[0][0] == ("age", "full", 5.0)
+        (kind, document, *how), _ = hand.asked[0]
+        assert await task == b"glb" and (kind, document.strokes, how) == ("age", DRAWING.strokes, ["full", 5.0])
         named = DRAWING.replace(name="another name")
-        assert await ager.made(named, Ageing(bend=5)) == b"glb" and len(hand.asked) == 1
+        assert await ager.made(Whose.drawn(named), Ageing(bend=5)) == b"glb" and len(hand.asked) == 1
 
     play(scene)
 
@@ -124,10 +134,63 @@ def test_it_is_forgotten_when_nobody_asks_for_a_while(monkeypatch):
     play(scene)
 
 
+def test_a_tree_that_stands_elsewhere_is_fetched_once_for_all_ways_to_grow():
+    async def scene(hand, ager):
+        fetched = []
+
+        async def fetch(tell):
+            fetched.append(tell("propagate", 0.5))
+            return b"standing"
+
+        for number, mode in enumerate(("full", "age")):
+            told = []
+            whose = Whose(Held("elm", object()), fetch)
+            task = asyncio.create_task(ager.made(whose, Ageing(mode=mode), lambda stage, done: told.append((stage, round(done, 3)))))
+            await asyncio.sleep(0.001)
+            if number == 0:
+                assert hand.asked[-1][0] == ("stand", "tree 1", b"standing")
+                hand.asked[-1][1].set_result(None)
+                await asyncio.sleep(0.001)
+            hand.hears(("working", "grow", 0.5))
+            assert hand.asked[-1][0] == ("age", "tree 1", mode, 0.0)
+            hand.asked[-1][1].set_result(b"glb")
+            assert await task == b"glb" and told[-1] == ("grow", 0.7) and told[0] == (("propagate", 0.2), ("grow", 0.7))[number]
+        assert len(fetched) == 1
+        hand.begun += 1  # another process knows of nothing
+        task = asyncio.create_task(ager.made(whose, Ageing(mode="scale")))
+        await asyncio.sleep(0.001)
+        assert len(fetched) == 2 and hand.asked[-1][0][0] == "stand"
+        task.cancel()
+
+    play(scene)
+
+
+def test_trees_are_the_same_while_what_they_hang_on_is():
+    one, same, other = Whose.drawn(DRAWING).key, Whose.drawn(DRAWING.replace(name="x")).key, Whose.drawn(DRAWING.replace(seed=3)).key
+    assert one == same != other
+
+
+def test_files_to_keep_are_made_each_time_and_the_growth_of_the_page_stays():
+    async def scene(hand, ager):
+        task = await begun(ager)
+        hand.asked[0][1].set_result(b"glb")
+        await task
+        for film, kind in ((False, "moving"), (True, "film")):
+            task = asyncio.create_task(ager.files(Whose.drawn(DRAWING), "oak.usd", Ageing(mode="age"), 4.0, film=film))
+            await asyncio.sleep(0.001)
+            (said, _, *how), answer = hand.asked[-1]
+            assert (said, how) == (kind, ["oak.usd", "age", 0.0, 4.0])
+            answer.set_result({"oak.usd": b"usd"})
+            assert await task == {"oak.usd": b"usd"}
+        assert await ager.made(Whose.drawn(DRAWING), Ageing()) == b"glb" and len(hand.asked) == 3
+
+    play(scene)
+
+
 def test_an_empty_page_has_no_growth():
     async def scene(hand, ager):
         with pytest.raises(SketchError, match="There is no tree that could grow.") as refused:
-            await ager.made(Document(), Ageing())
+            await ager.made(Whose.drawn(Document()), Ageing())
         assert refused.value.remedy == "Draw a trunk first."
 
     play(scene)
@@ -143,12 +206,12 @@ def own(tmp_path, monkeypatch):
 def test_a_page_gets_it_as_a_glb_of_a_revision(own):
     own.post("/upload?name=tree.svg", b"<svg/>")
     answer = own.post("/growth", json.dumps({"mode": "age", "bend": -12.5}))
-    assert (answer.status_code, answer.content, answer.headers["content-type"]) == (200, b"age -12.5", "model/gltf-binary")
+    assert (answer.status_code, answer.content, answer.headers["content-type"]) == (200, b"drawn age -12.5", "model/gltf-binary")
     assert int(answer.headers["x-revision"]) == 2
 
 
 def test_a_tree_that_can_not_grow_says_why(own, monkeypatch):
-    async def refuses(self, document, ageing):
+    async def refuses(self, document, growing, tell):
         raise SketchError("There is no tree that could grow.", remedy="Draw a trunk first.")
 
     monkeypatch.setattr(FakeEngine, "aged", refuses)

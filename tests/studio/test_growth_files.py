@@ -33,7 +33,7 @@ def test_another_mode_makes_no_other_tree(jobs):
     stages = []
     jobs.growths.glb(DOCUMENT, "full", 0.0, Watch())
     jobs.growths.glb(DOCUMENT, "scale", 0.0, Watch(on_stage=stages.append))
-    assert stages == ["mesh", "export"]
+    assert stages == ["grow", "export"]
 
 
 def test_it_ends_between_its_steps_when_it_is_not_wanted_any_more(jobs):

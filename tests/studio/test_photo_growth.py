@@ -7,9 +7,11 @@ import painted_photo as painted
 import pytest
 from click.testing import CliRunner
 
+from sketchtree.animation.posing import posed
 from sketchtree.commands.photo import photo as photo_command
 from sketchtree.editing.document import Document
 from sketchtree.errors import SketchError
+from sketchtree.export.gltf.read import read_asset
 from sketchtree.foliage.wear import FREE
 from sketchtree.photo.read_strokes import read_strokes
 from sketchtree.photo.wanted import ARRANGEMENTS, LIBRARIES, PhotoOptions
@@ -17,6 +19,7 @@ from sketchtree.propagate.attractors.library import NAMES
 from sketchtree.studio import exports
 from sketchtree.studio.making import photo_answers
 from sketchtree.studio.making.frames import opened
+from sketchtree.studio.making.growth import Growths
 from sketchtree.studio.making.photo_asked import Asked, Wish
 from sketchtree.studio.making.photo_growth import Growth
 from sketchtree.studio.making.photo_marks import marks
@@ -87,6 +90,23 @@ def test_its_files_are_those_of_the_command_line(growth, tmp_path):
     assert list(found) == ["elm.glb"] and found["elm.glb"] == (tmp_path / "elm.glb").read_bytes()
 
 
+def read(folder, data: bytes):
+    (folder / "read.glb").write_bytes(data)
+    return read_asset(folder / "read.glb")
+
+
+def test_it_grows_up_to_the_tree_that_its_file_has(growth, tmp_path):
+    growths = Growths(None)
+    growths.lay("elm", growth.standing(wish(wanted()), {}, Watch()))
+    moving = growths.files("elm", "elm.glb", "full", 0.0, 4.0, Watch())["elm.glb"]
+    still = growth.files(wish(wanted()), {}, "elm.glb", FILES, Watch())["elm.glb"]
+    asset, end = read(tmp_path, moving), read(tmp_path, still)
+    assert asset.animation.seconds == 4.0 and asset.about == end.about
+    assert {mesh.material.name for mesh in end.parts} == {mesh.material.name for mesh in asset.parts}
+    assert sum(mesh.triangle_count for mesh in posed(asset, 4.0)) == sum(mesh.triangle_count for mesh in end.parts)
+    assert sum(mesh.triangle_count for mesh in posed(asset, 0.0)) == 0
+
+
 def test_strokes_kept_as_svg_mark_the_same_to_the_last_bit(growth, tmp_path):
     document = wanted()
     asked = Asked.of(document, "elm")
@@ -97,7 +117,7 @@ def test_strokes_kept_as_svg_mark_the_same_to_the_last_bit(growth, tmp_path):
     assert all((one == other).all() for one, other in zip(there.branches, here.branches, strict=True))
 
 
-def test_two_crowns_are_two_trees(growth):
+def test_two_crowns_are_two_trees(growth, tmp_path):
     halves = [painted.mark(f"crown {k}", [(x / 2 + 300 * k, y) for x, y in painted.CROWN], crown=True) for k in range(2)]
     trunks = [painted.mark(f"trunk {k}", [((x - 300) / 2 + 150 + 300 * k, y) for x, y in line]) for k, line in enumerate((painted.TRUNK, painted.TRUNK))]
     document = painted.document(*halves, *trunks, picture=PICTURE).replace(photo=dataclasses.replace(ROUNDS, replacements=2))
@@ -105,6 +125,10 @@ def test_two_crowns_are_two_trees(growth):
     assert len(set(head.owners)) == len(head.owners)
     width = painted.AT[2]
     assert (head.high[0] - head.low[0]) / head.scale > 0.5 * width  # one stands beside the other
+    growths = Growths(None)
+    growths.lay("elms", growth.standing(wish(document), {}, Watch()))
+    grown = read(tmp_path, growths.glb("elms", "age", 0.0, Watch()))
+    assert {mesh.name.rpartition("_")[2] for mesh in grown.parts} == {"1", "2"} and grown.armature.name.count("root") == 1
 
 
 def test_what_marks_no_tree_grows_none(growth):

@@ -1,13 +1,17 @@
 """The server lets in only its own page, answers what that asks for, and stays alive whatever is thrown at it."""
 
+import asyncio
 import io
 import json
 import socket
+import threading
 import time
 import zipfile
 from contextlib import ExitStack
+from urllib.parse import quote
 
 import pytest
+from fake_engine import FakeEngine
 from running import running
 from talking import drawn, stroke
 from websockets.exceptions import ConnectionClosed, InvalidStatus
@@ -419,6 +423,41 @@ def test_an_export_is_one_file_or_several_in_a_zip(own):
     assert several.headers["content-disposition"].endswith("%C3%BCbung.zip")
 
 
+def test_an_export_can_be_of_the_growth_of_any_tree(own):
+    own.post("/upload?name=oak.svg", b"<svg/>")
+    for format, tree, growth, said in ((".usdz", "drawn", {}, b"drawn full 0 10"), (".gif", "photo", {"mode": "age", "bend": -12.5, "seconds": 4}, b"photo age -12.5 4")):
+        answer = own.post("/export", json.dumps({"format": format, "tree": tree, "growth": growth}))
+        assert answer.content == said and f"oak{format}" in answer.headers["content-disposition"]
+
+
+def test_pages_are_told_how_far_it_is_under_the_id_that_it_was_asked_with(own):
+    own.post("/upload?name=oak.svg", b"<svg/>")
+    with own.page() as page:
+        own.hello(page)
+        for address, more, stage in (("/export", {"format": ".glb"}, "mesh"), ("/growth", {}, "grow")):
+            own.post(address, json.dumps({"id": stage, **more}))
+            assert told(page, "making") == {"type": "making", "id": stage, "stage": stage, "done": 0.5}
+
+
+def test_an_export_that_nobody_waits_for_any_more_ends(own, monkeypatch):
+    begun, ended = threading.Event(), threading.Event()
+
+    async def endless(self, *asked):
+        begun.set()
+        try:
+            await asyncio.Event().wait()
+        finally:
+            ended.set()
+
+    monkeypatch.setattr(FakeEngine, "moving", endless)
+    body = json.dumps({"format": ".gif", "growth": {}}).encode()
+    with socket.create_connection((own.host.split(":")[0], own.port)) as line:
+        head = f"POST /export HTTP/1.1\r\nHost: {own.host}\r\nOrigin: {own.base}\r\nCookie: {own.cookie}\r\nContent-Length: {len(body)}\r\n\r\n"
+        line.sendall(head.encode() + body)
+        assert begun.wait(20)
+    assert ended.wait(20)
+
+
 def test_what_cannot_be_exported_says_why(studio):
     answer = studio.post("/export", json.dumps({"format": ".glb", "solid": True}))
     assert answer.status_code == 422 and answer.json() == {"message": "`--solid` needs a package.", "remedy": "Install it."}
@@ -442,8 +481,10 @@ def test_the_project_can_be_kept_and_the_command_line_copied(own):
     assert own.get("/command").text == (
         "sketchtree build 'my tree'\"'\"'s.sketchtree' -o 'my tree'\"'\"'s.glb' --template oak --planar --generations 3 --sag 0.5 --season autumn --seed 7"
     )
-    assert own.get("/command?format=.usdz&lod=2&wood=tubes").text.endswith("s.usdz' --template oak --planar --generations 3 --sag 0.5 --season autumn --wood tubes --lod 2 --seed 7")
-    assert own.get("/command?format=/etc").status_code == 400
+    assert own.get("/command?export=" + quote(json.dumps({"format": ".usdz", "lod": 2, "wood": "tubes"}))).text.endswith("s.usdz' --template oak --planar --generations 3 --sag 0.5 --season autumn --wood tubes --lod 2 --seed 7")
+    assert own.get("/command?export=" + quote('{"format": "/etc"}')).status_code == 400
+    grown = {"format": ".mp4", "growth": {"mode": "age", "bend": -20, "seconds": 4}}
+    assert own.get("/command?export=" + quote(json.dumps(grown))).text.endswith("s.mp4' --mode age --bend -20 --seconds 4")
 
 
 # Beginning

@@ -49,7 +49,7 @@ class FakeCrew:
         self.shown, self.digests, self.asked, self.had = ({}, None), digests or {}, [], []
         for name in (
             "cancel", "refresh", "ghost", "glance", "alternatives", "read", "export", "project", "trace", "with_traced", "grow", "stop_growing", "grown", "marks", "proposed",
-            "aged",
+            "aged", "moving",
         ):  # fmt: skip
             setattr(self, name, None)
 

@@ -31,6 +31,16 @@ def test_what_the_server_keeps_between_two_jobs_imports_nothing_of_what_makes_tr
     assert subprocess.run([sys.executable, "-c", said], capture_output=True, text=True, check=True).stdout == "False False\n"
 
 
+def test_one_job_can_be_dropped_without_those_round_it():
+    ours, theirs = multiprocessing.Pipe()
+    desk = Desk(theirs, gone=lambda: None)
+    for job in ((1, "trunk", b""), (2, "trunk_files", b""), (3, "film", b""), (2, "drop", b""), (4, "full", b"")):
+        ours.send(job)
+    waiting = [desk.jobs.get(timeout=60)[1:3] for _ in range(4)]
+    assert waiting == [(1, "trunk"), (2, "trunk_files"), (3, "film"), (4, "full")]
+    assert [desk.stopped(number, kind) for number, kind in waiting] == [False, True, False, False]
+
+
 def test_the_thread_that_listens_unpickles_no_argument():
     ours, theirs = multiprocessing.Pipe()
     desk = Desk(theirs, gone=lambda: None)  # the usual way would end the tests, as if all were well

@@ -6,11 +6,15 @@ from sketchtree.foliage.species.blossoms import BLOSSOMS
 from sketchtree.geometry.bark import bark_names
 from sketchtree.studio import examples, messages
 from sketchtree.studio.making.textures import SEASONS
+from sketchtree.view.film import encoder
 
 _FORMATS = {
     ".glb": "glTF, one file", ".gltf": "glTF, with its parts beside it", ".usdz": "USD, one file with textures", ".usd": "USD", ".usda": "USD as text", ".obj": "OBJ",
     ".ply": "PLY", ".stl": "STL, for printing", ".3mf": "3MF, for printing", ".swc": "SWC skeleton", ".mtg": "MTG skeleton", ".json": "JSON skeleton", ".h5": "HDF5 skeleton",
     ".sketchtree": "SketchTree project",
+}  # fmt: skip
+_MOVING = {
+    ".glb": "glTF, animated", ".usdz": "USD, animated, one file", ".usd": "USD, animated", ".mp4": "Film", ".gif": "Film for the web",
 }  # fmt: skip
 
 
@@ -25,6 +29,7 @@ def catalogue(templates) -> messages.Welcome:
         seasons=list(SEASONS),
         examples=[messages.Choice(name=name, title=examples.title(name), picture=f"/picture/example/{name}.png") for name in examples.names()],
         formats=[messages.Choice(name=name, title=_FORMATS[name]) for name in formats],
+        moving=[messages.Choice(name=name, title=title) for name, title in _MOVING.items() if name != ".mp4" or encoder() is not None],
         folder="",
         files=[],
     )

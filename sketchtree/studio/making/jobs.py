@@ -10,9 +10,11 @@ from sketchtree.options import FileOptions, options_as_dict
 from sketchtree.photo.wanted import PhotoOptions
 from sketchtree.sketch.files.project import TRUNK
 from sketchtree.studio.making.textures import Textures, thumbnail
-from sketchtree.studio.making.watching import PHOTO, pulses, watching
+from sketchtree.studio.making.watching import AGED, FILMED, PHOTO, SCRIBBLED, USUAL, pulses, watching
 from sketchtree.templates.store.database import Database
 from sketchtree.trunk.wanted import TrunkChoices
+
+_UPTO = {"grow": PHOTO, "grown_files": PHOTO, "standing": PHOTO, "trunk": SCRIBBLED, "trunk_files": SCRIBBLED, "trunk_standing": SCRIBBLED, "age": AGED, "moving": AGED, "film": FILMED}
 
 
 class Jobs:
@@ -26,8 +28,7 @@ class Jobs:
 
     def do(self, number: int, kind: str, arguments: tuple) -> object:
         """The answer to one job."""
-        upto = {"upto": PHOTO} if kind in ("grow", "trunk") else {}
-        watch = watching(lambda stage, done: self.desk.say(number, "event", ("working", stage, done)), lambda: self.desk.stopped(number, kind), **upto)
+        watch = watching(lambda stage, done: self.desk.say(number, "event", ("working", stage, done)), lambda: self.desk.stopped(number, kind), _UPTO.get(kind, USUAL))
         return getattr(self, f"_{kind}")(number, watch, *arguments)
 
     @cached_property
@@ -183,8 +184,25 @@ class Jobs:
     def _trunk(self, number, watch, revision: int, wish):
         return self.trunk_bench.frame(revision, wish, lambda event: self.desk.say(number, "event", ("event", event)), watch)
 
-    def _age(self, number, watch, document: Document, mode: str, bend: float):
-        return self.growths.glb(document, mode, bend, watch)
+    def _standing(self, number, watch, wish, foliages: dict[str, bytes]):
+        return self.growth.standing(wish, foliages, watch)
+
+    def _trunk_files(self, number, watch, wish, name: str, options: dict):
+        return self.trunk_bench.files(wish, name, options, watch)
+
+    def _trunk_standing(self, number, watch, wish):
+        return self.trunk_bench.standing(wish, watch)
+
+    def _stand(self, number, watch, name: str, standing: bytes):
+        self.growths.lay(name, standing)
+
+    def _age(self, number, watch, of: Document | str, mode: str, bend: float):
+        return self.growths.glb(of, mode, bend, watch)
+
+    def _moving(self, number, watch, of: Document | str, name: str, mode: str, bend: float, seconds: float):
+        return self.growths.files(of, name, mode, bend, seconds, watch)
+
+    _film = _moving
 
     def _read(self, number, watch, data: bytes, name: str):
         from sketchtree.studio.making.documents import document_of

@@ -12,17 +12,18 @@ from pathlib import Path
 from sketchtree.errors import SketchError
 from sketchtree.export.files import check_extension, check_program
 from sketchtree.keys import root_key
-from sketchtree.options import FileOptions, options_as_dict
-from sketchtree.photo_tree import GrownInPhoto, complete_photo, each_grown, to_finish
+from sketchtree.options import FileOptions, TreeOptions, options_as_dict
+from sketchtree.photo_tree import GrownInPhoto, PhotoModel, complete_photo, each_grown, to_finish
 from sketchtree.pipeline import leafy
 from sketchtree.planting import tree_key
+from sketchtree.studio.making.growth import Standing, Still
 from sketchtree.studio.making.photo_asked import Wish
 from sketchtree.studio.making.photo_bench import PhotoBench, crown_name
 from sketchtree.studio.making.photo_frame import photo_frame
 from sketchtree.studio.making.photo_marks import Marks
 from sketchtree.studio.making.work import signature
 from sketchtree.templates.store.database import Database
-from sketchtree.tree_output import WHOLE, Made, check_files, write_output
+from sketchtree.tree_output import WHOLE, Made, about_of, check_files, write_output
 from sketchtree.watch import Watch
 
 _GROWING = ("foliage", "trace", "library", "replacements", "alternate")  # options that the wood hangs on
@@ -57,13 +58,20 @@ class Growth:
             check_program(path)
             check_files(path, files, instead="Choose .glb.")
             tree = replace(wish.tree, **{key: options[key] for key in ("wood", "solid") if options.get(key)})
-            found = self._marked(wish)
-            made = complete_photo(
-                self.bench.photo, self._each(wish, found, foliages, watch), self._templates(wish), key=root_key(wish.asked.seed), wanted=wish.wanted, tree=tree, watch=watch
-            )
+            made = self._complete(wish, tree, foliages, watch)
             with watch("export"):
                 write_output(made.model, path, Made(wish.asked.seed, options_as_dict(wish.reading, tree, files, wish.wanted)), files)
             return {str(one.relative_to(folder)): one.read_bytes() for one in sorted(Path(folder).rglob("*")) if one.is_file()}
+
+    def standing(self, wish: Wish, foliages: Mapping[str, bytes], watch: Watch) -> bytes:
+        """The trees grown up, for the process that has them grow (`making.growth.Standing`)."""
+        made = self._complete(wish, wish.tree, foliages, watch)
+        return pickle.dumps(Standing(tuple(Still.of(tree.model) for tree in made.trees), about_of(made.trees[0].model, Made(wish.asked.seed, {}))))
+
+    def _complete(self, wish: Wish, tree: TreeOptions, foliages: Mapping[str, bytes], watch: Watch) -> PhotoModel:
+        found = self._marked(wish)
+        each = self._each(wish, found, foliages, watch)
+        return complete_photo(self.bench.photo, each, self._templates(wish), key=root_key(wish.asked.seed), wanted=wish.wanted, tree=tree, watch=watch)
 
     def _marked(self, wish: Wish) -> Marks:
         """The trees that are marked. Raises SketchTreeError where none is."""

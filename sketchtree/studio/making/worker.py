@@ -2,7 +2,7 @@
 
 A job is (number, kind, pickled arguments), an outcome (number, what, value): "event" (an event or a frame, with what is settled), "done" (the answer), "trouble" (a SketchTreeError),
 "stopped", "fault" (a fault of ours, as text). Of kinds in `NEWEST` only the newest job matters: an older one that waits is dropped, one that runs ends at its next step.
-`LAST` wait for all others: what the tree wears goes before pictures of what it might wear. `KNOWN` wait for nothing: they ask of the tree that is made already, and
+Any job ends at its next step, or is never begun, once it is dropped. `LAST` wait for all others: what the tree wears goes before pictures of what it might wear. `KNOWN` wait for nothing: they ask of the tree that is made already, and
 are answered on a thread of their own while the next one is being made.
 The pipe is private to the two processes. Arguments are unpickled, which imports what they are made of, where the jobs are done: imports on two threads at once
 may see a module that is half there.
@@ -22,7 +22,7 @@ from pathlib import Path
 
 from sketchtree.errors import SketchTreeError
 
-NEWEST = ("full", "quick", "ghost", "glance", "alternatives", "trace", "tint", "grow", "trunk", "age")
+NEWEST = ("full", "quick", "ghost", "glance", "alternatives", "trace", "tint", "grow", "trunk")
 LAST = ("picture",)
 KNOWN = ("find", "frame")
 
@@ -40,6 +40,7 @@ class Desk:
         self.newest: dict[str, int] = {}
         self._idle_since: float | None = float("-inf")  # None: a job is being done
         self.ended = -1  # jobs up to this number are to stop
+        self.dropped: set[int] = set()  # jobs that are not wanted
         threading.Thread(target=self._listen, daemon=True).start()
 
     def _listen(self) -> None:
@@ -49,6 +50,9 @@ class Desk:
                 if kind == "stop":
                     self.ended = number
                     continue
+                if kind == "drop":
+                    self.dropped.add(number)
+                    continue
                 self.newest[kind] = number
                 (self.known if kind in KNOWN else self.jobs).put((kind in LAST, number, kind, arguments))
         except (EOFError, OSError):
@@ -56,7 +60,7 @@ class Desk:
 
     def stopped(self, number: int, kind: str) -> bool:
         """Is the job not wanted any more?"""
-        return kind in NEWEST and (number <= self.ended or number < self.newest[kind])
+        return number in self.dropped or kind in NEWEST and (number <= self.ended or number < self.newest[kind])
 
     @contextmanager
     def working(self) -> Iterator[None]:

@@ -25,6 +25,7 @@ export interface Welcome {
   formats: Choice[]; // of export; name is the extension with its dot
   folder: string; // its name, not its path
   files: string[]; // drawings and projects in it
+  moving: Choice[]; // of export of its growth: files that move, and films that this machine can make
   recovered: boolean; // this drawing comes from a session that ended suddenly
 }
 
@@ -252,6 +253,14 @@ export interface Growing {
   stage: string;
   done: number;
   remark: string; // why it failed
+}
+
+/** How far something is that a page asked for by HTTP, under this id: a growth, a file. */
+export interface Making {
+  type: "making";
+  id: string;
+  stage: string;
+  done: number;
 }
 
 /** The wood of one chunk in one material. Arrays, by `array` + one of these: `position` f4 (vertex 3) metres, `normal` i1 (vertex 4) of 127, `uv` f4 (vertex 2), `limb` u2 (vertex) index of `limbs`, `index` u4 (triangle 3). */
@@ -533,4 +542,4 @@ export interface Propose {
 }
 
 export type Request = Hello | Strokes | Sketching | Choose | ChooseTrunk | Glance | Hold | Flip | Mirror | Lock | Delete | Settle | Readings | Pick | Undo | Redo | Cancel | New | Open | Save | SetUnderlay | UseTraced | Grow | Propose;
-export type Event = Welcome | Changed | Working | Trouble | Matches | Alternatives | Saved | Read | Traced | Foliage | Matte | Trunks | Proposed | Growing | Tree | Ghost;
+export type Event = Welcome | Changed | Working | Trouble | Matches | Alternatives | Saved | Read | Traced | Foliage | Matte | Trunks | Proposed | Growing | Making | Tree | Ghost;

@@ -3,7 +3,7 @@
 import { button } from "../../parts/button";
 import { element } from "../../parts/element";
 import { ask, Refused } from "../ask";
-import { USUAL, type ExportOptions, type OptionName } from "./export_options";
+import type { ExportOptions } from "./export_options";
 
 export interface CommandLine {
   copy: HTMLButtonElement;
@@ -22,7 +22,7 @@ export function commandLine(options: () => ExportOptions, tree: () => keyof type
   const shown = element("div", { class: "command-shown" }, element("h3", {}, "In a terminal"), line, words);
   const fetched = async (): Promise<void> => {
     try {
-      line.value = (await (await ask(`command?${query(options(), tree())}`)).text()).trim();
+      line.value = (await (await ask(`command?export=${encodeURIComponent(JSON.stringify({ format: ".glb", tree: tree(), ...options() }))}`)).text()).trim();
     } catch (error) {
       if (error instanceof Refused) failed(error);
       return;
@@ -37,10 +37,4 @@ export function commandLine(options: () => ExportOptions, tree: () => keyof type
   const hint = "A command that makes this very tree again";
   const copy = button({ label: "Copy command line", icon: "copy", testId: "copy-command", hint, onPress: () => { void fetched(); } });
   return { copy, shown, reset: () => { shown.hidden = true; } };
-}
-
-/** What is not as usual. */
-function query(options: ExportOptions, tree: string): string {
-  const others = (Object.keys(USUAL) as OptionName[]).filter((name) => options[name] !== USUAL[name]);
-  return new URLSearchParams([...(tree === "photo" ? [["tree", tree]] : []), ...others.map((name) => [name, String(options[name])])]).toString();
 }
