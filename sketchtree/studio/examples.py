@@ -1,12 +1,15 @@
-"""Which drawings come with the program, to begin with?"""
+"""Which drawings come with the program, to begin with? And which photo, with scribbles on it?"""
 
 from pathlib import Path
 
 from sketchtree.errors import SketchError
 
 FIRST = "oak_50.svg"  # shown when the studio is started with no file
+SCRIBBLED = {"sugar_maple.jpg": "sugar_maple_marks.json"}  # photos of a bare tree, and the scribbles on each
 _KINDS = (".svg", ".json")
-_TITLES = {"curvy.svg": "Wind-swept pine", "oak_50.svg": "Old oak", "poplar.svg": "Lombardy poplar"}  # where the file's name says less
+_TITLES = {
+    "curvy.svg": "Wind-swept pine", "oak_50.svg": "Old oak", "poplar.svg": "Lombardy poplar", "sugar_maple.jpg": "Bare maple, a photo",
+}  # fmt: skip - where the file's name says less
 
 
 def folder() -> Path:
@@ -16,8 +19,13 @@ def folder() -> Path:
 
 
 def names() -> list[str]:
-    """Names of their files."""
-    return sorted(path.name for path in folder().glob("*.*") if path.suffix in _KINDS)
+    """Of the drawings, then of the photos."""
+    return sorted(path.name for path in folder().glob("*.*") if path.suffix in _KINDS) + sorted(SCRIBBLED)
+
+
+def files() -> list[str]:
+    """Of all that they are made of, from the folder on."""
+    return [name for name in names() if name not in SCRIBBLED] + [f"photo/{name}" for pair in SCRIBBLED.items() for name in pair]
 
 
 def title(name: str) -> str:
@@ -26,7 +34,12 @@ def title(name: str) -> str:
 
 
 def data(name: str) -> bytes:
-    """The bytes of one. Raises SketchError."""
+    """The bytes of a drawing, or of a photo. Raises SketchError."""
     if name not in names():
         raise SketchError("There is no example of that name.", remedy=f"The examples are {', '.join(names())}.")
-    return (folder() / name).read_bytes()
+    return (folder() / "photo" / name if name in SCRIBBLED else folder() / name).read_bytes()
+
+
+def scribbles(name: str) -> bytes:
+    """Those on a photo of `SCRIBBLED`, as JSON."""
+    return (folder() / "photo" / SCRIBBLED[name]).read_bytes()

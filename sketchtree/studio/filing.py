@@ -16,6 +16,7 @@ from sketchtree.studio.folder import PROJECT, is_name, project_name
 from sketchtree.studio.ids import fitting
 from sketchtree.studio.journal_lines import Line
 from sketchtree.studio.recovery import StudioError, journal_of
+from sketchtree.studio.scribbled_example import scribbled_example
 from sketchtree.studio.underlays import placed
 
 
@@ -34,6 +35,9 @@ async def welcome(desk: Desk, page: Page) -> None:
 
 async def open_named(desk: Desk, name: str, *, example: bool) -> None:
     """A file of the folder, or an example, takes the place of what is there, once it is read, as a step. Raises SketchTreeError."""
+    if example and name in examples.SCRIBBLED:
+        await _open_scribbled(desk, name)
+        return
     if example:
         await open_bytes(desk, examples.data(name), name)
         return
@@ -47,6 +51,13 @@ async def open_named(desk: Desk, name: str, *, example: bool) -> None:
         async with desk.turn:
             desk.files.signatures[name] = signature
             desk.step(document, "open", saved_as=name if name.lower().endswith(PROJECT) else None)
+
+
+async def _open_scribbled(desk: Desk, name: str) -> None:
+    """The example of a photo with scribbles on it takes the place of what is there, as a step."""
+    document = fitting(await asyncio.to_thread(scribbled_example, name))
+    async with desk.turn:
+        desk.step(document, "open")
 
 
 async def open_bytes(desk: Desk, data: bytes, name: str) -> None:

@@ -99,7 +99,8 @@ def test_strokes_that_edits_speak_of_keep_their_names():
 
 def test_every_example_comes_with_the_package():
     included = tomllib.loads((ROOT / "pyproject.toml").read_text())["tool"]["hatch"]["build"]["targets"]["wheel"]["force-include"]
-    assert {Path(source).name for source in included if source.startswith("examples/")} == set(examples.names()) and examples.FIRST in examples.names()
+    assert {source.removeprefix("examples/") for source in included if source.startswith("examples/")} == set(examples.files()) and examples.FIRST in examples.names()
+    assert all((examples.folder() / name).is_file() for name in examples.files())
 
 
 def test_there_is_no_other_example():

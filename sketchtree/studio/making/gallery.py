@@ -6,6 +6,7 @@ from sketchtree.foliage.species.blossoms import BLOSSOMS
 from sketchtree.geometry.bark import bark_names
 from sketchtree.studio import examples, messages
 from sketchtree.studio.making.textures import SEASONS
+from sketchtree.studio.scribbled_example import scribbled_picture
 from sketchtree.view.film import encoder
 
 _FORMATS = {
@@ -44,6 +45,8 @@ def example_picture(name: str) -> bytes | None:
 
     if name not in examples.names():
         return None
+    if name in examples.SCRIBBLED:
+        return scribbled_picture(name)
     strokes = document_of(examples.data(name), name).strokes.values()
     low = [min(float(stroke.points[:, axis].min()) for stroke in strokes) for axis in (0, 1)]
     high = [max(float(stroke.points[:, axis].max()) for stroke in strokes) for axis in (0, 1)]

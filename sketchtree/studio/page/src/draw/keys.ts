@@ -105,6 +105,7 @@ function deleteSelected(desk: Desk): void {
   if (store.ui.tool === "vertices") {
     if (desk.deed) act(desk, desk.deed);
     desk.deed = null;
+    desk.tellDeed(0, 0); // nothing
     return desk.repaintLive();
   }
   const own = new Set(here(store).map((stroke) => stroke.id));

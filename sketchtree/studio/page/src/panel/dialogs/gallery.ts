@@ -8,6 +8,8 @@ import type { Store } from "../../store";
 import { onList } from "../catalogue";
 import { roving } from "../roving";
 
+const PHOTO = /\.jpg$/;
+
 export function gallery(store: Store): () => void {
   const box = dialog({ title: "Examples", testId: "gallery-dialog", wide: true });
   const grid = element("div", { class: "gallery", role: "group", aria: { label: "Examples" } });
@@ -29,7 +31,8 @@ export function gallery(store: Store): () => void {
 function example(choice: Choice, onPress: () => void): HTMLElement {
   const made = element("button", { class: "example", title: `Open ${choice.title}`, testId: `example-${choice.name}` });
   made.type = "button";
-  const frame = choice.picture === null ? element("span", { class: "example-picture" }) : thumbnail(choice.picture, "example-picture");
+  const look = PHOTO.test(choice.name) ? "example-picture photo" : "example-picture";
+  const frame = choice.picture === null ? element("span", { class: look }) : thumbnail(choice.picture, look);
   made.append(frame, element("span", {}, choice.title));
   made.addEventListener("click", onPress);
   return made;
