@@ -39,8 +39,9 @@ def circles(points: Float[np.ndarray, "set point 2"], there: Bool[np.ndarray, "s
         typical = _typical(error, there) + 0.02 * radius
         w = weight / (1.0 + (error / (1.5 * typical[:, None])) ** 2) ** 2
         slope = np.concatenate([-away / distance[..., None], -np.ones((*error.shape, 1))], axis=2)
-        square = np.einsum("nki,nkj,nk->nij", slope, slope, w) + 1e-4 * np.eye(3) * number[:, None, None]
-        step = np.linalg.solve(square, np.einsum("nki,nk,nk->ni", slope, error, w)[..., None])[..., 0]
+        weighted = (slope * w[..., None]).transpose(0, 2, 1)
+        square = weighted @ slope + 1e-4 * np.eye(3) * number[:, None, None]
+        step = np.linalg.solve(square, weighted @ error[..., None])[..., 0]
         centre, radius = centre - step[:, :2], np.clip(radius - step[:, 2], 1e-3, 10.0)
     away = x - centre[:, None]
     distance = np.linalg.norm(away, axis=2)

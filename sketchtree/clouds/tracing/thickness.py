@@ -13,10 +13,10 @@ from sketchtree.axes import NULL
 from sketchtree.clouds.tracing.circles import circles
 from sketchtree.traverse import limb_chains
 
-_POINTS = 96  # the most that one circle is laid through
-_ROUNDS = 2  # thickness says how long a piece of limb is looked at, and that again how thick it is
+_POINTS = 64  # the most that one circle is laid through
 _REACH = 1.5  # half that length, in radii or layers, whichever is more
 _SEEN, _NEAR, _OFF = 0.4, 0.6, 0.35  # least of the circle, least of the points, most off it in radii
+_LEAST = 8  # points
 _MOVED = 1.5  # radii that an axis may move
 
 
@@ -42,29 +42,33 @@ def measured(
     centre: Float[np.ndarray, "node 3"],
     limb: Int[np.ndarray, " node"],
     width: Float[np.ndarray, " node"],
+    thick: Float[np.ndarray, " node"] | None = None,
 ) -> Measured:
-    """Thickness and axes of nodes whose layers are so wide, metres. `of_point`: the node of each point; NULL for none."""
+    """Thickness and axes of nodes whose layers are so wide, metres. `of_point`: the node of each point; NULL for none. `thick`: about how thick the wood is, metres, which says how
+    long a piece of limb is looked at; without it that is found first."""
     chain = np.concatenate(limb_chains(parent, limb))  # limb after limb, each from its foot on
     place = np.empty(len(chain), np.int64)
     place[chain] = np.arange(len(chain))
     held = np.flatnonzero(of_point != NULL)
     held = held[np.argsort(place[of_point[held]], kind="stable")]
     start = np.searchsorted(place[of_point[held]], np.arange(len(chain) + 1))
-    radius = np.zeros(len(parent))
-    for _ in range(_ROUNDS):
-        points, there, axes = _seen_along(xyz[held], start, chain, parent, limb, centre, np.maximum(radius, width))
-        rows = np.flatnonzero(there.sum(axis=1) >= 6)
-        found = circles(points[rows], there[rows])
-        moved = np.linalg.norm(found.centre, axis=1)
-        good = (found.seen >= _SEEN) & (found.near >= _NEAR) & (found.off < _OFF * found.radius) & (moved < _MOVED * found.radius)
-        sure = rows[good]
-        centre = centre.copy()
-        centre[sure] += np.einsum("nk,nki->ni", found.centre[good], axes[sure])
-        radius, off, seen = np.full((3, len(parent)), np.nan)
-        radius[sure], off[sure], seen[rows] = found.radius[good], found.off[good], found.seen
-        thick = np.where(np.isfinite(radius), radius, 0.0)
-        result, radius = Measured(centre, radius, off, seen), thick
-    return result
+    if thick is None:
+        thick = np.nan_to_num(_measured(xyz[held], start, chain, parent, limb, centre, width).radius)
+    return _measured(xyz[held], start, chain, parent, limb, centre, np.maximum(thick, width))
+
+
+def _measured(xyz, start, chain, parent, limb, centre, thick) -> Measured:
+    points, there, axes = _seen_along(xyz, start, chain, parent, limb, centre, thick)
+    rows = np.flatnonzero(there.sum(axis=1) >= _LEAST)
+    found = circles(points[rows], there[rows])
+    moved = np.linalg.norm(found.centre, axis=1)
+    good = (found.seen >= _SEEN) & (found.near >= _NEAR) & (found.off < _OFF * found.radius) & (moved < _MOVED * found.radius)
+    sure = rows[good]
+    centre = centre.copy()
+    centre[sure] += np.einsum("nk,nki->ni", found.centre[good], axes[sure])
+    radius, off, seen = np.full((3, len(parent)), np.nan)
+    radius[sure], off[sure], seen[rows] = found.radius[good], found.off[good], found.seen
+    return Measured(centre, radius, off, seen)
 
 
 def _seen_along(xyz, start, chain, parent, limb, centre, thick):

@@ -53,16 +53,17 @@ def traced(xyz: Float[np.ndarray, "point 3"], feet: list[Int[np.ndarray, " start
     first = np.full(len(xyz), max(_LAYER * height, _WIDE * float(np.median(graph.spacing))))
     rough = _wood(xyz, graph, way, first, THINNEST * height)
     thick = np.where(rough.of_point == NULL, 0.0, rough.radius[rough.of_point])
-    wood = _wood(xyz, graph, way, np.maximum(_FINE * graph.spacing, _THICK * thick), THINNEST * height)
+    wood = _wood(xyz, graph, way, np.maximum(_FINE * graph.spacing, _THICK * thick), THINNEST * height, thick)
     return Traced(_skeleton(wood), wood.gamma, graph.pieces)
 
 
-def _wood(xyz, graph: Joined, way: Ways, width, thinnest: float) -> _Wood:
-    """Limbs and their thickness, by layers that are so wide at each point."""
+def _wood(xyz, graph: Joined, way: Ways, width, thinnest: float, thick=None) -> _Wood:
+    """Limbs and their thickness, by layers that are so wide at each point. `thick`: about how thick the wood is there, if that is known."""
     found = layers(xyz, graph, way, width)
     parent, of_point, width, end = found.parent, found.of_point, found.width, found.end
     limb = limbs_of(parent, found.centre)
-    seen = measured(xyz, of_point, parent, found.centre, limb, width)
+    about = None if thick is None else np.bincount(of_point, thick, len(parent)) / found.size
+    seen = measured(xyz, of_point, parent, found.centre, limb, width, about)
     part_of = bumps(parent, seen.centre, limb, np.nan_to_num(seen.radius), width)
     kept = np.flatnonzero(part_of == np.arange(len(parent)))
     above = np.where(parent[kept] == NULL, NULL, part_of[parent[kept]])
@@ -73,7 +74,8 @@ def _wood(xyz, graph: Joined, way: Ways, width, thinnest: float) -> _Wood:
     place[kept] = np.arange(len(kept))
     parent, of_point, width, end = np.where(above == NULL, NULL, place[above]), place[part_of[of_point]], width[kept], end[kept]
     limb = limbs_of(parent, seen.centre[kept])
-    seen = measured(xyz, of_point, parent, seen.centre[kept], limb, width)
+    about = np.where(seen.known, seen.radius, 0.0 if about is None else about)[kept]
+    seen = measured(xyz, of_point, parent, seen.centre[kept], limb, width, about)
     centre = smoothed(parent, seen.centre, limb, seen.known)
     tips = is_tip(parent)
     centre[tips] = end[tips]  # a layer's middle would leave half of it out
