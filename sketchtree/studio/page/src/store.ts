@@ -5,10 +5,11 @@
 // `known` mirrors what the program said last; `ui` is this page's own and is never sent.
 
 import type {
-  Alternatives, Changed, Edit, Event, Foliage, Ghost, Growing, Limb, Matches, Matte, Options, Proposed, Read, Request, Stroke, Strokes, Traced, Tree, Trouble, Trunk, Trunks, Underlay,
+  Alternatives, Changed, Edit, Event, Foliage, Ghost, Growing, Limb, Making, Matches, Matte, Options, Proposed, Read, Request, Stroke, Strokes, Traced, Tree, Trouble, Trunk, Trunks, Underlay,
   Welcome, Working,
 } from "./messages";
 import { Echo } from "./link/echo";
+import { STRAIGHT, type Ageing } from "./tree/growth/ageing";
 
 export type Tool = "branch" | "crown" | "obstacle" | "foreground" | "background" | "matte_add" | "matte_erase" | "vertices" | "foot" | "erase" | "select" | "pan";
 
@@ -36,6 +37,7 @@ export interface Known {
   foliage: Foliage | null;
   proposed: Proposed | null; // strokes that nobody drew
   growing: Growing | null; // how far the photo's tree is
+  making: Making | null; // how far something is that was asked for by its id
   trunk: Trunk | null; // how it is taken from scribbles
   matte: Matte | null; // that they tell
   trunks: Trunks | null; // what is said of the trunk in it
@@ -60,6 +62,7 @@ export interface Ui {
   matteView: "tint" | "alone" | "off"; // over the photo, or white on black in its place
   matteStrength: number; // 0-1, of the tint
   skeleton: boolean; // of the trunk in a photo
+  ageing: Ageing; // how the tree grows that is looked at, or exported
   theme: "light" | "dark";
   palm: boolean; // a pen was seen: fingers pan and never draw
   stabiliser: number; // 0-1
@@ -75,12 +78,12 @@ type Listener = () => void;
 export class Store {
   readonly known: Known = {
     welcome: null, connected: false, strokes: new Map(), options: null, edits: [], underlay: null, name: null, revision: 0, undo: null, redo: null,
-    saved: true, file: null, working: null, matches: null, alternatives: null, read: null, traced: null, foliage: null, proposed: null, growing: null,
+    saved: true, file: null, working: null, matches: null, alternatives: null, read: null, traced: null, foliage: null, proposed: null, growing: null, making: null,
     trunk: null, matte: null, trunks: null, found: null, tree: null, drawnTree: null, photoTree: null, limbs: [], trouble: null,
   };
   readonly ui: Ui = {
     tool: "branch", layout: "beside", turn: 0, selected: null, pointed: null, selectedStrokes: [], uncertainty: false, figure: true, tint: true, matteView: "tint",
-    matteStrength: 0.5, skeleton: true, theme: "light", palm: false, stabiliser: 0.5, width: 4, brush: 4, paint: 10,
+    matteStrength: 0.5, skeleton: true, ageing: STRAIGHT, theme: "light", palm: false, stabiliser: 0.5, width: 4, brush: 4, paint: 10,
   };
   frame: { head: Tree; arrays: Arrays } | null = null; // the frame just come; listeners of "frame" take it at once
   ghost: { head: Ghost; arrays: Arrays } | null = null;
@@ -170,6 +173,7 @@ export class Store {
         if (event.state === "none") this.leavePhoto();
         this.tell("growing");
         break;
+      case "making": known.making = event; this.tell("making"); break;
       case "tree": this.tree(event, arrays); break;
       case "ghost": this.ghost = { head: event, arrays }; this.tell("ghost"); this.ghost = null; break;
     }

@@ -1,4 +1,5 @@
 import { describe, expect, it } from "vitest";
+import { movingGroups } from "../src/panel/dialogs/export_growth";
 import { blocked, changed, fitting, USUAL } from "../src/panel/dialogs/export_options";
 import { projectName } from "../src/panel/dialogs/project_name";
 
@@ -25,6 +26,14 @@ describe("options of export", () => {
     expect(fitting(all, ".glb")).toEqual(all);
     expect(fitting(all, ".stl")).toEqual({ ...USUAL, solid: true });
     expect(fitting(all, ".swc")).toEqual(USUAL);
+  });
+});
+
+describe("what is exported of a growth", () => {
+  it("is files that move, and films that this machine can make", () => {
+    const of = (...names: string[]) => movingGroups(names.map((name) => ({ name, title: name, picture: null }))).map(({ title, formats }) => [title, ...formats.map(({ format }) => format.name)]);
+    expect(of(".glb", ".usdz", ".mp4", ".gif")).toEqual([["A tree that grows", ".glb", ".usdz"], ["A film of its growth", ".mp4", ".gif"]]);
+    expect(of(".glb")).toEqual([["A tree that grows", ".glb"]]);
   });
 });
 

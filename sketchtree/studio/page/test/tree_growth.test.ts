@@ -1,6 +1,8 @@
 // How does the tree on the page move with the program's file?
 
 import { expect, test, vi } from "vitest";
+import { Store } from "../src/store";
+import { bendInWords, caught } from "../src/tree/growth/ageing";
 import { Asking } from "../src/tree/growth/asking";
 import { Clock } from "../src/tree/growth/clock";
 import { growthOf, moved } from "../src/tree/growth/growth";
@@ -142,21 +144,30 @@ test("it plays from the beginning to the end, and again where it is to", () => {
 
 test("only the newest wish is asked for, and only its answer counts", async () => {
   vi.useFakeTimers();
-  const [asked, said]: [string[], string[]] = [[], []];
+  const [asked, said, store]: [Record<string, unknown>[], string[], Store] = [[], [], new Store()];
   vi.stubGlobal("fetch", async (_: string, { body, signal }: { body: string; signal: AbortSignal }) => {
-    asked.push(body);
+    const wish = JSON.parse(body) as { id: string };
+    asked.push(wish);
+    store.take({ type: "making", id: wish.id, stage: "grow", done: 0.5 });
+    store.take({ type: "making", id: "of another page", stage: "grow", done: 0.9 });
     await new Promise((done) => setTimeout(done, 100));
     if (signal.aborted) throw new DOMException("", "AbortError");
     return new Response(small(), { headers: { "x-revision": "7" } });
   });
-  const asking = new Asking({ waits: () => said.push("waits"), made: (growth, revision) => said.push(`${growth.parts.length} of ${revision}`), refused: (why) => said.push(why.message) });
-  asking.soon({ mode: "age", bend: 0 }, 50);
-  asking.soon({ mode: "full", bend: 0 }, 50);
+  const asking = new Asking(store, { waits: (done) => said.push(`waits ${done}`), made: (growth, revision) => said.push(`${growth.parts.length} of ${revision}`), refused: (why) => said.push(why.message) });
+  asking.soon(50);
+  asking.soon(50);
   await vi.advanceTimersByTimeAsync(60);
-  asking.soon({ mode: "scale", bend: 5 }, 50);
+  store.set("ageing", { mode: "scale", bend: 5 });
+  asking.soon(50);
   await vi.advanceTimersByTimeAsync(300);
-  expect(asked).toEqual(['{"mode":"full","bend":0}', '{"mode":"scale","bend":5}']);
-  expect(said).toEqual(["waits", "waits", "waits", "2 of 7"]);
+  expect(asked.map(({ id, ...wish }) => wish)).toEqual([{ mode: "full", bend: 0, tree: "drawn" }, { mode: "scale", bend: 5, tree: "drawn" }]);
+  expect(asked[0]!.id).not.toEqual(asked[1]!.id);
+  expect(said).toEqual(["waits 0", "waits 0", "waits 0.5", "waits 0", "waits 0.5", "2 of 7"]);
   vi.unstubAllGlobals();
   vi.useRealTimers();
+});
+
+test("branches that bend hardly grow straight on", () => {
+  expect([-60, -3, -2, 0, 2, 14].map((degrees) => bendInWords(caught(degrees)))).toEqual(["60° down", "3° down", "straight on", "straight on", "straight on", "14° up"]);
 });

@@ -3,7 +3,7 @@
 import { button } from "../../parts/button";
 import { element } from "../../parts/element";
 import { ask, Refused } from "../ask";
-import type { ExportOptions } from "./export_options";
+import type { Wanted } from "./export_format";
 
 export interface CommandLine {
   copy: HTMLButtonElement;
@@ -11,9 +11,9 @@ export interface CommandLine {
   reset: () => void;
 }
 
-const NEEDS = { drawn: "Save the project first: the command reads it.", photo: "Save the photo and its strokes (SVG) beside it first: the command reads them." };
+const NEEDS = { project: "Save the project first: the command reads it.", photo: "Save the photo and its strokes (SVG) beside it first: the command reads them." };
 
-export function commandLine(options: () => ExportOptions, tree: () => keyof typeof NEEDS, failed: (error: Refused) => void): CommandLine {
+export function commandLine(wanted: () => Wanted, failed: (error: Refused) => void): CommandLine {
   const line = element("textarea", { class: "field command", testId: "command-line", aria: { label: "Command line" } });
   line.readOnly = true;
   line.rows = 3;
@@ -22,15 +22,16 @@ export function commandLine(options: () => ExportOptions, tree: () => keyof type
   const shown = element("div", { class: "command-shown" }, element("h3", {}, "In a terminal"), line, words);
   const fetched = async (): Promise<void> => {
     try {
-      line.value = (await (await ask(`command?export=${encodeURIComponent(JSON.stringify({ format: ".glb", tree: tree(), ...options() }))}`)).text()).trim();
+      line.value = (await (await ask(`command?export=${encodeURIComponent(JSON.stringify(wanted()))}`)).text()).trim();
     } catch (error) {
       if (error instanceof Refused) failed(error);
       return;
     }
     shown.hidden = false;
-    words.textContent = NEEDS[tree()];
+    const needs = line.value.startsWith("sketchtree photo ") ? NEEDS.photo : NEEDS.project;
+    words.textContent = needs;
     await navigator.clipboard.writeText(line.value).then(
-      () => { words.textContent = `Copied. ${NEEDS[tree()]}`; },
+      () => { words.textContent = `Copied. ${needs}`; },
       () => line.focus(), // this browser keeps its clipboard shut: the text is selected, ready for Ctrl+C
     );
   };

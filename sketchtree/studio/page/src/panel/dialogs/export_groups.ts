@@ -18,6 +18,7 @@ const GROUPS: [string, [string, string][]][] = [
   ["Pictures", [[".png", "rendered"]]],
 ];
 
+/** Formats of the tree as it stands. */
 export function groups(formats: readonly Choice[]): FormatGroup[] {
   const left = new Map(formats.map((format) => [format.name, format]));
   const made = GROUPS.map(([title, names]) => ({

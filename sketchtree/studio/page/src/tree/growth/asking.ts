@@ -1,18 +1,12 @@
 // How does the growth come from the program? Asked for once the tree has rested; who asks again, or has drawn on, asks for the newest only.
 
 import { ask, Refused } from "../../panel/ask";
+import { Pending } from "../../panel/pending";
+import type { Store } from "../../store";
 import { growthOf, type Growth } from "./growth";
 
-export type Mode = "age" | "full" | "scale";
-
-/** As the program's `Ageing`. */
-export interface Ageing {
-  mode: Mode;
-  bend: number; // degrees; above 0 branches rise
-}
-
 export interface Answers {
-  waits: () => void;
+  waits: (done: number) => void; // and how far it is, 0-1
   made: (growth: Growth, revision: number) => void; // the revision of the drawing that it grows to
   refused: (why: Refused) => void;
 }
@@ -23,19 +17,19 @@ export class Asking {
   private timer: ReturnType<typeof setTimeout> | null = null;
   private now: AbortController | null = null;
 
-  constructor(private readonly answers: Answers) {}
+  constructor(private readonly store: Store, private readonly answers: Answers) {}
 
   get busy(): boolean {
     return this.timer !== null || this.now !== null;
   }
 
   /** Ask for it after so many milliseconds; what was asked before is not wanted any more. */
-  soon(ageing: Ageing, wait: number): void {
+  soon(wait: number): void {
     this.cancel();
-    this.answers.waits();
+    this.answers.waits(0);
     this.timer = setTimeout(() => {
       this.timer = null;
-      void this.fetch(ageing);
+      void this.fetch();
     }, wait);
   }
 
@@ -46,10 +40,12 @@ export class Asking {
     this.now = null;
   }
 
-  private async fetch(ageing: Ageing): Promise<void> {
+  private async fetch(): Promise<void> {
     const own = (this.now = new AbortController());
+    const pending = new Pending(this.store, (done) => this.answers.waits(done));
     try {
-      const answer = await ask("growth", { method: "POST", body: JSON.stringify(ageing), signal: own.signal });
+      const wish = { ...this.store.ui.ageing, tree: this.store.known.photoTree ? "photo" : "drawn", id: pending.id };
+      const answer = await ask("growth", { method: "POST", body: JSON.stringify(wish), signal: own.signal });
       const growth = growthOf(await answer.arrayBuffer());
       if (this.now !== own) return;
       this.now = null;
@@ -58,6 +54,8 @@ export class Asking {
       if (this.now !== own) return; // nobody waits for it
       this.now = null;
       this.answers.refused(error instanceof Refused ? error : NOT_READ);
+    } finally {
+      pending.end();
     }
   }
 }

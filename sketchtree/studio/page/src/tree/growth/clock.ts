@@ -1,6 +1,7 @@
 // How does the time of the growth go on? By itself while it plays, or by a hand on the slider.
 
-const SECONDS = 10; // from seed to tree
+import { SECONDS } from "./ageing";
+
 const LONGEST = 0.25; // seconds that a frame may take: the program may have been asleep
 const HOLDS = 1.5; // seconds at which it stands grown before it starts again
 

@@ -11,10 +11,12 @@ import { Marks } from "../plant/marks";
 import type { Lighting } from "../plant/surface";
 import { Wardrobe } from "../plant/wardrobe";
 import type { Stand } from "../mount";
-import { Asking, type Ageing } from "./asking";
+import { type Ageing } from "./ageing";
+import { Asking } from "./asking";
 import { growthBar } from "./bar";
 import { Clock } from "./clock";
 import type { Growth } from "./growth";
+import { howItGrows } from "./how";
 import { Standing } from "./standing";
 
 const RESTS = 1000; // milliseconds that a tree is there before its growth is made
@@ -28,34 +30,35 @@ export function mountGrowth(stand: Stand, store: Store): void {
 
 class GrowthView {
   private readonly clock = new Clock();
-  private ageing: Ageing = { mode: "full", bend: 0 };
   private open = false;
   private words = "";
   private remedy = "";
+  private made: number | null = null;
   private standing: Standing | null = null;
   private bends = false; // what stands differs from the tree at its end
   private revision = -1; // of the drawing that it grows to
   private readonly lighting: Lighting;
   private readonly wardrobe: Wardrobe;
-  private readonly asking = new Asking({
-    waits: () => this.say("Growth is being made…"),
-    made: (growth, revision) => this.take(growth, revision),
-    refused: (why) => { this.say(why.message, why.remedy); this.leave(); },
-  });
-  private asked: Ageing = this.ageing;
+  private readonly asking: Asking;
+  private asked: Ageing;
   private readonly bar;
 
   constructor(private readonly stand: Stand, private readonly store: Store) {
     const { view, lighting, textures } = stand;
+    this.asked = store.ui.ageing;
+    this.asking = new Asking(store, {
+      waits: (done) => this.waits(done),
+      made: (growth, revision) => this.take(growth, revision),
+      refused: (why) => { this.made = null; this.say(why.message, why.remedy); this.leave(); },
+    });
     this.lighting = { ...lighting, marks: new Marks(), doubt: { value: 0 }, leafShare: { value: 1 } };
     this.wardrobe = new Wardrobe(this.lighting, textures, view.stage.pace.software, () => view.stage.shadows());
-    this.bar = growthBar(this.ageing, {
+    this.bar = growthBar(howItGrows(store, "growth"), {
       open: () => (this.open ? this.close() : this.begin()),
       close: () => this.close(),
       play: () => { this.clock.playing ? this.clock.pause() : this.clock.play(); this.show(); },
       move: (time) => { this.clock.set(time); this.show(); },
       loop: () => { this.clock.loops = !this.clock.loops; this.tell(); },
-      age: (ageing) => { this.ageing = ageing; this.ask(CHOSEN); },
     });
     stand.bar.append(this.bar.opener);
     view.root.append(this.bar.strip);
@@ -78,6 +81,7 @@ class GrowthView {
     const within = this.bar.strip.contains(document.activeElement);
     this.bar.strip.hidden = true;
     this.asking.cancel();
+    this.made = null;
     this.leave();
     this.tell();
     if (within) this.bar.opener.focus();
@@ -85,8 +89,13 @@ class GrowthView {
 
   private ask(wait: number): void {
     if (!this.open) return;
-    this.asked = this.ageing;
-    this.asking.soon(this.ageing, wait);
+    this.asked = this.store.ui.ageing;
+    this.asking.soon(wait);
+  }
+
+  private waits(done: number): void {
+    this.made = done;
+    this.say(done > 0 ? `Growth is being made, ${Math.round(100 * done)} %` : "Growth is being made…");
   }
 
   private take(growth: Growth, revision: number): void {
@@ -99,6 +108,7 @@ class GrowthView {
     this.stand.view.stage.scene.add(this.standing.group);
     this.bends = this.asked.bend !== 0;
     this.revision = revision;
+    this.made = null;
     this.say("");
     this.show();
   }
@@ -119,10 +129,10 @@ class GrowthView {
   }
 
   private tell(): void {
-    const { clock, bar, open, words, remedy } = this;
+    const { clock, bar, open, words, remedy, made } = this;
     press(bar.opener, open);
     bar.opener.setAttribute("aria-expanded", String(open));
-    bar.show({ time: clock.time, playing: clock.playing, loops: clock.loops, there: this.standing !== null, words, remedy });
+    bar.show({ time: clock.time, playing: clock.playing, loops: clock.loops, there: this.standing !== null, words, remedy, made });
   }
 
   /** What is to be seen at this time is in the scene. */
@@ -176,12 +186,19 @@ class GrowthView {
     store.on("frame", () => {
       const head = store.frame?.head;
       if (!this.open || !head || head.revision <= this.revision) return;
-      this.ask(head.phase === "full" ? RESTS : DRAWN);
+      if (store.known.photoTree && head.phase !== "photo") return; // the drawing's, which goes on behind the photo's
+      this.ask(head.phase === "quick" ? DRAWN : RESTS);
+    });
+    store.on("ageing", () => this.ask(CHOSEN));
+    store.on("photoTree", () => { // another tree is looked at
+      if (!this.open) return;
+      this.leave();
+      this.ask(RESTS);
     });
     const can = (): void => {
-      const [none, photo] = [!store.known.tree?.height, store.known.photoTree !== null];
-      block(this.bar.opener, photo ? "not for a tree from a photo" : none ? "draw a trunk first" : null);
-      if (none || photo) this.close();
+      const none = !store.known.tree?.height;
+      block(this.bar.opener, none ? "draw a trunk first" : null);
+      if (none) this.close();
     };
     store.on(["tree", "photoTree"], can);
     can();
