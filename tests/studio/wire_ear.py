@@ -80,6 +80,10 @@ class Ear:
         """What was done by hand, by limb id."""
         return {one["limb"]: one for one in self._others["edits"]}
 
+    def latest(self, kind: str) -> dict:
+        """The newest event of a kind."""
+        return self._latest[kind]
+
     @property
     def state(self) -> dict:
         """All that a project keeps."""
@@ -162,7 +166,7 @@ class Ear:
         self._strokes.update({stroke["id"]: stroke for stroke in event["put"]})
         if event["order"] is not None:
             self._strokes = {name: self._strokes[name] for name in event["order"]}
-        self._others |= {name: event[name] for name in ("options", "edits") if event[name] is not None}
+        self._others |= {name: event[name] for name in ("options", "edits", "trunk") if event[name] is not None}
         if event["underlay_changed"] or event["since"] == 0:
             self._others["underlay"] = event["underlay"]
 
