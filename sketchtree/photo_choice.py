@@ -5,6 +5,8 @@ Footprint and branching (`templates.matching`) are told from what is drawn, and 
 - only ordinary trees are thought of, conifers where the silhouette is a conifer's (`photo.cone`), else broadleaves: a bonsai, a dead oak or a palm has to be named;
 - the likeliest is taken where it is SURE among those, on at least LIMBS limbs; else a neutral one of its family (of a bare tree, which shows how it branches, the likeliest all the same),
   which is told, and PLAUSIBLE metres high: a height is never taken from a guess;
+- a bare trunk that is taken from scribbles gets the neutral one of the broadleaves, unless another is SURE: `benchmarks.trunk_species` finds that the likeliest is never the right one, and that
+  bark in shade, before the sky or in a grey photo has no colour that tells, a birch's neither;
 - leaves are a willow's, whatever the template, where the photo shows that they are long and narrow (`photo.blades`), and flowers of a cherry, or of the sure template, where it shows a
   tree in blossom (`photo.flowering`).
 """
@@ -77,17 +79,22 @@ def choose_for_photo(
 
 
 def choose_for_trunk(graph: SketchGraph, templates: Database | None, reading: ReadingOptions) -> Choice:
-    """The same for a bare trunk that was taken from a picture: the likeliest broadleaf, a neutral one where too few limbs show."""
+    """The same for a bare trunk that was taken from a picture: a neutral broadleaf, unless its limbs make sure of another."""
     if templates is None or reading.template != "auto":
         return Choice(reading)
-    found = _of_family(match(graph.above_ground(), templates, count=_RANKED), templates, "broadleaf")
-    says_enough = len(graph.limb_id) >= LIMBS
-    is_sure = says_enough and _share_of_first(found) >= SURE
-    name = found[0].name if says_enough and found else _neutral(found, templates, "broadleaf")
-    if name is None or is_sure:
-        return Choice(reading if name is None else dataclasses.replace(reading, template=name))
+    found = broadleaves(graph, templates)
+    if len(graph.limb_id) >= LIMBS and _share_of_first(found) >= SURE:
+        return Choice(dataclasses.replace(reading, template=found[0].name))
+    name = _neutral(found, templates, "broadleaf")
+    if name is None:
+        return Choice(reading)
     height = reading.height or PLAUSIBLE
-    return Choice(dataclasses.replace(reading, template=name, height=height), told=(_told(name, "broadleaf", height if reading.height is None else None),))
+    return Choice(dataclasses.replace(reading, template=name, height=height), told=(_told_trunk(name, height if reading.height is None else None),))
+
+
+def broadleaves(graph: SketchGraph, templates: Database) -> list[Match]:
+    """The ordinary broadleaved trees that the limbs may be of, the likeliest first."""
+    return _of_family(match(graph.above_ground(), templates, count=_RANKED), templates, "broadleaf")
 
 
 def _family(foliage: Foliage, marked: Marked, traced: Traced) -> str:
@@ -134,6 +141,12 @@ def _told(name: str, family: str, height: float | None) -> str:
     size = "" if height is None else f", {height:g} m high"
     said = "`--template` says" if height is None else "`--template` and `--height` say"
     return f"The photo doesn't show which {family} it is. It grows by the template {name}{size}; {said} otherwise."
+
+
+def _told_trunk(name: str, height: float | None) -> str:
+    """What the user should know of a template that a bare trunk doesn't tell."""
+    size, more = ("", "") if height is None else (f", and it is {height:g} m high", " and `--height METRES`")
+    return f"A bare trunk doesn't show which tree it is. Unless others are named it has the leaves and the bark of {name}{size}: `--template NAME`, `--leaf MODEL`{more} say otherwise."
 
 
 def _told_leaf(leaf: str) -> str:

@@ -2,7 +2,7 @@
 
 Where all vertices are at five moments, as our own reader has them, beside where the programs have them: three.js for glTF, Blender for USD too. The
 variables are those of `blender_opens` and `three_opens`. Prints a line a file and program; exit status 1 where a vertex is farther off than 1/4000 of the
-tree's height (files keep weights in 255ths, USD keeps scales in half precision), or three.js has something to say.
+tree's height (USD keeps scales in half precision), or three.js has something to say.
 """
 
 import argparse
@@ -43,7 +43,8 @@ def in_blender(path: Path, asset: Asset, picture: Path | None = None) -> dict:
             raise RuntimeError(f"Blender could not play {path}: {(done.stderr or done.stdout).strip()[-2000:]}")
         with np.load(out) as kept:
             places = dict(kept)
-    off = [_off(places.get(f"{k}/{mesh.name}"), mesh) for k, second in enumerate(seconds_of(asset)) for mesh in posed(asset, second)]
+    used = {part.name: np.unique(part.triangle) for part in asset.parts}  # Blender leaves out vertices that no triangle has
+    off = [_off(places.get(f"{k}/{mesh.name}"), mesh, used[mesh.name]) for k, second in enumerate(seconds_of(asset)) for mesh in posed(asset, second)]
     return json.loads(found[-1][5:]) | {"off": np.concatenate(off), "said": []}
 
 
@@ -62,10 +63,10 @@ def in_three(path: Path, asset: Asset, pictures: Path | None = None) -> dict:
     return found[0] | {"off": np.concatenate(off)}
 
 
-def _off(places, mesh):
-    if places is None or len(places) != len(mesh.position):
+def _off(places, mesh, used):
+    if places is None or len(places) not in (len(mesh.position), len(used)):
         return np.array([np.inf])
-    return np.linalg.norm(places - mesh.position, axis=1)
+    return np.linalg.norm(places - (mesh.position if len(places) == len(mesh.position) else mesh.position[used]), axis=1)
 
 
 def differences(seen: dict, asset: Asset) -> list[str]:

@@ -11,7 +11,7 @@ from sketchtree import photo_choice
 from sketchtree.options import ReadingOptions
 from sketchtree.photo.foliage import Foliage
 from sketchtree.photo.trace.traced import Traced
-from sketchtree.photo_choice import PLAUSIBLE, Choice, choose_for_photo
+from sketchtree.photo_choice import PLAUSIBLE, Choice, choose_for_photo, choose_for_trunk
 from sketchtree.templates.store.database import Database
 
 TRACED = Traced(np.arange(len(leafy.TRUNK)) - 1, np.array(leafy.TRUNK, float), np.full(4, 5.0), np.zeros(4, int), np.zeros(4, int))
@@ -74,3 +74,26 @@ def test_a_tree_in_blossom_wears_flowers_those_of_its_species_where_that_is_sure
     assert found.leaf == "cherry_blossom" and found.warnings(None)[1] == "The photo shows a tree in blossom: instead of leaves it wears cherry_blossom; `--leaf` says otherwise."
     assert chosen(monkeypatch, {"apple": 9.0, "olive": 0.0}).leaf == "apple_blossom"
     assert chosen(monkeypatch, {"apple": 9.0, "olive": 0.0}, bare=True).leaf is None
+
+
+def trunks(monkeypatch, scores: dict[str, float], *, limbs: int = 20, **reading) -> Choice:
+    """The choice for a bare trunk where matching scores exemplars so."""
+    ranked = [SimpleNamespace(name=name, score=score) for name, score in sorted(scores.items(), key=lambda item: -item[1])]
+    monkeypatch.setattr(photo_choice, "match", lambda graph, templates, count=None: ranked)
+    return choose_for_trunk(SimpleNamespace(limb_id=np.arange(limbs), above_ground=lambda: None), Database.open(), ReadingOptions(**reading))
+
+
+def test_the_likeliest_of_a_bare_trunk_is_no_answer_and_that_is_told(monkeypatch):
+    found = trunks(monkeypatch, {"european_ash": 1.0, "silver_birch": 0.5})
+    assert (found.reading.template, found.reading.height) == ("small_leaved_lime", PLAUSIBLE)
+    assert found.told == (
+        "A bare trunk doesn't show which tree it is. Unless others are named it has the leaves and the bark of small_leaved_lime, and it is 10 m high: "
+        "`--template NAME`, `--leaf MODEL` and `--height METRES` say otherwise.",
+    )
+    assert "it is" not in trunks(monkeypatch, {"european_ash": 1.0, "silver_birch": 0.5}, height=7.0).told[0].partition(". ")[2]
+
+
+def test_a_bare_trunk_is_of_the_tree_that_its_limbs_make_sure_of_or_of_the_one_named(monkeypatch):
+    assert trunks(monkeypatch, {"american_elm": 9.0, "olive": 1.0}).reading == ReadingOptions(template="american_elm")
+    assert trunks(monkeypatch, {"american_elm": 9.0, "olive": 1.0}, limbs=5).reading.template == "small_leaved_lime"
+    assert trunks(monkeypatch, {"american_elm": 9.0}, template="silver_birch") == Choice(ReadingOptions(template="silver_birch"))
