@@ -22,6 +22,14 @@ class SketchError(SketchTreeError):
         super().__init__(message if stroke is None else f"Stroke {stroke}: {message}", remedy=remedy)
 
 
+class ViewsError(SketchTreeError):
+    """Photos of one plant from many sides, or where they were taken from, can't be used. `photo` is the name of the photo at fault (None: all)."""
+
+    def __init__(self, message: str, *, remedy: str, photo: str | None = None):
+        self.photo = photo
+        super().__init__(message if photo is None else f"Photo {photo}: {message}", remedy=remedy)
+
+
 class SkeletonError(SketchTreeError):
     """The columns of a skeleton break one of its requirements. `row` is the first row at fault."""
 

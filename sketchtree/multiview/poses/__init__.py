@@ -1,0 +1,1 @@
+"""Where were the photos taken from? Files of other programs → `Poses`."""

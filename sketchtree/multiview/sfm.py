@@ -1,0 +1,135 @@
+"""Where were the photos taken from, if nobody says? Structure from motion with COLMAP (Schönberger & Frahm 2016, incremental), on the CPU → Poses.
+
+Photos of other sizes, other cameras and without EXIF may be mixed: photos of one size and focal length share a camera, and a focal length that is not told is taken as 1.2 times the longer side and found
+with the rest. Its threads add numbers in no fixed order, so that two runs agree to about a thousandth of a pixel, not to the last bit.
+"""
+
+import tempfile
+from collections.abc import Callable
+from dataclasses import dataclass, replace
+from pathlib import Path
+
+from PIL import Image, ImageOps
+
+from sketchtree.errors import ViewsError
+from sketchtree.multiview.photos import blurred, photo_files, read_photo
+from sketchtree.multiview.poses.colmap import read_colmap
+from sketchtree.multiview.poses.posed import Poses
+from sketchtree.watch import Pulse, no_pulse, shared
+
+LEAST = 4  # photos that must be placed
+ADVICE = (
+    "Walk round the plant and take a photo every 10-15° (24-36 in all), a second round higher up for tall ones; keep the whole plant in the picture and the zoom as it is, "
+    "have still, textured ground or a printed page around it, no wind and no blur."
+)
+
+
+@dataclass(frozen=True)
+class Found:
+    """What structure from motion found."""
+
+    poses: Poses
+    left_out: tuple[str, ...]  # photos that could not be placed
+    notices: tuple[str, ...]  # sentences for the user
+
+
+def structure_from_motion(
+    folder, *, longest: int = 1600, seed: int = 0, part: Callable[[float], None] | None = None, pulse: Pulse = no_pulse
+) -> Found:
+    """Cameras of the photos in a folder, at most `longest` pixels a side. Raises ViewsError where too few belong together."""
+    colmap = _colmap()
+    files = photo_files(folder)
+    if len(files) < LEAST:
+        raise ViewsError(f"There are only {len(files)} photos.", remedy=f"{LEAST} are the least that can be placed. {ADVICE}")
+    part = part or (lambda done: None)
+    with tempfile.TemporaryDirectory(prefix="sketchtree-views-") as place:
+        place = Path(place)
+        unsharp = blurred(files)
+        shrunk = _copied(files, place / "photos", longest, shared(part, 0.0, 0.1), pulse)
+        _matched(colmap, place, seed, part, pulse)
+        poses = _mapped(colmap, place, len(files), seed, shared(part, 0.5, 1.0), pulse)
+    return _found(poses, files, shrunk, unsharp)
+
+
+def _colmap():
+    try:
+        import pycolmap
+    except ImportError:
+        raise ViewsError("Finding where photos were taken from needs the package `pycolmap`.", remedy="Install it: pip install 'sketchtree[multiview]'.") from None
+    pycolmap.logging.minloglevel = 3
+    return pycolmap
+
+
+def _copied(files: list[Path], place: Path, longest: int, part, pulse: Pulse) -> dict[str, float]:
+    """Upright copies of at most so many pixels a side, PNG in name order; by how much each is smaller."""
+    place.mkdir()
+    by = {}
+    for k, file in enumerate(files):
+        pulse()
+        stored = read_photo(file)
+        focal = stored.getexif().get_ifd(0x8769)
+        picture = ImageOps.exif_transpose(stored).convert("RGB")
+        size = picture.size
+        picture.thumbnail((longest, longest), Image.Resampling.LANCZOS)
+        by[file.name] = size[0] / picture.size[0]
+        exif = Image.Exif()
+        exif.get_ifd(0x8769).update({tag: focal[tag] for tag in (0x920A, 0xA405) if tag in focal})  # focal length; the same as if on 35 mm film
+        picture.save(place / f"{file.name}.jpg", quality=95, subsampling=0, exif=exif)
+        part((k + 1) / len(files))
+    return by
+
+
+def _matched(colmap, place: Path, seed: int, part, pulse: Pulse) -> None:
+    colmap.set_random_seed(seed)
+    extraction, reader = colmap.FeatureExtractionOptions(), colmap.ImageReaderOptions()
+    extraction.use_gpu, reader.camera_model = False, "SIMPLE_RADIAL"
+    extraction.sift.darkness_adaptivity = True
+    colmap.extract_features(place / "points.db", place / "photos", reader_options=reader, extraction_options=extraction, device=colmap.Device.cpu)
+    part(0.3)
+    pulse()
+    matching = colmap.FeatureMatchingOptions()
+    matching.use_gpu = False
+    colmap.match_exhaustive(place / "points.db", matching_options=matching, device=colmap.Device.cpu)
+    part(0.5)
+    pulse()
+
+
+def _mapped(colmap, place: Path, count: int, seed: int, part, pulse: Pulse) -> Poses:
+    """The largest model."""
+    placed = [0]
+
+    def one_more() -> None:
+        pulse()
+        placed[0] += 1
+        part(min(1.0, placed[0] / count))
+
+    options = colmap.IncrementalPipelineOptions()
+    options.random_seed, options.extract_colors = seed, False
+    (place / "model").mkdir()
+    models = colmap.incremental_mapping(place / "points.db", place / "photos", place / "model", options=options, next_image_callback=one_more)
+    if not models:
+        raise ViewsError(f"None of the {count} photos could be placed: too few of their details were found again in others.", remedy=ADVICE)
+    best = max(models, key=lambda number: models[number].num_reg_images())
+    models[best].write_binary(place / "model")
+    return read_colmap(place / "model")
+
+
+def _found(poses: Poses, files: list[Path], shrunk: dict[str, float], unsharp: list[str]) -> Found:
+    photos = []
+    for photo in poses.photos:
+        name = photo.name.removesuffix(".jpg")
+        size = tuple(round(side * shrunk[name]) for side in photo.camera.size)
+        photos.append(replace(photo, name=name, camera=photo.camera.resized(size)))
+    names = {photo.name for photo in photos}
+    left_out = tuple(file.name for file in files if file.name not in names)
+    if len(photos) < LEAST or len(photos) < len(files) / 3:
+        raise ViewsError(
+            f"Only {len(photos)} of {len(files)} photos belong together: {', '.join(sorted(names)[:6])}{' …' if len(names) > 6 else ''}.",
+            remedy=f"Leave out photos of other things. {ADVICE}",
+        )
+    notices = [f"{len(photos)} of {len(files)} photos were placed, {len(poses.points):,} points, {poses.error:.2f} px."]
+    if left_out:
+        notices.append(f"Left out, since too little in them was found again: {', '.join(left_out)}.")
+    if unsharp:
+        notices.append(f"Less sharp than the others: {', '.join(unsharp)}.")
+    return Found(replace(poses, photos=tuple(photos)), left_out, tuple(notices))
