@@ -2,7 +2,8 @@
 
 import { expect, test } from "vitest";
 import type { Growing, Matte, Trunks } from "../src/messages";
-import { BEGIN, BEGIN_MOUSE, passedOver, said, sides } from "../src/panel/trunk/words";
+import { sides } from "../src/draw/trunk/scribbles";
+import { BEGIN, BEGIN_MOUSE, passedOver, said } from "../src/panel/trunk/words";
 
 const trunks = (state: Trunks["state"], remark = ""): Trunks => ({ type: "trunks", revision: 5, state, trees: [], vertices: [], parts: [], contour: [], size: [], remark });
 const growing = (state: Growing["state"], remark = ""): Growing => ({ type: "growing", revision: 5, state, stage: "", done: 0, remark });

@@ -30,6 +30,7 @@ export interface Desk {
   underlay: Underlay | null; // while it is being moved
   movesUnderlay: boolean;
   trouble: string | null; // stroke at fault
+  letGo: () => void; // of what the tool in hand waits for
   tellDeed: (x: number, y: number) => void; // say it beside a pixel of the photo
   repaint: () => void; // everything
   repaintLive: () => void; // only what is in hand

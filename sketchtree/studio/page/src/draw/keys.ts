@@ -75,7 +75,7 @@ export const SHORTCUTS: Shortcut[] = [
   { keys: ["Alt+ArrowRight"], shown: "", does: "", group: "Edit", act: nudge(1, 0) },
   { keys: ["Alt+ArrowUp"], shown: "", does: "", group: "Edit", act: nudge(0, -1) },
   { keys: ["Alt+ArrowDown"], shown: "", does: "", group: "Edit", act: nudge(0, 1) },
-  { keys: ["Escape"], shown: "Esc", does: "Let go", group: "Edit", act: ({ store }) => { store.set("selectedStrokes", []); store.set("selected", null); } },
+  { keys: ["Escape"], shown: "Esc", does: "Let go", group: "Edit", act: letGo },
   { keys: ["ArrowLeft"], shown: "← →", does: "Turn the page by 15°", group: "View", act: turn(-TURN) },
   { keys: ["ArrowRight"], shown: "", does: "", group: "View", act: turn(TURN) },
   { keys: ["Home"], shown: "Home", does: "Back to the front", group: "View", act: ({ store }) => store.set("turn", 0) },
@@ -83,6 +83,12 @@ export const SHORTCUTS: Shortcut[] = [
   { keys: ["Mod+-", "-"], shown: "−", does: "Farther", group: "View", act: zoom(1 / CLOSER) },
   { keys: ["Mod+0", "0"], shown: "0", does: "Show the whole drawing", group: "View", act: showAll },
 ];
+
+function letGo({ store, letGo: ofTool }: Desk): void {
+  ofTool();
+  store.set("selectedStrokes", []);
+  store.set("selected", null);
+}
 
 /** A photo's matte is seen in another way. */
 function nextView({ store }: Desk): void {

@@ -41,7 +41,7 @@ export function mountDraw(root: HTMLElement, store: Store): void {
   let mask: ImageBitmap | null = null;
   const desk: Desk = {
     store, camera, live: null, instead: new Map(), hovered: null, lasso: [], eraser: null, ring: null, deed: null, erases: "whole", underlay: null, movesUnderlay: false, trouble: null,
-    tellDeed: () => {}, repaint: () => surface.repaint(), repaintLive: () => surface.repaintLive(),
+    letGo: () => tools[store.ui.tool].cancel(), tellDeed: () => {}, repaint: () => surface.repaint(), repaintLive: () => surface.repaintLive(),
   };
   const surface = makeSurface(root, below, top, {
     onPaint: () => paintDrawing(surface.drawing, surface.ratio(), desk, palette, picture.src ? picture : null, tint, mask),

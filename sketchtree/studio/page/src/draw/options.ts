@@ -9,8 +9,8 @@ import { byHand, setPhoto } from "./photo";
 import { brushOf } from "./trunk/sizes";
 import type { Desk, Eraser } from "./desk";
 
-const POINTS = "Click a point: it goes · the contour: a new one · drag along: all between go";
-const POINTS_BY_HAND = "Tap a point: it goes · the contour: a new one · drag along: all between go";
+const POINTS = "Click: remove or add a point · drag: merge";
+const POINTS_BY_HAND = "Tap: remove or add a point · drag: merge";
 const FOOT = "Click where the trunk stands";
 const THINNEST = 1; // CSS pixels
 const THICKEST = 24;
@@ -38,6 +38,7 @@ export function mountOptions(desk: Desk): HTMLElement {
     const parts: HTMLElement[] = draws ? [sized] : tool === "erase" ? [eraser.root] : says ? [hint] : [];
     if (store.known.underlay && (tool === "select" || draws)) parts.splice(tool === "select" ? 0 : 1, 1, underlay); // it says more than the hint
     underlay.classList.toggle("brief", draws);
+    root.classList.toggle("brushes", sized !== pen);
     root.hidden = parts.length === 0;
     if (!sameParts(root, parts)) root.replaceChildren(...parts);
     if (tool !== "select" && desk.movesUnderlay) desk.movesUnderlay = false;

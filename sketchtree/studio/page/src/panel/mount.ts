@@ -20,11 +20,13 @@ import { troubleCard } from "./status/trouble";
 import { trunkCard } from "./trunk/card";
 import { mountStrip } from "./strip/strip";
 import { camera } from "../draw/camera";
+import { way } from "../draw/trunk/way";
 import { newPage } from "../draw/new_page";
 import type { Store } from "../store";
 import "./panel.css";
 
 const LOW = 340; // CSS pixels: where the page is no higher, a drawing below what is said on it would be too small to draw on
+const LOW_SCRIBBLED = 240; // the same of a photo that is scribbled on: all of it has to be seen
 const WIDE = 1100; // over a page as wide as this there is room beside what is said
 
 export type Dialog = "open" | "save" | "gallery" | "export";
@@ -51,10 +53,10 @@ export function mountPanels(roots: PanelRoots, store: Store, views: Views): void
   const words = document.createElement("div");
   words.className = "page-words";
   words.append(goneBanner(store), troubleCard(store), hint.root, photoCard(store), trunkCard(store), turnedNote(store));
-  const hides = (): boolean => words.offsetHeight > 0 && roots.page.clientHeight > LOW && (store.ui.layout === "beside" || roots.page.clientWidth < WIDE);
+  const hides = (): boolean => words.offsetHeight > 0 && roots.page.clientHeight > (way(store) === "scribbles" ? LOW_SCRIBBLED : LOW) && (store.ui.layout === "beside" || roots.page.clientWidth < WIDE);
   const covered = (): void => camera.cover("head", hides() ? words.offsetTop + words.offsetHeight : 0);
   new ResizeObserver(covered).observe(words);
-  store.on("layout", covered);
+  store.on(["layout", "trunk", "underlay"], covered);
   roots.page.append(emptyPage(store, { gallery: () => openDialog("gallery"), open: () => openDialog("open") }), words, hintButton(store, hint));
   roots.tree.append(emptyTree(store));
   welcomeBack(store, () => newPage(store));

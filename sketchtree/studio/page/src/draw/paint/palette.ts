@@ -2,7 +2,7 @@
 
 const NAMES = {
   paper: "--paper", line: "--paper-line", strong: "--paper-line-strong", ink: "--ink", soft: "--ink-soft", guide: "--ink-guide", accent: "--accent",
-  crown: "--crown", crownFill: "--crown-fill", obstacle: "--obstacle", doubt: "--doubt-fill", wrong: "--wrong", traced: "--traced", tree: "--tree", beside: "--beside", matte: "--matte", raised: "--raised",
+  crown: "--crown", crownFill: "--crown-fill", obstacle: "--obstacle", doubt: "--doubt-fill", wrong: "--wrong", traced: "--traced", tree: "--tree", beside: "--beside", matte: "--matte", handle: "--handle", handleEdge: "--handle-edge", raised: "--raised",
 } as const;
 
 export type Palette = Record<keyof typeof NAMES, string>;

@@ -10,24 +10,27 @@ import { paintScribbles } from "./paint_scribbles";
 import { pointsHere } from "./points";
 import { gridOf } from "./contour";
 import { colourOf, isPaint } from "./scribbles";
+import { isScribbled } from "./way";
 
 const SCRIBBLES = 0.72; // how strong they are
 const ASIDE = 0.35; // of a tint that is not looked at just now
+const RING = "#1b1d1b"; // of the brush, round the light one
 const BODY = 0.3; // how strong a limb's thickness is
 
 /** Above the photo; nothing is in page units before or after. */
 export function paintTrunk(on: CanvasRenderingContext2D, ratio: number, desk: Desk, underlay: Underlay, mask: CanvasImageSource | null, palette: Palette): void {
   const { camera, store } = desk;
   const { tool, matteView, matteStrength, skeleton } = store.ui;
+  const known = isScribbled(store) ? mask : null; // else it is of scribbles that are gone
   const strokes = here(store).flatMap((stroke) => desk.instead.get(stroke.id)?.length ? desk.instead.get(stroke.id)! : [stroke]);
   const painted = strokes.filter((stroke) => isPaint(stroke) && !isErased(desk, stroke));
-  if (mask && matteView !== "off") {
+  if (known && matteView !== "off") {
     const strength = tool === "vertices" ? ASIDE * matteStrength : matteStrength;
-    paintMask(on, ratio, camera, underlay, mask, painted, { alone: matteView === "alone", colour: palette.matte, strength });
+    paintMask(on, ratio, camera, underlay, known, painted, { alone: matteView === "alone", colour: palette.matte, strength });
   }
-  const seen = scribblesSeen(desk, strokes, mask !== null);
+  const seen = scribblesSeen(desk, strokes, known !== null);
   paintScribbles(on, ratio, camera, seen, (stroke) => isErased(desk, stroke), palette, SCRIBBLES);
-  if (skeleton) paintFound(on, ratio, desk, palette, underlay);
+  if (skeleton && isScribbled(store)) paintFound(on, ratio, desk, palette, underlay);
 }
 
 function isErased(desk: Desk, { id }: Stroke): boolean {
@@ -65,8 +68,8 @@ function paintFoot(on: CanvasRenderingContext2D, { camera, store }: Desk, underl
   on.lineTo(x - 6, y + 11);
   on.lineTo(x + 6, y + 11);
   on.closePath();
-  on.fillStyle = palette.accent;
-  on.strokeStyle = palette.raised;
+  on.fillStyle = palette.handleEdge;
+  on.strokeStyle = palette.handle;
   on.lineWidth = 1.5;
   on.fill();
   on.stroke();
@@ -86,11 +89,11 @@ export function paintBrush(on: CanvasRenderingContext2D, { live, ring, store }: 
     on.globalAlpha = 1;
   }
   if (!ring) return;
-  for (const [colour, width] of [[palette.ink, 2.5], [palette.paper, 1]] as const) {
+  for (const [colour, width] of [[RING, 2.5], [palette.handle, 1]] as const) {
     on.beginPath();
     on.arc(ring.x, ring.y, ring.radius, 0, 2 * Math.PI);
     on.strokeStyle = colour;
-    on.globalAlpha = colour === palette.ink ? 0.5 : 1;
+    on.globalAlpha = colour === RING ? 0.5 : 1;
     on.lineWidth = width / scale;
     on.stroke();
   }

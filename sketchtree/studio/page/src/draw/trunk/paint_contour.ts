@@ -10,6 +10,9 @@ import { type Deed, why } from "./points";
 const LARGEST = 6; // CSS pixels: radius of a handle where there is room
 const SMALLEST = 2.25;
 const ROOM = 0.2; // of the way between two
+const DARK = "#1b1d1b"; // on a photo it is the same, light or dark
+const SOFT = "#6b6c64";
+const WRONG = "#a5281b";
 const CROSS = 3.5; // CSS pixels
 
 interface Screen {
@@ -33,10 +36,10 @@ export function paintContour(
   on.setLineDash([4, 4]);
   for (const [one, other] of edits.merge) {
     const [from, to] = [nearestPlace(contour, ...one), nearestPlace(contour, ...other)];
-    if (from && to && from.ring === to.ring) strokeSpan(screen, contour, from, to, palette.accent, 2.5);
+    if (from && to && from.ring === to.ring) strokeSpan(screen, contour, from, to, palette.handleEdge, 2.5);
   }
   on.setLineDash([]);
-  for (const [x, y] of edits.remove) cross(screen, x, y, palette.wrong, 1.5);
+  for (const [x, y] of edits.remove) cross(screen, x, y, WRONG, 1.5);
   for (const corner of corners) handle(screen, corner);
 }
 
@@ -48,15 +51,15 @@ export function paintDeed(
   const not = why(deed) !== null;
   switch (deed.what) {
     case "remove":
-      ring(screen, deed.corner.x, deed.corner.y, not ? palette.soft : palette.wrong);
-      if (!not) cross(screen, deed.corner.x, deed.corner.y, palette.wrong, 2);
+      ring(screen, deed.corner.x, deed.corner.y, not ? SOFT : WRONG);
+      if (!not) cross(screen, deed.corner.x, deed.corner.y, WRONG, 2);
       break;
-    case "add": ring(screen, deed.place.x, deed.place.y, palette.accent); plus(screen, deed.place.x, deed.place.y); break;
-    case "restore": ring(screen, deed.point[0], deed.point[1], palette.accent); break;
+    case "add": ring(screen, deed.place.x, deed.place.y, palette.handleEdge); plus(screen, deed.place.x, deed.place.y); break;
+    case "restore": ring(screen, deed.point[0], deed.point[1], palette.handleEdge); break;
     case "merge":
-      if (deed.from.ring === deed.to.ring) strokeSpan(screen, contour, deed.from, deed.to, not ? palette.soft : palette.accent, 3);
-      for (const end of [deed.from, deed.to]) ring(screen, end.x, end.y, not ? palette.soft : palette.accent);
-      if (!not) for (const corner of deed.gone) cross(screen, corner.x, corner.y, palette.wrong, 2);
+      if (deed.from.ring === deed.to.ring) strokeSpan(screen, contour, deed.from, deed.to, not ? SOFT : palette.handleEdge, 3);
+      for (const end of [deed.from, deed.to]) ring(screen, end.x, end.y, not ? SOFT : palette.handleEdge);
+      if (!not) for (const corner of deed.gone) cross(screen, corner.x, corner.y, WRONG, 2);
       break;
   }
 }
@@ -77,13 +80,13 @@ function trace({ on, at }: Screen, xy: readonly number[]): void {
 }
 
 /** Dark below, light above: seen on any photo. */
-function twice(on: CanvasRenderingContext2D, { paper, ink }: Palette, width: number): void {
-  on.strokeStyle = ink;
+function twice(on: CanvasRenderingContext2D, { handle }: Palette, width: number): void {
+  on.strokeStyle = DARK;
   on.globalAlpha = 0.55;
   on.lineWidth = width + 2;
   on.stroke();
   on.globalAlpha = 1;
-  on.strokeStyle = paper;
+  on.strokeStyle = handle;
   on.lineWidth = width;
   on.stroke();
 }
@@ -102,17 +105,17 @@ function strokeSpan(screen: Screen, contour: Contour, one: { ring: number; x: nu
 function handle({ on, palette, radius, at }: Screen, { x, y, parts, added }: Corner): void {
   on.beginPath();
   on.arc(...at(x, y), parts ? radius : 0.6 * radius, 0, 2 * Math.PI);
-  on.fillStyle = added ? palette.accent : palette.raised;
+  on.fillStyle = added ? palette.handleEdge : palette.handle;
   on.globalAlpha = parts ? 1 : 0.75;
   on.fill();
-  on.strokeStyle = added ? palette.raised : palette.accent;
+  on.strokeStyle = added ? palette.handle : palette.handleEdge;
   on.lineWidth = parts ? 1.75 : 1.25;
   on.stroke();
   on.globalAlpha = 1;
 }
 
 function ring({ on, palette, radius, at }: Screen, x: number, y: number, colour: string): void {
-  for (const [stroke, width] of [[palette.raised, 4.5], [colour, 2.25]] as const) {
+  for (const [stroke, width] of [[palette.handle, 4.5], [colour, 2.25]] as const) {
     on.beginPath();
     on.arc(...at(x, y), radius + 3, 0, 2 * Math.PI);
     on.strokeStyle = stroke;
@@ -128,7 +131,7 @@ function cross({ on, palette, at }: Screen, x: number, y: number, colour: string
     on.moveTo(left - CROSS, top - way * CROSS);
     on.lineTo(left + CROSS, top + way * CROSS);
   }
-  for (const [stroke, wide] of [[palette.raised, width + 2], [colour, width]] as const) {
+  for (const [stroke, wide] of [[palette.handle, width + 2], [colour, width]] as const) {
     on.strokeStyle = stroke;
     on.lineWidth = wide;
     on.stroke();
@@ -142,7 +145,7 @@ function plus({ on, palette, at }: Screen, x: number, y: number): void {
   on.lineTo(left + CROSS, top);
   on.moveTo(left, top - CROSS);
   on.lineTo(left, top + CROSS);
-  on.strokeStyle = palette.accent;
+  on.strokeStyle = palette.handleEdge;
   on.lineWidth = 2;
   on.stroke();
 }

@@ -24,7 +24,7 @@ export function paintScribbles(
     for (const stroke of strokes) {
       if (edge && erased(stroke)) continue;
       layer.globalAlpha = erased(stroke) ? FAINT : 1;
-      layer.strokeStyle = edge ? palette.paper : colourOf(stroke.kind, palette);
+      layer.strokeStyle = edge ? palette.handle : colourOf(stroke.kind, palette);
       layer.lineWidth = Math.max(stroke.width ?? 0, LEAST / camera.scale) + (edge ? (2 * EDGE) / camera.scale : 0);
       layer.stroke(lineOf(stroke));
     }

@@ -6,6 +6,7 @@ import { type Desk, pixels } from "../desk";
 import type { Tool, Touch } from "../hand/touch";
 import { type Contour, contourOf, type Corner, cornersBetween, gridOf, nearestCorner, nearestPlace, type Place, toPixels } from "./contour";
 import { isClear, keeps, merged, MOST_EDITS, count, restored, shown, withPlace, without, type Edits, type Point } from "./edits";
+import { isScribbled } from "./way";
 
 const REACH = 11; // CSS pixels
 const REACH_BY_HAND = 20;
@@ -28,7 +29,7 @@ let last: Here | null = null; // as it was asked for last
 
 /** The contour as it is to be; null: there is none. */
 export function pointsHere({ known }: Desk["store"]): Here | null {
-  if (!known.found || !known.trunk) return null;
+  if (!known.found || !known.trunk || !isScribbled({ known })) return null;
   const contour = contourOf(known.found);
   if (last?.contour !== contour || last.edits !== known.trunk) last = { contour, corners: shown(contour, known.trunk), edits: known.trunk };
   return last;

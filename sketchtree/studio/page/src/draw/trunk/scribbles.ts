@@ -16,6 +16,12 @@ export function isPaint(stroke: Pick<Stroke, "kind">): boolean {
   return stroke.kind === "matte_add" || stroke.kind === "matte_erase";
 }
 
+/** Which sides are scribbled on. */
+export function sides(strokes: Iterable<Pick<Stroke, "kind">>): { tree: boolean; beside: boolean } {
+  const kinds = new Set([...strokes].map(({ kind }) => kind));
+  return { tree: kinds.has("foreground"), beside: kinds.has("background") };
+}
+
 export function colourOf(kind: Stroke["kind"], palette: Palette): string {
   return palette[COLOURS[kind] ?? "ink"];
 }

@@ -2,7 +2,7 @@
 
 import type { Stroke } from "../../messages";
 import type { Store, Tool } from "../../store";
-import { isScribble } from "./scribbles";
+import { isScribble, sides } from "./scribbles";
 
 export type Way = "drawing" | "crown" | "scribbles"; // drawing: no photo shows the tree
 
@@ -28,6 +28,12 @@ export function isOfWay(store: Pick<Store, "known">, stroke: Pick<Stroke, "kind"
   return now === "drawing" || isScribble(stroke) === (now === "scribbles");
 }
 
+/** Is there something that a matte can be told from: scribbles on both sides? */
+export function isScribbled({ known }: Pick<Store, "known">): boolean {
+  const has = sides(known.strokes.values());
+  return has.tree && has.beside;
+}
+
 /** Mark the tree in this way from now on. */
 export function setWay(store: Store, to: "crown" | "scribbles"): void {
   const on = to === "scribbles";
@@ -41,6 +47,15 @@ export function followWay(store: Store): void {
     store.set("tool", way(store) === "scribbles" ? "foreground" : way(store) === "crown" && !hasCrown(store) ? "crown" : "branch");
   };
   store.on(["trunk", "underlay"], follow);
+  let photo = store.known.underlay?.digest;
+  store.on("underlay", () => {
+    const other = store.known.underlay?.digest;
+    if (other !== photo) {
+      Object.assign(store.known, { matte: null, trunks: null, found: null }); // they are of another photo
+      store.tell("matte", "trunks");
+    }
+    photo = other;
+  });
 }
 
 export function hasCrown(store: Pick<Store, "known">): boolean {

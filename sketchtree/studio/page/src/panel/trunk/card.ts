@@ -1,6 +1,7 @@
 // A bare tree is being scribbled on: what is to be done, what is being done, and what went wrong. A card at the top of the page, in the place of that of crown and limbs.
 
 import { byHand, setPhoto } from "../../draw/photo";
+import { sides } from "../../draw/trunk/scribbles";
 import { setWay, way } from "../../draw/trunk/way";
 import { button } from "../../parts/button";
 import { element } from "../../parts/element";
@@ -8,7 +9,7 @@ import { toggle } from "../../parts/toggle";
 import type { Store } from "../../store";
 import { icon } from "../../style/icons";
 import { growButton } from "../photo/grow_button";
-import { BEGIN, BEGIN_MOUSE, said, sides } from "./words";
+import { BEGIN, BEGIN_MOUSE, said } from "./words";
 
 export function trunkCard(store: Store): HTMLElement {
   const words = element("p", { testId: "trunk-words", role: "status", aria: { live: "polite" } });

@@ -26,7 +26,7 @@ export function moreTrunk(store: Store): HTMLElement {
   });
   const stands = element("span", { class: "row-value" });
   const back = button({ label: "Find it again", look: "quiet", testId: "trunk-foot-back", hint: "In the middle of the trunk's foot", onPress: () => store.chooseTrunk({ root: null }, "foot") });
-  const point = button({ label: "Show it", testId: "trunk-foot", hint: "Click in the photo where the trunk stands", key: "R", onPress: () => store.set("tool", "foot") });
+  const point = button({ label: "Show where", testId: "trunk-foot", hint: "Click in the photo where the trunk stands", key: "R", onPress: () => store.set("tool", "foot") });
   const show = (): void => {
     const { trunk } = store.known;
     if (!trunk) return;

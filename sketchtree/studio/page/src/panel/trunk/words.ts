@@ -1,6 +1,6 @@
 // What is said while a tree is taken from scribbles? Words alone: no element is touched.
 
-import type { Growing, Matte, Stroke, Trunks } from "../../messages";
+import type { Growing, Matte, Trunks } from "../../messages";
 
 export const BEGIN = "Scribble on the tree, then on what is not tree.";
 export const BEGIN_MOUSE = "Left button: on the tree. Right button: on what is not tree.";
@@ -12,12 +12,6 @@ const TRUNK = "Finding the trunk …";
 const GROWS = "Growing the tree …";
 const READY = "Grown from the scribbles.";
 const STOPPED = "Stopped.";
-
-/** Which sides are scribbled on. */
-export function sides(strokes: Iterable<Pick<Stroke, "kind">>): { tree: boolean; beside: boolean } {
-  const kinds = new Set([...strokes].map(({ kind }) => kind));
-  return { tree: kinds.has("foreground"), beside: kinds.has("background") };
-}
 
 export interface Known {
   trunks: Trunks | null;
