@@ -83,7 +83,7 @@ class Crew:
         trunk = Hand("trunk", self._database, lambda number, value: self._trunker.heard(number, value), partial(self._ended, "trunk"))
         self._trunker = Trunker(trunk, laid, lambda outcome: self.on_outcome(outcome), self._run)
         self._tracer = Tracer(*photo, laid, lambda revision, event: self.on_outcome(Outcome(revision, event)), self._grower.seen, self._run)
-        self._ager, self._filmer = (Ager(lambda: Hand("age", self._database, lambda number, value: None, partial(self._ended, "age"))) for _ in range(2))
+        self._ager, self._filmer = (Ager(partial(Hand, role, self._database, lambda number, value: None, partial(self._ended, role))) for role in ("age", "film"))
         self._begun = 1
         self._empty: bytes | None = None  # the tree of a page without a stroke, if that was told last
         self._hands["full"].begin()  # the others once there is a tree, or when they are asked

@@ -558,6 +558,28 @@ def test_growth_plays_and_pauses_and_a_stroke_goes_back_to_the_tree(page, small_
     assert not page.get("growth-bar").is_visible() and page.status["revision"] == after["revision"]
 
 
+def test_its_growth_is_exported_as_it_is_looked_at_and_a_second_press_stops_it(page, small_tree, ear):
+    ear.do("save", name="kept", over=True)
+    page.get("export").click()
+    page.get("export-what").get_by_role("radio", name="Its growth").click()
+    assert not page.get("export-glb").is_visible() and page.weak_contrasts() == []
+    page.get("export-growth-mode").get_by_role("radio", name="By age").click()
+    page.get("export-growth-seconds").fill("4")
+    page.get("copy-command").click()
+    page.get("command-line").wait_for()
+    assert page.get("command-line").input_value() == "sketchtree grow kept.sketchtree -o kept.glb --mode age --seconds 4"
+    page.get("export-growing-gif").click()
+    page.get("export-growing-gif").get_by_text("press to stop").wait_for()
+    page.get("export-growing-gif").click()
+    page.get("export-growing-gif").get_by_text("Stopped").wait_for()
+    page.page.keyboard.press("Escape")
+    page.get("growth").click()
+    page.get("growth-more").click()
+    assert page.get("growth-mode").get_by_role("radio", name="By age").get_attribute("aria-checked") == "true"
+    page.page.keyboard.press("Escape")
+    page.get("growth-close").click()
+
+
 @pytest.mark.parametrize("theme", ["light", "dark"])
 def test_text_is_read_on_its_ground(page, small_tree, theme):
     page.page.emulate_media(color_scheme=theme)

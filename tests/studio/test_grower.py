@@ -36,6 +36,9 @@ class IdleHand:
         self.asked[len(self.asked)] = kind, arguments, answer
         return len(self.asked) - 1, answer
 
+    async def made(self, kind, *arguments, hears=None):
+        return await self.ask(kind, *arguments)[1]
+
     def stop(self):
         self.stops += 1
 

@@ -142,6 +142,46 @@ def test_what_is_stopped_is_not_made_until_it_is_asked_for():
     played(play)
 
 
+def test_a_matte_that_does_not_stop_ends_with_its_process_and_the_newer_scribbles_are_asked_again(monkeypatch):
+    monkeypatch.setattr(making, "_PATIENCE", 0.02)
+
+    async def play(scene):
+        await scene.draw(drawn(ONE))
+        begun = scene.hand.begun
+        await scene.draw(drawn(TWO))
+        await asyncio.sleep(0.05)
+        assert scene.hand.begun == begun + 1 and scene.made == 3
+        assert scene.hand.jobs("trunk")[-1][1][1].strokes == tuple(TWO.values())
+        await scene.answer(b"two")
+        assert [one.event for one in scene.told if one.of_photo] == [b"two"]
+
+    played(play)
+
+
+def test_a_matte_that_ends_in_time_keeps_its_process(monkeypatch):
+    monkeypatch.setattr(making, "_PATIENCE", 0.02)
+
+    async def play(scene):
+        await scene.draw(drawn(ONE))
+        begun = scene.hand.begun
+        scene.hand.stop = lambda: scene.hand.jobs("trunk")[0][2].set_result(None)
+        await scene.draw(drawn(TWO))
+        await asyncio.sleep(0.05)
+        assert scene.hand.begun == begun and scene.made == 2
+
+    played(play)
+
+
+def test_files_and_growth_of_what_no_scribble_tells_are_refused():
+    async def play(scene):
+        with pytest.raises(SketchError) as refused:
+            await scene.trunker.files(drawn(TWO, on=False), "tree.glb", {})
+        assert str(refused.value) == "No scribbles tell a tree yet. Draw along its trunk, and beside it."
+        assert scene.trunker.whose(drawn(TWO)).key == scene.trunker.whose(drawn(TWO)).key != scene.trunker.whose(drawn(ONE)).key
+
+    played(play)
+
+
 def test_it_goes_when_the_tree_is_taken_otherwise_and_nothing_is_told_of_a_plain_drawing():
     async def play(scene):
         await scene.draw(drawn(TWO, on=False))

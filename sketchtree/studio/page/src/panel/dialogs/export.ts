@@ -38,8 +38,8 @@ export function exportTree(store: Store, views: Views): () => void {
     ({ format, tree: treeOf(store), revision: store.known.revision, ...(of === "growth" ? { growth: grows.options() } : fitting(stands.options(), format)) });
   const command = commandLine(() => wanted(".glb", what), failed);
   const halves = {
-    tree: half(stands.root, "Options", "Press a format on the left: the file is made with these options, and saved."),
-    growth: half(grows.root, "How it grows", "Press a format on the left: it is made of the whole tree, which takes a while, and saved. A film takes a minute or two."),
+    tree: half(stands.root, "Options", "Press a format: the file is made with these options, and saved."),
+    growth: half(grows.root, "How it grows", "Press a format: the file is made, which takes a while, and saved. A film takes a minute or two."),
   };
   const format = (of: What) => (one: Choice, hint: string): HTMLElement =>
     formatButton({ store, format: one, hint, testId: of === "growth" ? "export-growing" : "export", started, failed, request: () => wanted(one.name, of) } satisfies FormatLook);

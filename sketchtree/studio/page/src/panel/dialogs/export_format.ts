@@ -28,7 +28,8 @@ export interface FormatLook {
 export function formatButton(look: FormatLook): HTMLButtonElement {
   const extension = look.format.name.replace(/^\./, "");
   const note = element("span", { class: "format-note" }, look.hint);
-  const words = [element("strong", {}, `.${extension}`), note, element("span", { class: "format-title" }, look.format.title)];
+  const title = element("span", { class: "format-title" }, look.format.title);
+  const words = [element("strong", {}, `.${extension}`), note, title];
   const made = element("button", { class: "format", title: `${look.format.title}: make it and save it`, testId: `${look.testId}-${extension}` }, ...words);
   made.type = "button";
   let working: AbortController | null = null;
@@ -37,10 +38,12 @@ export function formatButton(look: FormatLook): HTMLButtonElement {
     working = new AbortController();
     look.started();
     made.classList.add("working");
+    title.textContent = "Press to stop";
     made.style.setProperty("--part", "0%");
     void make(look, working.signal, note, (done) => made.style.setProperty("--part", `${Math.round(100 * done)}%`)).finally(() => {
       working = null;
       made.classList.remove("working");
+      title.textContent = look.format.title;
     });
   });
   return made;
@@ -51,8 +54,8 @@ async function make(look: FormatLook, signal: AbortSignal, note: HTMLElement, pa
   let share = 0;
   const pending = new Pending(look.store, (done) => part((share = done)));
   const passed = (): string => `${((performance.now() - began) / 1000).toFixed(1)} s`;
-  const clock = setInterval(() => { note.textContent = `${share > 0 ? `${Math.round(100 * share)} %, ` : ""}${passed()} … press to stop`; }, TICK);
-  note.textContent = "Working … press to stop";
+  const clock = setInterval(() => { note.textContent = `${share > 0 ? `${Math.round(100 * share)} %, ` : ""}${passed()}`; }, TICK);
+  note.textContent = "Working";
   try {
     const body = JSON.stringify({ ...look.request(), id: pending.id });
     const answer = await ask("export", { method: "POST", headers: { "content-type": "application/json" }, body, signal });
