@@ -5,16 +5,11 @@
 // FOLDER holds node_modules with `three` and `puppeteer-core`; PICTURES is a folder for one picture a moment. Of a mesh every n-th vertex is told, 2,000
 // at most. `update` is what a frame costs the processor before anything is drawn, milliseconds: mixer, matrices, bones.
 
-const fs = require("fs"), http = require("http"), path = require("path");
+const path = require("path");
+const { eachFile } = require("./three_page.cjs");
 const [folder, chromium, moments, ...wanted] = process.argv.slice(2);
-const puppeteer = require(require.resolve("puppeteer-core", { paths: [folder] }));
 
-const PAGE = `<!doctype html><html><body style="margin:0;background:#cfd8dc"><script type="importmap">
-{"imports": {"three": "/three/build/three.module.js", "three/addons/": "/three/examples/jsm/"}}</script>
-<script type="module">
-import * as THREE from "three";
-import { GLTFLoader } from "three/addons/loaders/GLTFLoader.js";
-
+const MODULE = `
 let scene, camera, renderer, mixer, meshes, length;
 
 function sampled(mesh) {
@@ -72,43 +67,15 @@ window.cost = () => {
   }
   return times.slice(5).sort((a, b) => a - b)[17];
 };
-window.ready = true;
-</script></body></html>`;
+`;
 
-function served(request, response) {
-  const name = decodeURIComponent(request.url.split("?")[0]);
-  if (name === "/") return response.writeHead(200, { "Content-Type": "text/html" }).end(PAGE);
-  const place = name.startsWith("/three/") ? path.join(folder, "node_modules", name) : name.startsWith("/file/") ? name.slice(5) : "";
-  if (!place || !fs.existsSync(place)) return response.writeHead(404).end();
-  response.writeHead(200, { "Content-Type": path.extname(place) === ".js" ? "text/javascript" : "application/octet-stream" }).end(fs.readFileSync(place));
+async function look(page, seen, file, pictures) {
+  seen.update = await page.evaluate(() => window.cost());
+  seen.moments = [];
+  for (const [k, second] of moments.split(",").map(Number).entries()) {
+    seen.moments.push(await page.evaluate((time, drawn) => window.at(time, drawn), second, Boolean(pictures)));
+    if (pictures) await page.screenshot({ path: path.join(pictures, `${path.basename(file, path.extname(file))}_${k}.png`) });
+  }
 }
 
-(async () => {
-  const server = http.createServer(served);
-  await new Promise((done) => server.listen(0, "127.0.0.1", done));
-  const browser = await puppeteer.launch({ executablePath: chromium, args: ["--no-sandbox", "--use-angle=swiftshader", "--enable-unsafe-swiftshader"], protocolTimeout: 600000 });
-  const page = await browser.newPage();
-  await page.setViewport({ width: 480, height: 480 });
-  const said = [];
-  page.on("console", (message) => { if (["error", "warn"].includes(message.type())) said.push(message.text()); });
-  page.on("pageerror", (error) => said.push(String(error)));
-  await page.goto(`http://127.0.0.1:${server.address().port}/`);
-  await page.waitForFunction("window.ready", { timeout: 60000 });
-  for (const entry of wanted) {
-    const [file, pictures] = entry.split("=");
-    said.length = 0;
-    let seen;
-    try {
-      seen = await page.evaluate((url) => window.open3d(url), "/file" + path.resolve(file).split("/").map(encodeURIComponent).join("/"));
-      seen.update = await page.evaluate(() => window.cost());
-      seen.moments = [];
-      for (const [k, second] of moments.split(",").map(Number).entries()) {
-        seen.moments.push(await page.evaluate((time, drawn) => window.at(time, drawn), second, Boolean(pictures)));
-        if (pictures) await page.screenshot({ path: path.join(pictures, `${path.basename(file, path.extname(file))}_${k}.png`) });
-      }
-    } catch (error) { seen = { error: String(error) }; }
-    console.log("SEEN " + JSON.stringify({ file, ...seen, said: said.filter((line) => !/GPU stall|favicon|status of 404|swiftshader/i.test(line)) }));
-  }
-  await browser.close();
-  server.close();
-})();
+eachFile({ folder, chromium, wanted, module: MODULE, side: 480, look });

@@ -2,19 +2,12 @@
 //
 //   node three_side.cjs FOLDER CHROMIUM FILE[=PICTURE.png]...
 //
-// FOLDER holds node_modules with `three` and `puppeteer-core`. A small server of its own serves the page, three.js and the files.
+// FOLDER holds node_modules with `three` and `puppeteer-core` (`three_page.cjs`).
 
-const fs = require("fs"), http = require("http"), path = require("path");
+const { eachFile } = require("./three_page.cjs");
 const [folder, chromium, ...wanted] = process.argv.slice(2);
-const puppeteer = require(require.resolve("puppeteer-core", { paths: [folder] }));
-const KINDS = { ".js": "text/javascript", ".html": "text/html", ".json": "application/json", ".gltf": "model/gltf+json", ".jpg": "image/jpeg", ".png": "image/png" };
 
-const PAGE = `<!doctype html><html><body style="margin:0;background:#cfd8dc"><script type="importmap">
-{"imports": {"three": "/three/build/three.module.js", "three/addons/": "/three/examples/jsm/"}}</script>
-<script type="module">
-import * as THREE from "three";
-import { GLTFLoader } from "three/addons/loaders/GLTFLoader.js";
-
+const MODULE = `
 function eachPlace(thing, visit) {  // three.js itself takes the box of each instance's box
   const corners = thing.geometry.attributes.position, place = new THREE.Matrix4(), point = new THREE.Vector3();
   for (let i = 0; i < thing.count; i++) {
@@ -59,38 +52,10 @@ window.open3d = async (file) => {
   renderer.render(scene, camera);
   return { ...seen, drawn: renderer.info.render.triangles, program: "three.js r" + THREE.REVISION };
 };
-window.ready = true;
-</script></body></html>`;
+`;
 
-function served(request, response) {
-  const name = decodeURIComponent(request.url.split("?")[0]);
-  if (name === "/") return response.writeHead(200, { "Content-Type": "text/html" }).end(PAGE);
-  const place = name.startsWith("/three/") ? path.join(folder, "node_modules", name) : name.startsWith("/file/") ? name.slice(5) : "";
-  if (!place || !fs.existsSync(place)) return response.writeHead(404).end();
-  response.writeHead(200, { "Content-Type": KINDS[path.extname(place)] || "application/octet-stream" }).end(fs.readFileSync(place));
+async function look(page, seen, file, picture) {
+  if (picture) await page.screenshot({ path: picture });
 }
 
-(async () => {
-  const server = http.createServer(served);
-  await new Promise((done) => server.listen(0, "127.0.0.1", done));
-  const browser = await puppeteer.launch({ executablePath: chromium, args: ["--no-sandbox", "--use-angle=swiftshader", "--enable-unsafe-swiftshader"], protocolTimeout: 300000 });
-  const page = await browser.newPage();
-  await page.setViewport({ width: 640, height: 640 });
-  const said = [];
-  page.on("console", (message) => { if (["error", "warn"].includes(message.type())) said.push(message.text()); });
-  page.on("pageerror", (error) => said.push(String(error)));
-  await page.goto(`http://127.0.0.1:${server.address().port}/`);
-  await page.waitForFunction("window.ready", { timeout: 60000 });
-  for (const entry of wanted) {
-    const [file, picture] = entry.split("=");
-    said.length = 0;
-    let seen;
-    try {
-      seen = await page.evaluate((url) => window.open3d(url), "/file" + path.resolve(file).split("/").map(encodeURIComponent).join("/"));
-      if (picture) await page.screenshot({ path: picture });
-    } catch (error) { seen = { error: String(error) }; }
-    console.log("SEEN " + JSON.stringify({ file, ...seen, said: said.filter((line) => !/GPU stall|favicon|status of 404|swiftshader/i.test(line)) }));
-  }
-  await browser.close();
-  server.close();
-})();
+eachFile({ folder, chromium, wanted, module: MODULE, side: 640, look });
