@@ -35,6 +35,7 @@ _FILE = click.Path(path_type=Path)
 @click.option("--frames", type=int, metavar="N", help="Pictures of the film (default 72), trees of the series (default 24): 2 to 720.")
 @click.option("--variations", type=int, default=1, show_default=True, metavar="N", help="So many crowns on one trunk, 1 to 64: NAME_1.glb, NAME_2.glb ...; the first is the one without this option.")
 @options.lod
+@click.option("--compact", is_flag=True, help="Of glTF: vertices in small numbers, a third less of them (KHR_mesh_quantization: three.js, Blender and game engines read it).")
 @options.reading
 @options.tree(200_000, "the tree")
 @options.common
@@ -65,7 +66,7 @@ def grow(source: Path, output: Path, seed: int, quiet: bool, json_log: bool, rep
         chosen = "seed" in grow_asked.given(click.get_current_context())
         begun, seed = grow_read.read(kind, source, wanted, templates, seed=seed, seed_chosen=chosen, reading=reading, tree=tree, trunk=trunk, watch=watch)
         trunk = trunk if begun.trunk is None else begun.trunk.wanted  # a project has its own
-        run = writing.Run("grow", seed, imported, began, watch, choices.options_as_dict(reading, tree, growth, trunk) | {name: wanted[name] for name in ("moment", "seconds", "variations", "lod", "joints")})
+        run = writing.Run("grow", seed, imported, began, watch, choices.options_as_dict(reading, tree, growth, trunk) | {name: wanted[name] for name in ("moment", "seconds", "variations", "lod", "joints", "compact")})
         record = grow_write.grow_all(begun, growth, tree, output, run, wanted, kept=grow_asked.inputs(source, wanted))
         writing.write_report(report, record)
     writing.conclude(record, output, progress)

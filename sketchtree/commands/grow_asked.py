@@ -68,6 +68,8 @@ def check_options(kind: str, source: Path, output: Path, wanted: dict, said: set
         raise OptionError("`--joints` says how finely the tree moves, and nothing that is asked for moves.", remedy="Write .glb, .gltf or .usd without `--time`, or leave it out.")
     if wanted["lod"] and output.suffix.lower() not in (*MESHES, ".png") and wanted["movie"] is None and wanted["series"] is None and wanted["preview"] is None:
         raise OptionError(f"`--lod {wanted['lod']}` says how fine the meshes are, and `{output.suffix.lower()}` files hold none.", remedy="Leave it out, or write a mesh.")
+    if wanted["compact"] and output.suffix.lower() not in (".glb", ".gltf"):
+        raise OptionError(f"`--compact` is for glTF, and `{output.suffix.lower()}` files have no such numbers.", remedy="Leave it out, or write .glb or .gltf.")
     if kind == "skeleton" and wanted["variations"] > 1 and not wanted["levels"]:
         raise OptionError(f"`--variations {wanted['variations']}` differ in what is grafted on, and nothing is.", remedy="Add `--levels 2`, say.")
     if kind == "picture" and wanted["variations"] > 1 and wanted["levels"] == 0:

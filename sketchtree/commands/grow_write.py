@@ -53,9 +53,9 @@ def _write(grown, paths: dict, run, wanted: dict, kept: tuple[Path, ...]):
         from sketchtree.export.write import write_asset
 
         asset = growing.asset(seconds=wanted["seconds"], about=_about(grown, run))
-        told = write_asset(output, asset, kept=kept)
+        told = write_asset(output, asset, kept=kept, compact=wanted["compact"])
     else:
-        told = _write_still(grown, growing, 1.0 if moment is None else moment, output, run, kept)
+        told = _write_still(grown, growing, 1.0 if moment is None else moment, output, run, kept, wanted["compact"])
         if moment is None:
             told += (f"{output.name} does not move: it is the tree grown up; `--time` says when otherwise.",)
     if paths["skeleton"] is not None:
@@ -63,7 +63,7 @@ def _write(grown, paths: dict, run, wanted: dict, kept: tuple[Path, ...]):
     if paths["preview"] is not None:
         told += _picture(_meshes(grown, growing, 1.0 if moment is None else moment), paths["preview"])
     if wanted["series"] is not None:
-        _write_series(grown, growing, series_files(output, wanted, output.stem), run)
+        _write_series(grown, growing, series_files(output, wanted, output.stem), run, wanted["compact"])
     if paths["movie"] is not None:
         from sketchtree.view.growth_film import growth_film
 
@@ -88,7 +88,7 @@ def _meshes(grown, growing, moment: float) -> tuple:
     return tuple(grown.model.meshes) if moment == 1 and not grown.plan.bend else growing.at(moment)
 
 
-def _write_still(grown, growing, moment: float, output: Path, run, kept: tuple[Path, ...]) -> tuple[str, ...]:
+def _write_still(grown, growing, moment: float, output: Path, run, kept: tuple[Path, ...], compact: bool) -> tuple[str, ...]:
     """The tree at one time."""
     from sketchtree.export.write import write_asset
     from sketchtree.tree_output import write_skeleton_of
@@ -99,7 +99,7 @@ def _write_still(grown, growing, moment: float, output: Path, run, kept: tuple[P
         return ()
     if suffix not in MESHES:
         return _picture(_meshes(grown, growing, moment), output)
-    return write_asset(output, _still(grown, growing, moment, run), kept=kept)
+    return write_asset(output, _still(grown, growing, moment, run), kept=kept, compact=compact)
 
 
 def _still(grown, growing, moment: float, run):
@@ -131,7 +131,7 @@ class _Frames(Mapping):
         return len(self._number)
 
 
-def _write_series(grown, growing, paths: list[Path], run) -> None:
+def _write_series(grown, growing, paths: list[Path], run, compact: bool) -> None:
     """All of them, or none; the folder is made if it is missing."""
     from sketchtree.export.files import write_set
     from sketchtree.export.write import asset_files
@@ -140,7 +140,7 @@ def _write_series(grown, growing, paths: list[Path], run) -> None:
 
     def frame(path: Path, number: int) -> bytes:
         run.watch.on_part(number / last)
-        return asset_files(path, _still(grown, growing, number / last, run))[path]
+        return asset_files(path, _still(grown, growing, number / last, run), compact=compact)[path]
 
     made = not folder.exists()
     folder.mkdir(exist_ok=True)

@@ -12,19 +12,19 @@ from sketchtree.skeleton import TreeSkeleton
 
 
 def write_asset(
-    path: str | os.PathLike, asset: Asset, *, separate: bool = False, collision: Sequence[str] = (), kept: Collection[Path] = ()
+    path: str | os.PathLike, asset: Asset, *, separate: bool = False, collision: Sequence[str] = (), kept: Collection[Path] = (), compact: bool = False
 ) -> tuple[str, ...]:
     """Write the asset as the extension says; returns what a person should know about what the format could not hold.
 
     Of several levels of detail OBJ, PLY, STL and 3MF hold the finest, glTF and USD all; if `separate`, each level is in a file of its own.
-    `collision` names a node for each capsule in glTF, where they are to be meshes. Raises `ExportError`, also
+    `collision` names a node for each capsule in glTF, where they are to be meshes; `compact`: glTF's vertices are small numbers. Raises `ExportError`, also
     where a file of the set, a texture perhaps, would overwrite one of `kept`: what the tree was made of.
     """
     check_extension(path, MESHES)
     check_program(path)
     path = Path(path)
     check_writable(path)
-    files = asset_files(path, asset, separate=separate, collision=collision)
+    files = asset_files(path, asset, separate=separate, collision=collision, compact=compact)
     held = {Path(one).resolve() for one in kept}
     for file in files:
         if file.resolve() in held:
@@ -34,19 +34,19 @@ def write_asset(
     return () if scene or separate else _left_out(path, asset)
 
 
-def asset_files(path: Path, asset: Asset, *, separate: bool = False, collision: Sequence[str] = ()) -> dict[Path, bytes]:
+def asset_files(path: Path, asset: Asset, *, separate: bool = False, collision: Sequence[str] = (), compact: bool = False) -> dict[Path, bytes]:
     """Every file that `write_asset` writes, by its path. If `separate`, several levels become NAME_LOD0, NAME_LOD1 …, an impostor NAME_impostor."""
     if separate and len(asset.levels) > 1:
         files: dict[Path, bytes] = {}
         for number, level in enumerate(asset.levels):
             one = replace(asset, levels=(level,)) if number == 0 else Asset((level,), name=asset.name, armature=asset.armature, about=asset.about)
-            files |= asset_files(_of_level(path, number, level), one, collision=collision)
+            files |= asset_files(_of_level(path, number, level), one, collision=collision, compact=compact)
         return files
     suffix = path.suffix.lower()
     if suffix in (".glb", ".gltf"):
         from sketchtree.export.gltf.write import gltf_files
 
-        return gltf_files(path, asset, collision=collision)
+        return gltf_files(path, asset, collision=collision, compact=compact)
     if suffix.startswith(".usd"):
         from sketchtree.export.usd.write import usd_files
 

@@ -191,6 +191,7 @@ def test_edits_of_vertices_that_hit_nothing_are_told(folder, capsys, edits, says
         (("--seconds", "4"), "nothing that is asked for moves"),
         (("--joints", "4"), "`--joints 4` is out of range"),
         (("--lod", "2"), "`--lod 2` says how fine the meshes are, and `.swc` files hold none."),
+        (("--compact",), "`--compact` is for glTF, and `.swc` files have no such numbers."),
         (("--joints", "400"), "nothing that is asked for moves"),
         (("--variations", "3"), "nothing is"),
         (("--scribbles", "@marks.json"), "`--scribbles` does nothing here: tree.swc holds a tree already"),
@@ -275,7 +276,7 @@ def test_a_tree_that_build_made_grows_in_the_looks_it_has(tmp_path):
 
 def test_a_coarser_level_of_detail_moves_by_fewer_joints_and_is_a_smaller_file(folder):
     sizes, joints = [], []
-    for more in ((), ("--lod", "3")):
+    for more in ((), ("--lod", "3", "--compact")):
         assert grow(folder, "tree.swc", "--leaf", "oak", "--levels", "2", "--report", "@r.json", *more, output="g.glb") == 0
         asset = read_contents(folder / "g.glb").asset
         sizes.append([(folder / "g.glb").stat().st_size, sum(part.triangle_count for part in asset.parts if "young" not in part.name)])

@@ -28,6 +28,7 @@ class Picture:
 class Tables:
     """What the nodes of a document point at."""
 
+    compact: bool = False  # vertices in numbers of 8 and 16 bits (`vertices`)
     chunks: list[bytes] = field(default_factory=list)  # of the buffer
     size: int = 0  # of the buffer, bytes
     views: list = field(default_factory=list)
@@ -54,11 +55,20 @@ class Tables:
         self.accessors.append(entry)
         return len(self.accessors) - 1
 
-    def view(self, data: bytes, target: int | None = None) -> int:
+    def padded(self, array, *, bounds: bool = False) -> int:
+        """The number of an accessor of vectors of three whole numbers, normalised, each row filled up to a multiple of four bytes."""
+        rows = np.concatenate([array, np.zeros_like(array[:, :1])], axis=1)
+        entry = {"bufferView": self.view(rows.tobytes(), VERTEX, rows.dtype.itemsize * 4), "componentType": COMPONENT[array.dtype.char], "normalized": True, "count": len(array), "type": "VEC3"}
+        if bounds:
+            entry |= {name: bound.tolist() for name, bound in (("min", array.min(axis=0)), ("max", array.max(axis=0)))}
+        self.accessors.append(entry)
+        return len(self.accessors) - 1
+
+    def view(self, data: bytes, target: int | None = None, stride: int | None = None) -> int:
         """The number of a buffer view that holds the bytes."""
         gap = -self.size % 4
         entry = {"buffer": 0, "byteOffset": self.size + gap, "byteLength": len(data)}
-        self.views.append(entry | ({"target": target} if target else {}))
+        self.views.append(entry | ({"target": target} if target else {}) | ({"byteStride": stride} if stride else {}))
         self.chunks += [bytes(gap), data]
         self.size += gap + len(data)
         return len(self.views) - 1
@@ -100,6 +110,12 @@ def unit32(vector) -> np.ndarray:
     """Unit vectors [row channel] that are still of unit length after rounding to 32 bits."""
     vector = np.ascontiguousarray(vector, "<f4")
     return vector / np.sqrt(np.einsum("ij,ij->i", vector, vector))[:, None]
+
+
+def signed(share, bits: int) -> np.ndarray:
+    """Numbers from -1 to 1 as normalised whole ones of so many bits."""
+    most = 2 ** (bits - 1) - 1
+    return np.round(np.clip(share, -1.0, 1.0) * most).astype(f"<i{bits // 8}")
 
 
 def as_bytes(share) -> np.ndarray:

@@ -6,6 +6,8 @@
     JOINTS_n WEIGHTS_n                   bytes (joints: two where there are more than 256); weights sum to 255. Of a mesh that an animation moves far, weights are
                                          normalised 16 bits where some are shares: a 255th of ten metres shows
     indices                              16 bits up to 65,535 vertices
+
+Compact (KHR_mesh_quantization, which a reader must know): NORMAL and TANGENT in 8 bits on leaves, 16 on wood; TEXCOORD_0 within 0-1 and morphs of a metre at most in 16.
 """
 
 import re
@@ -13,10 +15,11 @@ import re
 import numpy as np
 
 from sketchtree.export.gltf.materials import material_number
-from sketchtree.export.gltf.tables import INDEX, Tables, as_bytes, unit32
+from sketchtree.export.gltf.tables import INDEX, Tables, as_bytes, signed, unit32
 from sketchtree.export.gltf.tangents import tangents
 from sketchtree.geometry.mesh import Mesh
 
+QUANTIZED = "KHR_mesh_quantization"
 _NARROW = 65535  # the last index of 16 bits restarts a strip
 _JOINTS = re.compile(r"(JOINTS|WEIGHTS)_\d+")
 
@@ -35,7 +38,7 @@ def mesh_number(tables: Tables, mesh: Mesh, name: str, *, skinned: bool = False,
     }
     entry = {"name": name, "primitives": [primitive]}
     if target is not None:
-        primitive["targets"] = [{"POSITION": tables.column(np.asarray(target, "<f4"), bounds=True)}]
+        primitive["targets"] = [{"POSITION": _target(tables, np.asarray(target, "<f4"))}]
         entry["weights"] = [0.0]
     tables.meshes.append(entry)
     tables.known[key] = len(tables.meshes) - 1
@@ -48,14 +51,8 @@ def is_skinned(mesh: Mesh) -> bool:
 
 
 def _columns(tables: Tables, mesh: Mesh) -> dict:
-    attributes = {
-        "POSITION": tables.column(mesh.position.astype("<f4"), bounds=True),
-        "NORMAL": tables.column(unit32(mesh.normal)),
-        "TEXCOORD_0": tables.column(mesh.uv.astype("<f4")),
-    }
-    if mesh.material.normal_texture is not None:
-        tangent = tangents(mesh)
-        attributes["TANGENT"] = tables.column(np.concatenate([unit32(tangent[:, :3]), tangent[:, 3:].astype("<f4")], axis=1))
+    attributes = {"POSITION": tables.column(mesh.position.astype("<f4"), bounds=True)} | _directions(tables, mesh)
+    attributes["TEXCOORD_0"] = _further(tables, "TEXCOORD_0", mesh.uv) if tables.compact else tables.column(mesh.uv.astype("<f4"))
     if mesh.color is not None:
         attributes["COLOR_0"] = _color(tables, mesh.color)
     elif any(name.startswith("COLOR_") for name in mesh.extra):  # sets are counted from 0 without a gap
@@ -64,6 +61,25 @@ def _columns(tables: Tables, mesh: Mesh) -> dict:
         if not _JOINTS.fullmatch(name):
             attributes[name] = _color(tables, column) if name.startswith("COLOR_") else _further(tables, name, column)
     return attributes
+
+
+def _directions(tables: Tables, mesh: Mesh) -> dict:
+    """NORMAL and, where there is a normal map, TANGENT."""
+    normal, tangent = unit32(mesh.normal), None if mesh.material.normal_texture is None else tangents(mesh)
+    if tables.compact:
+        tables.use(QUANTIZED, required=True)
+        bits = 8 if mesh.name.startswith("leaf") else 16
+        found = {"NORMAL": tables.padded(signed(normal, bits))}
+        return found if tangent is None else found | {"TANGENT": tables.column(signed(tangent, bits), normalized=True)}
+    found = {"NORMAL": tables.column(normal)}
+    return found if tangent is None else found | {"TANGENT": tables.column(np.concatenate([unit32(tangent[:, :3]), tangent[:, 3:].astype("<f4")], axis=1))}
+
+
+def _target(tables: Tables, offset) -> int:
+    """How far a morph moves each vertex."""
+    if tables.compact and len(offset) and np.abs(offset).max() <= 1.0:
+        return tables.padded(signed(offset, 16), bounds=True)
+    return tables.column(offset, bounds=True)
 
 
 def _further(tables: Tables, name: str, column) -> int:

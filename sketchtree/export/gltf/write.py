@@ -45,24 +45,24 @@ def glb_bytes(meshes: Sequence[Mesh], *, extras: dict | None = None) -> bytes:
     return asset_bytes(Asset.of(meshes), extras=extras)
 
 
-def asset_bytes(asset: Asset, *, collision: Sequence[str] = (), extras: dict | None = None) -> bytes:
-    """The asset as the bytes of a GLB. `extras` are further JSON on the scene."""
-    content, tables = _document(asset, collision, extras)
+def asset_bytes(asset: Asset, *, collision: Sequence[str] = (), extras: dict | None = None, compact: bool = False) -> bytes:
+    """The asset as the bytes of a GLB. `extras` are further JSON on the scene; `compact`: vertices in small numbers (`vertices`)."""
+    content, tables = _document(asset, collision, extras, compact)
     images = [{"name": picture.name, "mimeType": picture.media, "bufferView": tables.view(picture.data)} for picture in tables.pictures]
     content |= {"images": images} if images else {}
     return _packed(_whole(content, tables), tables)
 
 
-def gltf_files(path: Path, asset: Asset, *, collision: Sequence[str] = ()) -> dict[Path, bytes]:
-    """Every file that `write_gltf` writes, by its path."""
+def gltf_files(path: Path, asset: Asset, *, collision: Sequence[str] = (), compact: bool = False) -> dict[Path, bytes]:
+    """Every file that `write_gltf` writes, by its path; `compact` as in `asset_bytes`."""
     if path.suffix.lower() == ".glb":
-        return {path: asset_bytes(asset, collision=collision)}
-    return _loose(path, asset, collision)
+        return {path: asset_bytes(asset, collision=collision, compact=compact)}
+    return _loose(path, asset, collision, compact)
 
 
-def _loose(path: Path, asset: Asset, collision: Sequence[str]) -> dict[Path, bytes]:
+def _loose(path: Path, asset: Asset, collision: Sequence[str], compact: bool) -> dict[Path, bytes]:
     """The JSON, its buffer and its images, named after it."""
-    content, tables = _document(asset, collision, None)
+    content, tables = _document(asset, collision, None, compact)
     beside, images = {}, []
     for picture in tables.pictures:
         name = f"{path.stem}_{picture.name}{ending(picture.media)}"
@@ -76,8 +76,8 @@ def _loose(path: Path, asset: Asset, collision: Sequence[str]) -> dict[Path, byt
     return beside | {path: _text(content)}
 
 
-def _document(asset: Asset, collision: Sequence[str], extras: dict | None) -> tuple[dict, Tables]:
-    tables = Tables()
+def _document(asset: Asset, collision: Sequence[str], extras: dict | None, compact: bool = False) -> tuple[dict, Tables]:
+    tables = Tables(compact=compact)
     scene = scene_content(tables, asset, collision=collision, extras=extras)
     return {"asset": {"version": "2.0", "generator": GENERATOR}} | scene | tables.content(), tables
 
