@@ -117,7 +117,7 @@ def test_the_photos_tree_grows_by_itself_and_its_files_are_of_that_tree(page, ea
         page.get("photo-strokes").click()
     drawing = kept.value.path().read_text()
     assert kept.value.suggested_filename == "elm.svg" and 'viewBox="0.0 -0.0 600.0 600.0"' in drawing and drawing.count("<path") == 2
-    command = page.page.evaluate("fetch('command?export=' + encodeURIComponent('{"format": ".glb", "tree": "photo"}')).then((answer) => answer.text())")
+    command = page.page.evaluate("""fetch('command?export=' + encodeURIComponent('{"format": ".glb", "tree": "photo"}')).then((answer) => answer.text())""")
     assert command == "sketchtree photo elm.png --strokes elm.svg -o elm.glb"
 
 

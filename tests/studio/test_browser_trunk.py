@@ -247,6 +247,18 @@ def test_a_page_that_is_loaded_again_has_all_of_it(page, ear):
     assert page.get("trunk-card").get_attribute("data-matte") != "" and ear.state == kept
 
 
+def test_on_a_phone_the_photo_and_what_is_said_are_seen_whole(page, hand):
+    page.page.set_viewport_size({"width": 390, "height": 844})
+    page.page.wait_for_timeout(500)
+    card, canvas, words = (page.get(name).bounding_box() for name in ("trunk-card", "page-canvas", "trunk-words"))
+    left, top = hand.at(0, 0)
+    right, foot = hand.at(*SIZE)
+    assert words["width"] > 150 and card["y"] + card["height"] <= top + 1 and foot < page.get("brush-brush").bounding_box()["y"]
+    assert foot - top > 120 and left > canvas["x"] and right < canvas["x"] + canvas["width"] and page.weak_contrasts() == []
+    page.page.set_viewport_size({"width": 1400, "height": 900})
+    page.page.wait_for_timeout(500)
+
+
 def test_the_other_way_hides_scribbles_and_keeps_them(page, ear):
     page.get("photo-way-crown").click()
     page.get("photo-card").wait_for()

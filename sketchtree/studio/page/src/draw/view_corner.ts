@@ -5,6 +5,7 @@ import { element } from "../parts/element";
 import type { IconName } from "../style/icons";
 import { type Desk, isSamePage, wrapped } from "./desk";
 import { showAll } from "./following";
+import { way } from "./trunk/way";
 
 const TURN = 15;
 const CLOSER = 1.25;
@@ -27,18 +28,20 @@ export function mountViewCorner(desk: Desk): HTMLElement {
   const size = button({ label: "100 %", look: "quiet", hint: "Show the whole drawing", key: "0", testId: "page-zoom", onPress: () => showAll(desk) });
   size.classList.add("page-zoom");
   const show = (): void => {
+    sides.hidden = way(store) === "scribbles" && isSamePage(store.ui.turn, 0); // the photo lies on the front
     front.querySelector("span")!.textContent = sideName(store.ui.turn);
     front.classList.toggle("turned", !isSamePage(store.ui.turn, 0));
     block(front, isSamePage(store.ui.turn, 0) ? "this is the front" : null);
     size.querySelector("span")!.textContent = `${Math.round(100 * camera.scale)} %`;
   };
-  store.on("turn", show);
+  const sides = element("div", { class: "page-group", role: "group", aria: { label: "Side of the tree that the page faces" } },
+    small("Turn the page left", "left", "ArrowLeft", turn(-TURN)), front, small("Turn the page right", "right", "ArrowRight", turn(TURN)));
+  store.on(["turn", "trunk", "underlay"], show);
   camera.on(show);
   show();
   const [farther, nearer] = [small("Farther", "minus", "-", closer(1 / CLOSER)), small("Closer", "plus", "+", closer(CLOSER))];
   for (const one of [farther, nearer]) one.classList.add("page-step"); // where there is room
   return element("div", { class: "page-corner" },
-    element("div", { class: "page-group", role: "group", aria: { label: "Side of the tree that the page faces" } },
-      small("Turn the page left", "left", "ArrowLeft", turn(-TURN)), front, small("Turn the page right", "right", "ArrowRight", turn(TURN))),
+    sides,
     element("div", { class: "page-group", role: "group", aria: { label: "Closer or farther" } }, farther, size, nearer));
 }

@@ -57,6 +57,7 @@ export function mountPanels(roots: PanelRoots, store: Store, views: Views): void
   const covered = (): void => camera.cover("head", hides() ? words.offsetTop + words.offsetHeight : 0);
   new ResizeObserver(covered).observe(words);
   store.on(["layout", "trunk", "underlay"], covered);
+  store.on(["trunk", "underlay"], () => { document.body.dataset["way"] = way(store); });
   roots.page.append(emptyPage(store, { gallery: () => openDialog("gallery"), open: () => openDialog("open") }), words, hintButton(store, hint));
   roots.tree.append(emptyTree(store));
   welcomeBack(store, () => newPage(store));

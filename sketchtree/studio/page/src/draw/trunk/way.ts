@@ -43,6 +43,7 @@ export function setWay(store: Store, to: "crown" | "scribbles"): void {
 /** A tool that makes no sense any more gives way to one that does; scribbles begin on the tree. */
 export function followWay(store: Store): void {
   const follow = (): void => {
+    if (way(store) === "scribbles") store.set("turn", 0); // where the photo lies
     if (isOffered(store, store.ui.tool)) return;
     store.set("tool", way(store) === "scribbles" ? "foreground" : way(store) === "crown" && !hasCrown(store) ? "crown" : "branch");
   };

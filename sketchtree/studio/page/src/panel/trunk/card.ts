@@ -20,7 +20,8 @@ export function trunkCard(store: Store): HTMLElement {
   const close = button({
     label: "Leave the photo", icon: "close", iconOnly: true, look: "quiet", hint: "It is only a picture to trace over then", testId: "trunk-leave", onPress: () => setPhoto(store, false),
   });
-  const grow = element("span", {}, growButton(store, "trunk-grow", () => null));
+  const press = growButton(store, "trunk-grow", () => null);
+  const grow = element("span", {}, press);
   const root = element("div", { class: "hint-card photo-card", role: "group", aria: { label: "Scribbling on a photo" }, testId: "trunk-card" },
     icon("picture"), element("div", { class: "photo-said" }, words, bar), matte.root, grow, other, close);
   const show = (): void => {
@@ -29,8 +30,9 @@ export function trunkCard(store: Store): HTMLElement {
     const has = sides(known.strokes.values());
     const now = said(has, known, byHand() ? BEGIN : BEGIN_MOUSE);
     if (words.textContent !== now) words.textContent = now; // said aloud once
-    grow.hidden = !has.tree || !has.beside;
-    bar.hidden = grow.hidden || known.growing?.state !== "grows";
+    const both = has.tree && has.beside;
+    grow.hidden = !both || press.hidden; // it was told before
+    bar.hidden = !both || known.growing?.state !== "grows";
     bar.value = known.growing?.done ?? 0;
     other.hidden = has.tree || has.beside;
     matte.root.hidden = !known.matte?.png;
