@@ -1,6 +1,6 @@
 """Which photos are in a folder, which of them are of use, and what does each show? Files → Views.
 
-A photo is sharp if its Laplacian is not much weaker than that of the others: variance of the Laplacian over variance of the picture, both at 800 px, under a fifth of the median is blurred (ours).
+Black bars that a camera or a program put at the borders are unseen, since their edges stand still when the camera moves. A photo is sharp if its Laplacian is not much weaker than that of the others: variance of the Laplacian over variance of the picture, both at 800 px, under a fifth of the median is blurred (ours).
 """
 
 import os
@@ -19,6 +19,7 @@ from sketchtree.multiview.lenses import undistorted
 
 EXTENSIONS = (".jpg", ".jpeg", ".png", ".tif", ".tiff", ".webp", ".bmp")
 BLURRED = 0.2  # of the median sharpness
+BLACK, BESIDE = 0.04, 0.008  # brightness of a bar; how far beyond it pixels are unseen too, of the longer side
 
 
 @dataclass(frozen=True, eq=False)
@@ -82,7 +83,21 @@ def views_of(placed: Iterator[tuple[Path, Camera, object]], longest: int) -> Ite
             size = tuple(max(1, round(side * by)) for side in picture.size)
             picture, camera = picture.resize(size, Image.Resampling.BOX, reducing_gap=None), camera.resized(size)
         flat, seen = undistorted(np.asarray(picture, np.float32) / 255.0, camera, lens)
-        yield View(file.name, camera, np.ascontiguousarray(flat[..., :3]), seen & (flat[..., 3] > 0.5))
+        yield View(file.name, camera, np.ascontiguousarray(flat[..., :3]), seen & (flat[..., 3] > 0.5) & ~bars(flat[..., :3]))
+
+
+def bars(rgb: Float[np.ndarray, "row column 3"]) -> Bool[np.ndarray, "row column"]:
+    """Black bars at the borders, and a little more. A picture that is black all over has none."""
+    bright = rgb.max(axis=2)
+    found, beside = np.zeros(bright.shape, bool), max(1, round(BESIDE * max(bright.shape)))
+    for axis in (0, 1):
+        lit = np.flatnonzero(np.quantile(bright, 0.98, axis=1 - axis) > BLACK)
+        if len(lit):
+            along = np.ones(bright.shape[axis], bool)
+            first, last = lit[0] + beside * (lit[0] > 0), lit[-1] + 1 - beside * (lit[-1] + 1 < len(along))
+            along[first:last] = False
+            found |= along[:, None] if axis == 0 else along[None]
+    return found
 
 
 def _as_taken(file: Path, camera: Camera) -> Image.Image:

@@ -76,3 +76,10 @@ def test_blurred_photos_are_told(tmp_path):
     files = [saved(tmp_path / f"{k}.png", rendered(camera_at(9.0 * k, size=(80, 80)))[0]) for k in range(4)]
     Image.open(files[2]).filter(ImageFilter.GaussianBlur(4)).save(files[2])
     assert blurred(files) == ["2.png"]
+
+
+def test_black_bars_are_unseen(tmp_path):
+    rgb = 0.1 + 0.9 * rendered(CAMERA)[0]
+    rgb[:, :7] = 0.01
+    (view,) = views_of(iter([(saved(tmp_path / "a.png", rgb), CAMERA, Lens())]), 60)
+    assert not view.seen[:, :8].any() and view.seen[:, 8:].all()

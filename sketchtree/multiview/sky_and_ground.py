@@ -1,0 +1,64 @@
+"""What in the photos is not the plant? Rules for sky, ground and what stands far behind, stated and simple (ours).
+
+Sky, of a photo: what is reached from its upper border over pixels that are even (brightness changes by less than `EVEN` to the next) and either bright (above 0.75 in all channels) or blue (b > r + 0.03,
+b ≥ g, above 0.35). Behind, of a cloud: what is no nearer to the place looked at than the nearest camera is. Ground, of a cloud with y up: the level plane (tilted by 15° at most) that most points of the lower third
+lie on, if at least a tenth of all do and they reach as far across as three quarters of the cloud is wide; all points under it, or less than 1.2 % of the cloud's height above it, are ground. A trunk's foot
+goes with it.
+"""
+
+import numpy as np
+from jaxtyping import Bool, Float, Key
+from scipy.ndimage import gaussian_gradient_magnitude, label
+
+from sketchtree.clouds.cloud import PointCloud
+from sketchtree.keys import numpy_generator, stage_key
+from sketchtree.multiview.cameras import Camera
+from sketchtree.multiview.sources import looked_at
+
+EVEN = 0.04
+LEVEL = np.cos(np.radians(15.0))
+ABOVE = 0.012  # of the cloud's height
+SHARE, ACROSS = 0.1, 0.75
+_TRIES = 300
+
+
+def sky(rgb: Float[np.ndarray, "row column 3"]) -> Bool[np.ndarray, "row column"]:
+    """Which pixels are sky."""
+    red, green, blue = rgb[..., 0], rgb[..., 1], rgb[..., 2]
+    alike = (rgb.min(axis=2) > 0.75) | ((blue > red + 0.03) & (blue >= green) & (blue > 0.35))
+    alike &= gaussian_gradient_magnitude(rgb.mean(axis=2), 1.0) < EVEN
+    parts, _ = label(alike)
+    at_top = np.unique(parts[0])
+    return np.isin(parts, at_top[at_top > 0])
+
+
+def within(xyz: Float[np.ndarray, "point 3"], cameras: list[Camera]) -> Bool[np.ndarray, " point"]:
+    """Which points are nearer to the place looked at than any camera."""
+    focus = looked_at(cameras)
+    return np.linalg.norm(xyz - focus, axis=1) < min(np.linalg.norm(camera.centre - focus) for camera in cameras)
+
+
+def ground(cloud: PointCloud, *, key: Key) -> Bool[np.ndarray, " point"]:
+    """Which points of a cloud with y up are ground."""
+    xyz, height = cloud.xyz, max(cloud.height, 1e-12)
+    generator = numpy_generator(stage_key(key, "ground"))
+    low = np.flatnonzero(xyz[:, 1] < xyz[:, 1].min() + height / 3)
+    best, plane = 0, None
+    near = ABOVE / 2 * height
+    for _ in range(_TRIES if len(low) >= 3 else 0):
+        a, b, c = xyz[generator.choice(low, 3, replace=False)]
+        normal = np.cross(b - a, c - a)
+        length = np.linalg.norm(normal)
+        if length < 1e-12 or abs(normal[1]) / length < LEVEL:
+            continue
+        normal = normal * np.sign(normal[1]) / length
+        count = int((np.abs((xyz[low] - a) @ normal) < near).sum())
+        if count > best:
+            best, plane = count, (normal, normal @ a)
+    if plane is None or best < SHARE * len(xyz):
+        return np.zeros(len(xyz), bool)
+    above = xyz @ plane[0] - plane[1]
+    flat = xyz[np.abs(above) < near][:, [0, 2]]
+    if (np.ptp(flat, axis=0) < ACROSS * np.ptp(xyz[:, [0, 2]], axis=0)).any():
+        return np.zeros(len(xyz), bool)
+    return above < ABOVE * height

@@ -1,0 +1,89 @@
+"""What do the compiled loops need of a view and its partners? One level of the pyramid, in arrays.
+
+Pictures of unlike sizes are put into one block, each in its upper left; `sizes` says how far each reaches.
+"""
+
+from dataclasses import dataclass, field
+
+import numpy as np
+from jaxtyping import Bool, Float
+from PIL import Image
+from scipy.ndimage import uniform_filter
+
+from sketchtree.multiview.cameras import Camera
+from sketchtree.multiview.homography import transfer
+from sketchtree.multiview.photos import View
+from sketchtree.multiview.sky_and_ground import sky
+from sketchtree.multiview.sources import Sources
+
+EVEN = 0.012  # standard deviation of brightness over 5 × 5 pixels under which a place has no texture
+
+
+@dataclass(eq=False)
+class Level:
+    """One view at one size, and the plane found at each of its pixels so far."""
+
+    name: str
+    camera: Camera
+    rgb: Float[np.ndarray, "row column 3"]
+    grey: Float[np.ndarray, "row column"]
+    used: Bool[np.ndarray, "row column"]  # u(p) of Eq. 4: seen, not sky, not even
+    sources: Sources
+    plane: Float[np.ndarray, "row column 3"]  # (ρ, ∂ρ/∂x, ∂ρ/∂y)
+    energy: Float[np.ndarray, "row column"] = field(default=None)  # the integrand of Eq. 2
+    likely: Float[np.ndarray, "row column"] = field(default=None)  # Eq. 3
+    agreeing: np.ndarray = field(default=None)  # how many other photos agree
+
+    @property
+    def shape(self) -> tuple[int, int]:
+        """Rows and columns."""
+        return self.grey.shape
+
+
+@dataclass(frozen=True, eq=False)
+class Partners:
+    """The other photos of one view."""
+
+    transfers: Float[np.ndarray, "source 3 4"]  # of its pixels to theirs
+    backs: Float[np.ndarray, "source 3 4"]
+    others: Float[np.ndarray, "source row column"]
+    sizes: np.ndarray  # width and height of each
+
+
+def level_of(view: View, sources: Sources, shrink: int, least: int = 96) -> Level:
+    """The view so many times smaller, but no smaller than `least` pixels."""
+    by = max(1.0 / shrink, min(1.0, least / max(view.camera.size)))
+    size = tuple(max(8, round(side * by)) for side in view.camera.size)
+    rgb, seen = view.rgb, view.seen
+    if size != view.camera.size:
+        rgb = np.stack([np.asarray(Image.fromarray(rgb[..., k]).resize(size, Image.Resampling.BOX)) for k in range(3)], axis=2)
+        seen = np.asarray(Image.fromarray(seen.astype(np.float32)).resize(size, Image.Resampling.BOX)) > 0.99
+    grey = np.ascontiguousarray(rgb @ np.array([0.299, 0.587, 0.114], np.float32), np.float32)
+    used = seen & textured(grey) & ~sky(rgb)
+    return Level(view.name, view.camera.resized(size), rgb, grey, used, sources, np.zeros((*grey.shape, 3), np.float32), np.full(grey.shape, 9.0, np.float32))
+
+
+def textured(grey: Float[np.ndarray, "row column"]) -> Bool[np.ndarray, "row column"]:
+    """Whether there is anything to be found again round a pixel."""
+    mean = uniform_filter(grey.astype(np.float64), 5)
+    return uniform_filter(grey.astype(np.float64) ** 2, 5) - mean**2 > EVEN**2
+
+
+def partners(level: Level, levels: list[Level]) -> Partners:
+    """The pictures of a view's partners and how pixels go over to them and back."""
+    others = [levels[row] for row in level.sources.rows]
+    return Partners(
+        np.array([transfer(level.camera, other.camera) for other in others], np.float32),
+        np.array([transfer(other.camera, level.camera) for other in others], np.float32),
+        block([other.grey for other in others]),
+        np.array([other.camera.size for other in others], np.int64),
+    )
+
+
+def block(pictures: list[np.ndarray]) -> np.ndarray:
+    """Pictures of unlike sizes in one array."""
+    shape = np.max([picture.shape for picture in pictures], axis=0)
+    found = np.zeros((len(pictures), *shape), pictures[0].dtype)
+    for k, picture in enumerate(pictures):
+        found[(k, *(slice(side) for side in picture.shape))] = picture
+    return found
