@@ -1,0 +1,1 @@
+"""What has to be done to points before a tree is looked for in them?"""

@@ -1,0 +1,113 @@
+"""How many trees stand in the cloud, and which points are whose?
+
+Stems that come out of the ground (`standing.stems`) are grouped into plants. Every point belongs to the plant from whose feet it is reached most easily, along wood rather than
+through the air (many short steps cost less than a long one), so crowns that touch are parted where they do. Trees are numbered from the one with most points. A plant that is much lower than the highest, or has
+few points beside the largest, is undergrowth, and so is what doesn't reach breast height: it is left out, and that is said; unless it goes on into a tree, as a branch does that hangs to the ground.
+"""
+
+from dataclasses import dataclass
+
+import numpy as np
+from jaxtyping import Float, Int
+from scipy.sparse import csr_matrix
+from scipy.sparse.csgraph import dijkstra
+from scipy.spatial import cKDTree
+
+from sketchtree.axes import NULL
+from sketchtree.clouds.standing.stems import Stems, stems
+from sketchtree.clouds.voxels import voxel_rows, voxel_size
+from sketchtree.errors import OptionError, SketchError
+
+_LOOKED_AT = 60_000  # points that ways are sought through
+_NEIGHBOURS = 8
+_TOUCHES = 2.0  # times as far as its own points' sixth neighbours
+_SLENDER = 0.15  # of the largest tree's thickness for its height: what is thinner may be a branch that hangs to the ground
+_LOW, _FEW = 0.35, 0.1  # of the highest plant, of the largest's points: less is undergrowth
+
+
+@dataclass(frozen=True, eq=False)
+class Plants:
+    """The trees in a cloud, largest first."""
+
+    of_point: Int[np.ndarray, " point"]  # 0, 1, ...: whose each point is; NULL for undergrowth
+    place: Float[np.ndarray, "tree 2"]  # (x, z) where each stands, metres
+    height: Float[np.ndarray, " tree"]  # metres
+    undergrowth: int  # plants that are none of them; all that don't reach breast height count as one
+
+    def __len__(self) -> int:
+        return len(self.place)
+
+
+def plants(xyz: Float[np.ndarray, "point 3"], above: Float[np.ndarray, " point"]) -> Plants:
+    """The trees among points so high above the ground."""
+    found = stems(xyz, above)
+    weeds = np.zeros(len(xyz), bool)
+    weeds[found.weeds] = True
+    number = int(found.plant.max()) + 1
+    of_point = np.zeros(len(xyz), np.int64) if number == 1 else _whose(xyz, found, number)
+    height, count, place, thick = np.zeros(number), np.bincount(of_point, minlength=number), np.zeros((number, 2)), np.zeros(number)
+    for k in range(number):
+        held = above[of_point == k]
+        height[k] = np.percentile(held, 99.5) if len(held) else 0.0
+        place[k], thick[k] = np.mean(found.place[found.plant == k], axis=0), found.thick[found.plant == k].max()
+    tall = (height >= _LOW * height.max()) & (count >= _FEW * count.max())
+    slender = thick * height.max() < _SLENDER * height * thick[count.argmax()]
+    trees = np.flatnonzero(tall & ~slender)
+    trees = trees[np.argsort(-count[trees], kind="stable")]
+    name = np.full(number, NULL)
+    name[trees] = np.arange(len(trees))
+    sure = name[of_point]
+    for k in np.flatnonzero(name == NULL):
+        name[k] = _borne_by(xyz, of_point == k, above, sure, height[k])
+    for k in np.flatnonzero((name == NULL) & tall):  # slender, and for itself: a young tree
+        name[k], trees = len(trees), np.append(trees, k)
+    return Plants(np.where(weeds, NULL, name[of_point]), place[trees], height[trees], int((name == NULL).sum()) + bool(weeds.any()))
+
+
+def _borne_by(xyz, low, above, tree, height: float) -> int:
+    """The tree on which a low plant hangs: a branch that reaches the ground goes on into a tree, higher than its own half. NULL for one that stands for itself."""
+    upper, others = np.flatnonzero(low & (above > 0.5 * height)), np.flatnonzero(tree != NULL)
+    if len(upper) < 3 or not len(others):
+        return NULL
+    own = cKDTree(xyz[low]).query(xyz[upper], k=min(7, int(low.sum())))[0].reshape(len(upper), -1)[:, -1]
+    gap, nearest = cKDTree(xyz[others]).query(xyz[upper])
+    touching = gap <= _TOUCHES * np.median(own)
+    return int(np.bincount(tree[others[nearest[touching]]]).argmax()) if touching.sum() >= 3 else NULL
+
+
+def one_tree(found: Plants, tree: int | None) -> Int[np.ndarray, " kept"]:
+    """Rows of the one tree, or of the tree of that number (from 1). Raises SketchError where there are several and none was chosen, OptionError for a number that none has."""
+    if tree is None and len(found) > 1:
+        list_ = "; ".join(f"{k}: {h:.1f} m high, at x {round(x, 1) + 0.0:.1f}, z {round(z, 1) + 0.0:.1f}" for k, ((x, z), h) in enumerate(zip(found.place[:9], found.height[:9], strict=True), 1))
+        raise SketchError(f"{len(found)} trees stand in the cloud ({list_}).", remedy="Say which with `--tree K`, or cut it out of the cloud.")
+    if tree is not None and not 1 <= tree <= len(found):
+        raise OptionError(f"There is no tree {tree}: the cloud has {len(found)}.", remedy=f"Say 1 to {len(found)}; 1 is the largest.")
+    return np.flatnonzero(found.of_point == (0 if tree is None else tree - 1))
+
+
+def _whose(xyz, found: Stems, number: int):
+    """The plant that each point is reached from, through some of the points; the rest go with the nearest of those."""
+    low = np.zeros(len(xyz), bool)
+    low[np.concatenate(found.rows)] = True
+    rest = np.flatnonzero(~low)
+    if len(rest) > _LOOKED_AT:
+        rest = rest[voxel_rows(xyz[rest], voxel_size(xyz[rest], _LOOKED_AT))]
+    starts = [np.concatenate([found.rows[s] for s in np.flatnonzero(found.plant == k)]) for k in range(number)]
+    starts = [some[voxel_rows(xyz[some], voxel_size(xyz[some], 4000))] if len(some) > 4000 else some for some in starts]
+    rows = np.concatenate([*starts, rest])
+    ends = np.cumsum([len(some) for some in starts])
+    reached = _reached(xyz[rows], [np.arange(end - len(some), end) for end, some in zip(ends, starts, strict=True)])
+    known = np.flatnonzero(reached != NULL)
+    return reached[known][cKDTree(xyz[rows[known]]).query(xyz)[1]]
+
+
+def _reached(xyz, starts: list):
+    """From which starts each point is reached over steps between neighbours, of least Σ d²; NULL where it isn't."""
+    count, k = len(xyz), min(_NEIGHBOURS + 1, len(xyz))
+    distance, near = cKDTree(xyz).query(xyz, k=k)
+    one = np.concatenate([np.repeat(np.arange(count), k - 1), *(np.full(len(some), count + number) for number, some in enumerate(starts))])
+    other = np.concatenate([near[:, 1:].ravel(), *starts])
+    cost = np.concatenate([distance[:, 1:].ravel() ** 2 + 1e-18, np.full(sum(map(len, starts)), 1e-18)])
+    there = csr_matrix((cost, (one, other)), shape=(count + len(starts),) * 2)
+    source = dijkstra(there.maximum(there.T), directed=False, indices=np.arange(count, count + len(starts)), return_predecessors=True, min_only=True)[2]
+    return np.where(source[:count] >= count, source[:count] - count, NULL)

@@ -1,0 +1,64 @@
+"""On which points does the plant stand? One set of start points for each root.
+
+`auto` takes the stems that come out of the ground (`stems`): one for a tree, several for a shrub. A number asks for so many roots: the stems with most points and, where there are
+fewer, clusters of projected density (`density`; Guo et al. 2018, §5.3) in what is low. A start set is the lowest ring of its stem.
+"""
+
+from dataclasses import dataclass
+from typing import Literal
+
+import numpy as np
+from jaxtyping import Float, Int
+
+from sketchtree.clouds.standing.density import density, roots
+from sketchtree.clouds.standing.stems import breast_height, stems
+from sketchtree.errors import OptionError
+
+MOST = 200  # roots
+_SHARE = 0.15  # of the largest stem's points: a thinner one bears nothing of its own
+_RING = 0.006  # of the height: how high the lowest ring is
+_FEWEST = 6  # points of a ring, where the stem has as many
+
+
+@dataclass(frozen=True, eq=False)
+class Feet:
+    """Where a plant stands, its largest stem first."""
+
+    rows: list[Int[np.ndarray, " start"]]  # the lowest ring of each stem: what `tracing.traced` begins with
+    place: Float[np.ndarray, "foot 3"]  # its middle, metres
+    stems: list[Int[np.ndarray, " low"]]  # the points of each stem, up to a bit above breast height
+
+
+def feet(xyz: Float[np.ndarray, "point 3"], above: Float[np.ndarray, " point"] | None = None, *, count: int | Literal["auto"] = "auto") -> Feet:
+    """The feet of one plant. `above`: metres above the ground, where that is known; `count`: how many roots. Raises OptionError for a number that can't be had."""
+    if count != "auto" and not 1 <= count <= min(MOST, len(xyz)):
+        raise OptionError(f"`roots` is {count}; the cloud has {len(xyz):,} points.", remedy=f"Say auto, or 1 to {MOST}.")
+    above = xyz[:, 1] - xyz[:, 1].min() if above is None else above
+    found = stems(xyz, above)
+    groups = [found.rows[k] for k in np.flatnonzero(found.plant == 0)]
+    groups = [rows for rows in groups if len(rows) >= _SHARE * len(groups[0])]
+    if count != "auto":
+        groups = groups[:count] if len(groups) >= count else _by_density(xyz, above, count, groups)
+    rings = [_ring(above, some, _RING * float(np.ptp(above))) for some in groups]
+    return Feet(rings, np.array([np.median(xyz[ring], axis=0) for ring in rings]), groups)
+
+
+def _by_density(xyz, above, count: int, groups: list) -> list:
+    """So many groups of low points, each round one cluster of density; fewer where the points fall into fewer."""
+    height = float(np.ptp(above))
+    low = np.flatnonzero(above <= max(breast_height(height), float(np.sort(above)[min(len(above) - 1, 3 * count)])))
+    map_, share = density(xyz[low], height), 0.5
+    best = roots(map_, count)
+    while len(best.place) < count and share > 0.01:
+        best, share = roots(map_, count, higher=share), 0.7 * share
+    if len(best.place) <= len(groups):
+        return groups
+    nearest = ((xyz[low][:, None, [0, 2]] - best.place[None]) ** 2).sum(axis=2).argmin(axis=1)
+    return [low[nearest == k] for k in range(len(best.place)) if (nearest == k).any()]
+
+
+def _ring(above, rows, thick: float):
+    """The lowest points of a stem."""
+    lowest = np.sort(above[rows])
+    level = max(lowest[0] + thick, lowest[min(_FEWEST, len(lowest)) - 1])
+    return rows[above[rows] <= level]

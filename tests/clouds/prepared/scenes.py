@@ -1,0 +1,40 @@
+"""Trees as a scanner sees them: a trunk, limbs, twigs; with ground, with others beside, or with noise."""
+
+import numpy as np
+
+
+def limb(begin, end, thick: float, thin: float, chance, per_metre: float = 300) -> np.ndarray:
+    """Points on the bark of a straight limb."""
+    begin, end = np.asarray(begin, float), np.asarray(end, float)
+    t = chance.uniform(size=int(per_metre * np.linalg.norm(end - begin)) + 3)
+    way = (end - begin) / np.linalg.norm(end - begin)
+    side = np.cross(way, [0.31, 0.2, 0.93])
+    side /= np.linalg.norm(side)
+    turn, radius = chance.uniform(0, 2 * np.pi, len(t)), thick + (thin - thick) * t
+    return begin + t[:, None] * (end - begin) + radius[:, None] * (np.cos(turn)[:, None] * side + np.sin(turn)[:, None] * np.cross(way, side))
+
+
+def tree(height: float = 6.0, seed: int = 0, at=(0.0, 0.0)) -> np.ndarray:
+    """A trunk and twenty limbs, each with two twigs."""
+    chance = np.random.default_rng(seed)
+    parts = [limb([0, 0, 0], [0, height, 0], 0.02 * height, 0.004 * height, chance, 200)]
+    for k in range(20):
+        y, turn = height * (0.35 + 0.03 * k), 2.4 * k + chance.uniform(-0.3, 0.3)
+        reach = height * 0.3 * (1.3 - y / height)
+        out = np.array([np.cos(turn), 0.5, np.sin(turn)])
+        end = [0, y, 0] + reach * out
+        parts.append(limb([0, y, 0], end, 0.006 * height, 0.003 * height, chance, 120))
+        parts += [limb(end - 0.4 * reach * out, end + reach * chance.uniform(-0.3, 0.3, 3), 0.003 * height, 0.001 * height, chance, 70) for _ in range(2)]
+    return np.concatenate(parts) + [at[0], 0.0, at[1]]
+
+
+def floor(wide: float = 4.0, slope: float = 0.0, rough: float = 0.01, seed: int = 5, count: int = 6000) -> np.ndarray:
+    """Ground that rises along x and waves a little."""
+    chance = np.random.default_rng(seed)
+    x, z = chance.uniform(-wide, wide, (2, count))
+    return np.c_[x, slope * x + 0.03 * np.sin(2 * x) + chance.normal(size=count) * rough, z]
+
+
+def lying(xyz: np.ndarray) -> np.ndarray:
+    """The same with z up."""
+    return np.stack([xyz[:, 0], -xyz[:, 2], xyz[:, 1]], axis=1)

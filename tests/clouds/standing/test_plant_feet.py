@@ -1,0 +1,93 @@
+"""Where a plant stands: on the stems that come out of the ground, or where the density of projected points is highest."""
+
+import numpy as np
+import pytest
+from stems_made import stem
+
+from sketchtree.clouds.standing.density import density, roots
+from sketchtree.clouds.standing.feet import feet
+from sketchtree.clouds.standing.stems import breast_height, stems
+from sketchtree.errors import OptionError
+
+
+def crown(seed: int = 1, low: float = 2.0, high: float = 5.0, wide: float = 1.5, count: int = 3000) -> np.ndarray:
+    return np.random.default_rng(seed).uniform([-wide, low, -wide], [wide, high, wide], (count, 3))
+
+
+TREE = np.concatenate([stem(height=3.0), crown()])
+SHRUB = np.concatenate([stem(0.05, 1.5, noise=0.001, count=800, seed=k, lean=0.2) + [0.25 * k, 0, 0.1 * (k % 2)] for k in range(3)] + [crown(low=1.2, high=2.2, wide=0.8)])
+
+
+def test_a_tree_has_one_foot_its_lowest_ring():
+    found = feet(TREE)
+    assert len(found.rows) == 1
+    assert TREE[found.rows[0], 1].max() < 0.1
+    np.testing.assert_allclose(found.place[0], [0, 0, 0], atol=0.1)
+
+
+def test_a_shrub_has_a_foot_for_each_stem():
+    found = feet(SHRUB)
+    assert len(found.rows) == 3
+    np.testing.assert_allclose(sorted(found.place[:, 0]), [0.0, 0.25, 0.5], atol=0.05)
+
+
+def test_so_many_roots_as_are_asked_for_the_largest_first():
+    assert len(feet(SHRUB, count=2).rows) == 2
+    assert len(feet(SHRUB, count=1).rows) == 1
+
+
+def test_more_roots_than_stems_are_sought_by_density():
+    two = np.concatenate([stem(0.1, 0.4, noise=0.001, count=400), stem(0.1, 0.4, noise=0.001, count=300) + [0.4, 0, 0], crown(low=0.35, high=3.0)])
+    found = feet(two, count=2)
+    np.testing.assert_allclose(sorted(found.place[:, 0]), [0.0, 0.4], atol=0.06)
+
+
+def test_feet_stand_at_their_height_above_sloping_ground():
+    sloped = SHRUB + np.outer(SHRUB[:, 0], [0.0, 0.4, 0.0])
+    found = feet(sloped, sloped[:, 1] - 0.4 * SHRUB[:, 0])
+    assert len(found.rows) == 3
+    assert np.ptp(found.place[:, 1]) > 0.15
+
+
+def test_a_branch_that_hangs_to_the_ground_is_no_foot():
+    hanging = np.random.default_rng(3).uniform([0.9, 0.05, 0.0], [0.92, 2.0, 0.02], (300, 3))
+    assert len(feet(np.concatenate([TREE, hanging])).rows) == 1
+
+
+def test_twigs_that_hang_above_the_ground_are_no_stems():
+    hanging = np.random.default_rng(3).uniform([0.8, 0.4, 0.0], [0.85, 2.0, 0.05], (400, 3))
+    assert len(stems(np.concatenate([TREE, hanging]), np.concatenate([TREE, hanging])[:, 1]).rows) == 1
+
+
+def test_stems_far_apart_are_of_several_plants():
+    both = np.concatenate([TREE, TREE + [3.0, 0, 0]])
+    assert stems(both, both[:, 1] - both[:, 1].min()).plant.tolist() == [0, 1]
+    assert set(stems(SHRUB, SHRUB[:, 1] - SHRUB[:, 1].min()).plant) == {0}
+
+
+def test_breast_height_is_1_3_m_or_less_of_a_small_plant():
+    assert breast_height(20.0) == 1.3
+    assert breast_height(2.0) == pytest.approx(0.24)
+
+
+def test_section_5_3_the_root_is_where_most_points_lie_above_one_another():
+    found = roots(density(TREE), 1)
+    np.testing.assert_allclose(found.place, [[0.0, 0.0]], atol=0.05)
+
+
+def test_section_5_3_k_roots_are_the_k_clusters_of_highest_density():
+    low = np.concatenate([stem(0.05, 0.5, noise=0.001, count=count, seed=k) + [0.5 * k, 0, 0] for k, count in enumerate((500, 900, 700))])
+    found = roots(density(low, 2.0), 2)
+    np.testing.assert_allclose(found.place[:, 0], [0.5, 1.0], atol=0.02)
+    assert found.peak[0] > found.peak[1]
+
+
+def test_density_counts_every_point_once():
+    assert density(TREE).value.sum() == pytest.approx(len(TREE), rel=1e-6)
+
+
+@pytest.mark.parametrize("count", [0, 201])
+def test_a_number_of_roots_that_makes_no_sense_is_refused(count):
+    with pytest.raises(OptionError) as error:
+        feet(TREE, count=count)
+    assert str(error.value) == f"`roots` is {count}; the cloud has 4,500 points. Say auto, or 1 to 200."
