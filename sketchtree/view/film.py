@@ -1,7 +1,7 @@
 """How do pictures become a film? GIF, WebP, APNG, MP4.
 
 Pictures are asked for one at a time, so that they may lie on the disk; all are of one size. The last one may stay a while. The same pictures make
-the same bytes. GIF is written here (`gif.py`), WebP and APNG by Pillow; MP4 by the program ffmpeg, run as a process of its own: the one on the
+the same bytes. GIF and APNG are written here (`gif.py`, `apng.py`), WebP by Pillow; MP4 by the program ffmpeg, run as a process of its own: the one on the
 PATH if it has H.264, else the one that the package imageio-ffmpeg brings. H.264 in yuv420p with even sides is what all browsers play; without it
 there is no MP4 rather than one that they don't.
 """
@@ -18,6 +18,7 @@ from PIL import Image
 
 from sketchtree.errors import ExportError, OptionError
 from sketchtree.export.files import check_extension, check_writable, write_whole
+from sketchtree.view.apng import apng_bytes
 from sketchtree.view.gif import gif_bytes
 
 FILMS = (".gif", ".webp", ".apng", ".mp4")
@@ -61,14 +62,7 @@ def write_film(path: str | Path, pictures: Sequence[Image.Image], seconds: float
         write_whole(path, _mp4(pictures, seconds, hold))
         return
     shown = durations(len(pictures), seconds, hold)
-    if suffix == ".gif":
-        write_whole(path, gif_bytes(pictures, shown))
-        return
-    film = io.BytesIO()
-    kind, how = ("WEBP", {"quality": 85, "method": 4}) if suffix == ".webp" else ("PNG", {})
-    rest = [pictures[k] for k in range(1, len(pictures))]
-    pictures[0].save(film, kind, save_all=True, append_images=rest, duration=shown, loop=0, **how)
-    write_whole(path, film.getvalue())
+    write_whole(path, {".gif": gif_bytes, ".apng": apng_bytes, ".webp": _webp}[suffix](pictures, shown))
 
 
 def durations(count: int, seconds: float, hold: float) -> list[int]:
@@ -76,6 +70,25 @@ def durations(count: int, seconds: float, hold: float) -> list[int]:
     ends = [round(100 * seconds * (k + 1) / count) for k in range(count)]
     shown = [max(10 * (after - before), _QUICKEST) for before, after in zip([0, *ends], ends)]
     return [*shown[:-1], shown[-1] + 10 * round(100 * hold)]
+
+
+class _Rest:
+    """All pictures but the first as Pillow takes a file of several: it asks for one after the other."""
+
+    def __init__(self, pictures: Sequence[Image.Image]):
+        self.pictures, self.n_frames, self.shown = pictures, len(pictures) - 1, pictures[0]
+
+    def seek(self, k: int) -> None:
+        self.shown = self.pictures[k + 1].convert("RGB")
+
+    def __getattr__(self, name: str):
+        return getattr(self.shown, name)
+
+
+def _webp(pictures: Sequence[Image.Image], shown: Sequence[int]) -> bytes:
+    film = io.BytesIO()
+    pictures[0].save(film, "WEBP", save_all=True, append_images=[_Rest(pictures)] if len(pictures) > 1 else [], duration=list(shown), loop=0, quality=85, method=4)
+    return film.getvalue()
 
 
 def _programs() -> Iterator[str]:

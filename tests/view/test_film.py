@@ -1,6 +1,8 @@
 """How do pictures become a film?"""
 
 import subprocess
+import weakref
+from collections.abc import Sequence
 
 import numpy as np
 import pytest
@@ -129,3 +131,52 @@ def test_lengths_that_no_film_can_have_are_refused(given, said):
 def test_other_extensions_are_refused(tmp_path):
     with pytest.raises(ExportError, match="`.avi` files are not written"):
         check_film(tmp_path / "t.avi")
+
+
+class Reel(Sequence):
+    """Pictures that are made when they are asked for; `most` of them were there at once."""
+
+    def __init__(self, count: int = 12):
+        self.count, self.there, self.most = count, 0, 0
+
+    def __len__(self) -> int:
+        return self.count
+
+    def __getitem__(self, k: int) -> Image.Image:
+        made = Image.new("RGB", (33, 20), (10 * k, 255 - 10 * k, 60))
+        self.there += 1
+        self.most = max(self.most, self.there)
+        weakref.finalize(made, self._gone)
+        return made
+
+    def _gone(self) -> None:
+        self.there -= 1
+
+
+@pytest.mark.parametrize("suffix", [suffix for suffix in FILMS if suffix != ".mp4"])
+def test_few_pictures_are_in_memory_at_once_however_many_there_are(tmp_path, suffix):
+    reel = Reel()
+    write_film(tmp_path / f"t{suffix}", reel, 1.2)
+    assert reel.most <= (8 if suffix == ".gif" else 3)  # a palette is found from eight
+    with Image.open(tmp_path / f"t{suffix}") as made:
+        assert made.n_frames == 12
+
+
+def test_an_apng_shows_the_very_pictures_and_of_each_only_what_has_changed(tmp_path):
+    grain = np.random.default_rng(0).integers(0, 255, (64, 64, 3), dtype=np.uint8)
+    moving = [grain.copy() for _ in range(5)]
+    for k, picture in enumerate(moving):
+        picture[10 + k // 2, 20:30] = (250, 40, 30)  # each is shown twice
+    write_film(tmp_path / "t.apng", [Image.fromarray(picture) for picture in moving], 1.0, hold=70.0)
+    with Image.open(tmp_path / "t.apng") as made:
+        assert made.n_frames == 3
+        for k, time in enumerate((400, 400, 70_200)):
+            made.seek(k)
+            assert np.array_equal(np.asarray(made.convert("RGB")), moving[2 * k]) and made.info["duration"] == pytest.approx(time)
+    assert (tmp_path / "t.apng").stat().st_size < 1.2 * 64 * 64 * 3
+
+
+def test_a_film_of_pictures_that_are_all_alike_is_one_that_stays(tmp_path):
+    write_film(tmp_path / "t.apng", [PICTURES[0]] * 3, 0.9)
+    with Image.open(tmp_path / "t.apng") as made:
+        assert np.array_equal(np.asarray(made.convert("RGB")), np.asarray(PICTURES[0]))
