@@ -30,7 +30,7 @@ from sketchtree.geometry.limbs import CentreLines
 from sketchtree.geometry.mesh import Mesh
 from sketchtree.growth.age import WHOLE
 from sketchtree.growth.plan import GrowthPlan
-from sketchtree.keys import stage_key
+from sketchtree.keys import numpy_generator, stage_key
 from sketchtree.levels.make import Model
 from sketchtree.rig.boughs import limb_of_row
 from sketchtree.rig.leaf_rows import leaf_rows
@@ -81,6 +81,9 @@ def young_leaves(
         if not len(kept):
             continue
         leaves, own = replace(select(leaves, kept), shoot=np.zeros((0, 2, 3))), own[kept]
+        if final.seen is not None:  # in a photo, whose colours the young tree has too
+            chosen = numpy_generator(stage_key(key, f"young colours {number}")).integers(len(final), size=len(leaves))
+            leaves = replace(leaves, seen=final.seen[chosen])
         frame, rest = joint_frames(bones, animation, time)
         carries = np.unique(own)
         back = np.tile(np.eye(4), (len(frame), 1, 1))

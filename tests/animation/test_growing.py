@@ -1,5 +1,8 @@
 """A growing tree is the final tree's own meshes, moved: at the end they stand where they were given, before that where the plan has the wood."""
 
+from dataclasses import replace
+from types import SimpleNamespace
+
 import numpy as np
 import pytest
 from growing_models import area, growing, model
@@ -8,6 +11,7 @@ from sketchtree.animation.growing import Growing
 from sketchtree.animation.posing import joint_frames
 from sketchtree.animation.wanted import LEAST_JOINTS
 from sketchtree.errors import OptionError
+from sketchtree.foliage.cards import leaf_mesh
 from sketchtree.growth.plan import MODES, GrowthPlan
 
 
@@ -149,3 +153,15 @@ def test_the_same_tree_gives_the_same_animation():
 def test_what_can_not_be_is_refused(ask, message):
     with pytest.raises(OptionError, match=message):
         ask()
+
+
+def test_young_leaves_have_the_colours_that_the_final_ones_were_seen_in():
+    made = model()
+    seen = np.random.default_rng(1).uniform(0.1, 0.3, (len(made.leaves), 3))
+    leaves = replace(made.leaves, seen=seen)
+    photo = SimpleNamespace(**{**vars(made), "leaves": leaves, "meshes": (*made.meshes[:-1], leaf_mesh(leaves))})
+    parts = Growing.of(photo, GrowthPlan.of(photo.skeleton, mode="full")).asset().parts
+    worn = [mesh for mesh in parts if mesh.name.startswith("leaf")]
+    old, young = ({tuple(colour) for mesh in worn if mesh.name.startswith("leaf_young") == is_young for colour in mesh.color.round(6).tolist()} for is_young in (False, True))
+    assert young and young <= old
+    assert len({id(mesh.material.base_color_texture) for mesh in worn}) == 1

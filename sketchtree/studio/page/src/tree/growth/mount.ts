@@ -95,7 +95,7 @@ class GrowthView {
 
   private waits(done: number): void {
     this.made = done;
-    this.say(done > 0 ? `Growth is being made, ${Math.round(100 * done)} %` : "Growth is being made…");
+    this.say(done > 0 ? `${Math.round(100 * done)} % made` : "Growth is being made…");
   }
 
   private take(growth: Growth, revision: number): void {
