@@ -10,7 +10,7 @@ and what is behind is learnt again from what turned out to be no tree, in two wa
     hopeful    a pixel is rather tree than not at first, and only what is all but surely none counts as behind: a twig that counted would hide itself and its neighbours
     cautious   a pixel is rather none, and more counts as behind: right where the surroundings have the wood's colours, which would be taken for it
 
-In both, what a foreground scribble reaches without crossing an edge (`reach`) is tree before anything is known, and no part of what is behind.
+In both, what lies between the edges of a limb that was marked, or is reached from a foreground scribble without crossing an edge (`reach`, `flanks`), is tree before anything is known, and no part of what is behind.
 Where the colours tell the two apart, both find about as much tree, and the hopeful finds all of it; where they don't, it finds far more, and the cautious matte is kept. At last the
 prior is lowered to how much tree is near by: what no colour decides is none, unless it is in the midst of tree. The matte is the expected alpha.
 """
@@ -26,7 +26,7 @@ from sketchtree.matting.alpha import Matte
 from sketchtree.matting.behind import look_behind
 from sketchtree.matting.colours import Colours, fit_colours
 from sketchtree.matting.opacity import mean, posterior
-from sketchtree.matting.reach import held
+from sketchtree.matting.reach import held, marked
 from sketchtree.matting.scribbles import Scribbles
 from sketchtree.photo.photo import Photo
 from sketchtree.watch import Pulse, no_pulse
@@ -64,9 +64,11 @@ def layered(photo: Photo, scribbles: Scribbles, *, key: Key[Array, ""], pulse: P
     before = _wood(fit_colours(rgb[fore], np.ones(fore.sum()), FORE, draw))
     common = fit_colours(rgb[back], np.ones(back.sum()), COMMON, draw)
     pulse()
-    limb = held(rgb, fore, back)
+    inside, beyond = marked(rgb, 1.0 - _first(rgb, before, common, 0.5), scribbles.foreground)
+    limb = np.where(back, 0.0, np.maximum(inside, held(rgb, fore, back) * (1.0 - beyond)))
     hopeful, course = _rounds(rgb, fore, back, limb, before, common, HOPEFUL, draw, pulse)
     cautious, other = _rounds(rgb, fore, back, limb, before, common, CAUTIOUS, draw, pulse)
+    hopeful, cautious = (_kept(np.maximum(one, inside), fore, back) for one in (hopeful, cautious))
     if hopeful.sum() <= TELLS * cautious.sum():
         return Matte(hopeful, "layered", course)
     told = "The surroundings have the wood's colours in places; what could be either was left out of the matte. More scribbles there, of both kinds, help."

@@ -12,6 +12,7 @@ from sketchtree.matting.closed_form import closed_form
 from sketchtree.matting.layered import layered
 from sketchtree.matting.normalised import normalised
 from sketchtree.matting.scribbles import Scribbles
+from sketchtree.matting.standing_out import TOLD, stands_out
 from sketchtree.photo.photo import Photo
 from sketchtree.watch import Pulse, no_pulse
 
@@ -35,15 +36,17 @@ def find_matte(photo: Photo, scribbles: Scribbles | None, *, key: Key[Array, ""]
         raise SketchError(f"{photo.name} needs scribbles that say what is tree.", remedy="Give --scribbles FILE: one line along the trunk (foreground), one beside the tree (background).")
     if min(photo.width, photo.height) < _SMALLEST:
         raise SketchError(f"{photo.name} has {photo.width} × {photo.height} pixels; {_SMALLEST} × {_SMALLEST} are the least.", remedy="Give a larger photo.")
-    scribbles.masks(photo)  # what is wrong with them is said of the photo as it is
+    fore, back = scribbles.masks(photo)  # what is wrong with them is said of the photo as it is
     said = (*scribbles.warnings, *scribbles.overlapping(photo))
     if photo.width * photo.height <= largest:
         found = MATTINGS[method](photo, scribbles, key=key, pulse=pulse)
-        return Matte(found.alpha, found.method, found.course, (*said, *found.warnings))
-    return _smaller(photo, scribbles, method, largest, key, pulse, said)
+    else:
+        found = _smaller(photo, scribbles, method, largest, key, pulse)
+    said += () if stands_out(photo, fore, back, found.alpha, key) else (TOLD,)
+    return Matte(found.alpha, found.method, found.course, (*said, *found.warnings))
 
 
-def _smaller(photo: Photo, scribbles: Scribbles, method: str, largest: int, key, pulse: Pulse, said: tuple[str, ...]) -> Matte:
+def _smaller(photo: Photo, scribbles: Scribbles, method: str, largest: int, key, pulse: Pulse) -> Matte:
     """The matte of a smaller copy, enlarged."""
     scale = (largest / (photo.width * photo.height)) ** 0.5
     size = max(int(photo.width * scale), _SMALLEST), max(int(photo.height * scale), _SMALLEST)
@@ -52,7 +55,7 @@ def _smaller(photo: Photo, scribbles: Scribbles, method: str, largest: int, key,
     found = MATTINGS[method](small, _apart(scribbles.scaled(along, scale), small), key=key, pulse=pulse)
     alpha = np.asarray(Image.fromarray(np.asarray(found.alpha)).resize((photo.width, photo.height), Image.Resampling.BILINEAR))
     told = f"{photo.name} has {photo.width} × {photo.height} pixels; the matte was found on {size[0]} × {size[1]} and enlarged."
-    return Matte(np.clip(alpha, 0, 1), found.method, found.course, (*said, told, *found.warnings))
+    return Matte(np.clip(alpha, 0, 1), found.method, found.course, (told, *found.warnings))
 
 
 def _apart(scribbles: Scribbles, photo: Photo) -> Scribbles:

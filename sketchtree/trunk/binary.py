@@ -16,6 +16,7 @@ from scipy import ndimage
 
 from sketchtree.errors import OptionError, SketchError
 from sketchtree.photo.photo import at_pixels
+from sketchtree.trunk.drained import drained
 
 HALF = 0.5
 VEIL = 0.75
@@ -56,7 +57,10 @@ def binary_trunk(alpha: Float[np.ndarray, "row column"], root: tuple[float, floa
     told = [f"{joined} {'piece' if joined == 1 else 'pieces'} of the matte {'was' if joined == 1 else 'were'} joined to the trunk over gaps of at most {gap:g} pixels."] if joined else []
     told += _of_pieces(left, chosen)
     told += ["The matte is opaque all over: the whole picture was taken for the trunk. Draw a background scribble beside the tree."] if (labels[1:-1, 1:-1] == chosen).all() else []
-    mask, filled, holes = _without_small_holes(labels == chosen)
+    piece = labels == chosen
+    mask = drained(padded, piece, _without_small_holes(piece)[0], None if root is None else _nearest(piece, root))
+    mask, _, holes = _without_small_holes(mask)
+    filled = ndimage.label(mask & ~piece)[1]
     told += [f"{filled} small {'hole' if filled == 1 else 'holes'} in the trunk {'was' if filled == 1 else 'were'} filled."] if filled else []
     told += [f"The trunk has {holes} {'hole' if holes == 1 else 'holes'}; the loop round each is cut where the ways round it meet."] if holes else []
     mask = _without_pinches(mask, padded)
@@ -86,6 +90,13 @@ def _holding(labels, root) -> int:
     if distance[row, column] > _NEAR * max(rows, columns):
         raise OptionError(f"The root ({x:g}, {y:g}) lies {distance[row, column]:.0f} pixels beside the trunk.", remedy="Give a point on the trunk, in pixels from the top left.")
     return int(labels[nearest[0, row, column], nearest[1, row, column]])
+
+
+def _nearest(piece, root) -> tuple[int, int]:
+    """The pixel of a padded piece that is nearest to a point of the picture."""
+    at = np.argwhere(piece)
+    row, column = at[int(np.argmin(np.hypot(at[:, 0] - 0.5 - root[1], at[:, 1] - 0.5 - root[0])))]
+    return int(row), int(column)
 
 
 def bridged(labels, sizes, chosen: int, gap: float) -> tuple[Int[np.ndarray, "row column"], int]:

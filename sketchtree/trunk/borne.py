@@ -6,7 +6,7 @@ The distance to the contour is the thickness where the matte is right. It is too
     from above       r ≤ r_bearer · min(1, `SPARE` · share^(1/3))        share   of the wood beyond the fork that the limb carries
     from below       r³ ≥ Σ_c r_c³                                       nor is wood thinner than what it bears needs (pipe model with Murray's exponent)
 
-If that makes the trunk thicker at the ground than `SWELLS` of what it measures at most, limbs are too thick all over, and everything is as much thinner. Thickness never grows towards the tips.
+If that makes the trunk thicker at the ground than it measures, limbs are too thick all over, and everything is as much thinner. Thickness never grows towards the tips.
 """
 
 import numpy as np
@@ -15,7 +15,7 @@ from jaxtyping import Float, Int
 from sketchtree.axes import NULL
 
 SWELLS = 1.2
-WIDE, FOOT = 0.75, 0.4
+WIDE, FOOT = 0.5, 0.4
 SPARE = 1.3
 EXPONENT = 3.0
 
@@ -37,7 +37,7 @@ def borne_radius(parent: Int[np.ndarray, " node"], xy: Float[np.ndarray, "node 2
         thick[row] = max(thick[row], pipes[row] ** (1 / EXPONENT))
         if parent[row] != NULL:
             pipes[parent[row]] += thick[row] ** EXPONENT
-    return thick * min(1.0, SWELLS * max(_foot(radius[limb == limb[0]], step[limb == limb[0]]), radius[0]) / thick[0])
+    return thick * min(1.0, max(_foot(radius[limb == limb[0]], step[limb == limb[0]]), radius[0]) / thick[0])
 
 
 def carried(parent: Int[np.ndarray, " node"], step: Float[np.ndarray, " node"]) -> Float[np.ndarray, " node"]:

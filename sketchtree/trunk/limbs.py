@@ -20,6 +20,7 @@ from sketchtree.trunk.rooted import chains
 from sketchtree.trunk.trunk_skeleton import TrunkSkeleton
 
 CARRIES = 0.25
+SIDE = 0.35  # of the bearer's radius: a limb so thick widens the circles along its fork
 _LOOK, _LEAST_LOOK = 2.0, 8.0  # radii of the fork's circle; pixels
 
 
@@ -32,7 +33,8 @@ def trunk_drawing(skeleton: TrunkSkeleton, name: str = "trunk") -> tuple[Sketch,
     xy, radius = skeleton.xy[order], skeleton.radius[order]
     limb, rank = limb_of(parent, xy, radius)
     count = int(limb.max()) + 1
-    thick = borne_radius(parent, xy, own_radius(parent, xy, radius, limb), limb)
+    own = own_radius(parent, xy, radius, limb)
+    thick = borne_radius(parent, xy, between_forks(parent, xy, radius, own, limb), limb)
     traced = Traced(parent, xy, thick, rank, limb, np.ones(len(parent), bool), skeleton.warnings)
     marked = Marked(np.zeros((0, 2)), (np.zeros((0, 2)),) * count, ("trunk",) * count)
     sketch, graph = as_drawing([(traced, marked)], name, outlines=[()])
@@ -68,6 +70,30 @@ def own_radius(parent: Int[np.ndarray, " node"], xy, radius, limb: Int[np.ndarra
         outside = np.hypot(*(xy[rows] - xy[fork]).T) >= radius[fork]
         inner = rows[: int(np.argmax(outside)) if outside.any() else len(rows)]
         thick[inner] = np.minimum(thick[inner], radius[rows[np.argmax(outside)]] if outside.any() else radius[rows].min())
+    return thick
+
+
+def between_forks(parent: Int[np.ndarray, " node"], xy, radius, own, limb: Int[np.ndarray, " node"]) -> Float[np.ndarray, " node"]:
+    """The radius of every node where its limb is alone: along a fork, where the largest circle reaches into another limb, that between the places before and behind it. Of limbs of `SIDE` their bearer's radius and more;
+    `own`: as `own_radius` says."""
+    thick = np.array(own, np.float64)
+    first = np.flatnonzero((parent != NULL) & (limb != limb[parent]))
+    for bearer in np.unique(limb[parent[first]]):
+        rows = np.flatnonzero(limb == bearer)
+        line = xy[rows]
+        run = np.r_[0.0, np.cumsum(np.hypot(*np.diff(line, axis=0).T))]
+        alone = np.ones(len(rows), bool)
+        for child in first[limb[parent[first]] == bearer]:
+            foot, side = parent[child], np.flatnonzero(limb == limb[child])
+            at = int(np.flatnonzero(rows == foot)[0]) if foot in rows else 0
+            if own[child] < SIDE * own[foot]:
+                continue
+            apart = np.hypot(*(line[:, None] - xy[side][None]).transpose(2, 0, 1)).min(axis=1) > radius[rows] + own[child]
+            beyond = np.flatnonzero(apart[at:])
+            until = run[at + beyond[0]] if len(beyond) else run[-1]
+            alone &= (run < run[at] - 0.5 * own[foot]) | (run >= until)
+        if alone.any() and not alone.all():
+            thick[rows] = np.minimum(own[rows], np.interp(run, run[alone], own[rows][alone]))
     return thick
 
 

@@ -1,24 +1,23 @@
 """A matte in, the trunk's skeleton out (§II.2, Algorithm 1), every step in order.
 
-    alpha → binary → contour → discrete curve evolution → edits by hand → segments → medial axis, pruned → rooted tree → blunt ends off, bare below the crown → smooth lines up to the contour
+    alpha → binary → contour → discrete curve evolution → edits by hand → segments → medial axis, pruned → rooted tree → blunt ends off, bare below the crown → smooth limbs from their bearers' axes up to the contour
 """
 
 import numpy as np
 from jaxtyping import Float
 from scipy.spatial import KDTree
 
-from sketchtree.axes import NULL
 from sketchtree.errors import OptionError
 from sketchtree.trunk.binary import Binary, binary_trunk
 from sketchtree.trunk.blunt import without_blunt
 from sketchtree.trunk.edits import VertexEdits, Vertices, edited
-from sketchtree.trunk.ends import clear_of_end, clear_of_ground, led_out, smooth, telling
 from sketchtree.trunk.evolution import evolve
 from sketchtree.trunk.foot import bare_below, stands_at
+from sketchtree.trunk.limb_lines import limb_lines
 from sketchtree.trunk.medial import medial_axis, within
 from sketchtree.trunk.noise import noise_level, roughness
 from sketchtree.trunk.outline import Outline, outline
-from sketchtree.trunk.rooted import Rooted, chains, rooted
+from sketchtree.trunk.rooted import Rooted, rooted
 from sketchtree.trunk.segments import convex, segments
 from sketchtree.trunk.trunk_skeleton import TrunkSkeleton
 
@@ -54,7 +53,7 @@ def trunk_skeleton(
     tree = without_blunt(tree, _asked(tree, shape, polygon), max(_PROTRUDES, _ROUGH * roughness(shape.rings)))
     tree, below = bare_below(tree, _asked(tree, shape, polygon))
     told += [f"{below} short {'branch' if below == 1 else 'branches'} below the crown {'was' if below == 1 else 'were'} left out."] if below else []
-    return _finished(tree, binary, nearest, shape, polygon, root, (*binary.warnings, *told))
+    return _finished(tree, binary, shape, polygon, root, (*binary.warnings, *told))
 
 
 def _standing(alpha, root, gap: float, exact: bool) -> tuple[Binary, tuple[float, float] | None, list[str]]:
@@ -85,32 +84,14 @@ def _asked(tree: Rooted, shape: Outline, polygon: Vertices):
     return KDTree(added).query(tree.xy)[0] <= _NEAR
 
 
-def _finished(tree: Rooted, binary: Binary, nearest: KDTree, shape: Outline, polygon: Vertices, root, warnings) -> TrunkSkeleton:
+def _finished(tree: Rooted, binary: Binary, shape: Outline, polygon: Vertices, root, warnings) -> TrunkSkeleton:
     """Smooth lines up to the contour, as a graph with few nodes."""
 
     def inside(points):
         return within(binary, points)
 
-    count = np.bincount(tree.parent[tree.parent != NULL], minlength=len(tree.parent))
-    xy, radius, parent, node = [tree.xy[0]], [tree.radius[0]], [NULL], {0: 0}
-    for rows in chains(tree.parent):
-        line, width, end = tree.xy[rows], tree.radius[rows], None
-        if rows[0] == 0 and count[0] == 1 and root is None:
-            line, radius[0] = led_out(line[::-1], width[::-1], clear_of_ground(line[::-1], width[::-1]), inside)
-            line = line[::-1]
-            xy[0], width = line[0], nearest.query(line)[0]
-        if count[rows[-1]] == 0:
-            line, end = led_out(line, width, clear_of_end(line, width), inside)
-        line = smooth(line, float(np.median(tree.radius[rows])))
-        line = telling(line)
-        width = nearest.query(line)[0]
-        width[-1] = width[-1] if end is None else end
-        before = node[rows[0]]
-        for k in range(1, len(line)):
-            xy.append(line[k]), radius.append(width[k]), parent.append(before)
-            before = len(xy) - 1
-        node[rows[-1]] = before
-    parent = np.array(parent)
+    stands = np.count_nonzero(tree.parent == 0) == 1 and root is None
+    xy, radius, parent = limb_lines(tree, inside, on_ground=stands)
     edges = np.column_stack([parent[1:], np.arange(1, len(parent))])
     corners = tuple(ring[rows] for ring, rows in zip(shape.rings, polygon.rows, strict=True))
-    return TrunkSkeleton(np.array(xy), edges, np.maximum(np.array(radius), _LEAST_RADIUS), 0, corners, polygon.parting, shape, warnings)
+    return TrunkSkeleton(xy, edges, np.maximum(radius, _LEAST_RADIUS), 0, corners, polygon.parting, shape, warnings)

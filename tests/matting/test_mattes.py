@@ -15,6 +15,7 @@ from sketchtree.matting.matte import DEFAULT, MATTINGS, find_matte
 from sketchtree.matting.normalised import least_ratio, normalised
 from sketchtree.matting.reach import FAR, STEP, held
 from sketchtree.matting.scribbles import Scribbles
+from sketchtree.matting.standing_out import TOLD, told_apart
 from sketchtree.photo.photo import Photo
 
 KEY = jax.random.key(0)
@@ -185,3 +186,16 @@ def test_eq4_falls_too_where_the_preconditioner_is_of_no_use():
     start = np.where(SCRIBBLES.masks(SKY)[0], 1.0, np.where(known, 0.0, 0.5)).ravel()
     _, course = least_ratio(matrix, volume(known.shape), start, ~known.ravel(), lambda right: -right)
     assert (np.diff(course) < 0).all() and course[-1] < 0.5 * course[0]
+
+
+@pytest.mark.parametrize("back", ["flat white", "sky", "grass", "brick"])
+def test_lines_on_a_mere_background_are_remarked_on(back):
+    plain = Photo(np.round(255 * np.broadcast_to(BACKS[back], (80, 60, 3))).astype(np.uint8))
+    assert TOLD in find_matte(plain, SCRIBBLES, key=KEY).warnings
+
+
+@pytest.mark.parametrize("back", BACKS)
+def test_a_tree_stands_out(back):
+    photo = before(FORE, TRUTH, BACKS[back], back)
+    assert told_apart(flat(photo), *SCRIBBLES.masks(photo), KEY) > 0.9
+    assert TOLD not in find_matte(photo, SCRIBBLES, key=KEY).warnings

@@ -6,13 +6,15 @@ import numpy as np
 import pytest
 from silhouettes import capsules, forked
 
+from benchmarks.trunk_limbs import roundness
 from sketchtree.errors import OptionError
 from sketchtree.keys import root_key
 from sketchtree.options import ReadingOptions
 from sketchtree.page import page_to_world
+from sketchtree.trunk.around import Seen, around, mirrored, seen_about
 from sketchtree.trunk.as_tree import as_tree
 from sketchtree.trunk.limbs import limb_of, own_radius, trunk_drawing
-from sketchtree.trunk.siblings import STEEPEST, golden_step, leaving, sibling_angles, sibling_depth
+from sketchtree.trunk.siblings import STEEPEST, Room, leaving, sibling_angles, sibling_depth
 from sketchtree.trunk.skeletonise import trunk_skeleton
 
 KEY = root_key(0)
@@ -24,6 +26,12 @@ def bushy() -> np.ndarray:
     stem = ((100.0, 250.0), (100.0, 20.0), 7.0)
     limbs = [((100.0, y), (100.0 + side * 60.0, y - 40.0), 3.5) for y, side in ((190.0, 1), (165.0, -1), (135.0, 1), (110.0, -1), (75.0, 1))]
     return capsules([stem, *limbs, ((130.0, 170.0), (160.0, 175.0), 3.0)], (230, 200))
+
+
+def many_limbs() -> np.ndarray:
+    """A stem with sixteen limbs, every third of them short."""
+    limbs = [((100.0, 205.0 - 11.0 * k), (100.0 + (-1) ** k * reach, 205.0 - 11.0 * k - 0.6 * reach), 2.5) for k, reach in enumerate([70, 66, 30, 74, 60, 26, 66, 70, 30, 60, 56, 24, 50, 44, 20, 36])]
+    return capsules([((100.0, 250.0), (100.0, 12.0), 7.0), *limbs], (230, 200))
 
 
 def azimuth(d, z: float, p) -> float:
@@ -56,18 +64,63 @@ def test_no_limb_leaves_the_page_by_more_than_the_steepest():
     assert abs(leaving(np.array([0.8, 0.6]), UP, np.pi / 2)) <= STEEPEST
 
 
-def test_siblings_take_all_k_angles():
+def test_siblings_take_all_k_angles_an_even_turn_apart():
     _, graph = trunk_drawing(trunk_skeleton(bushy()))
     angle = sibling_angles(graph, KEY, spread=0.0)
     laterals = np.flatnonzero(graph.limb_parent == 0)
     k = len(laterals)
     assert k == 5
-    assert np.sort(angle[laterals]) == pytest.approx(2 * np.pi * np.arange(1, k + 1) / k)
+    assert np.diff(np.sort(angle[laterals])) == pytest.approx(2 * np.pi / k)
 
 
-@pytest.mark.parametrize("k", range(1, 30))
-def test_the_golden_step_reaches_every_number(k):
-    assert sorted(np.arange(k) * golden_step(k) % k) == list(range(k))
+def seen(right, reach) -> Seen:
+    """Limbs as heavy as each other, evenly along their parent."""
+    count = len(right)
+    return Seen(np.array(right, float), np.array(reach, float), np.full(count, 1 / count), np.linspace(0, 1, count), 0.5)
+
+
+def test_limbs_drawn_short_point_at_the_viewer_and_long_ones_to_the_side():
+    angle, _ = around(seen([1, -1, 1, -1, 1, -1, 1, -1], [1, 1, 0.2, 0.2, 1, 1, 0.2, 0.2]), np.zeros(2))
+    aside = np.abs(np.cos(angle))
+    assert aside[[0, 1, 4, 5]].min() > aside[[2, 3, 6, 7]].max()
+
+
+def test_front_and_back_have_as_much_wood():
+    one = seen([1, -1] * 6, [0.7] * 12)
+    angle, leaning = around(one, np.zeros(2))
+    deep = np.sin(mirrored(angle, one.right))
+    assert abs(deep.mean()) < 0.1 and np.sum(deep > 0.3) >= 4 and np.sum(deep < -0.3) >= 4
+    assert np.abs(leaning).max() < 0.05
+
+
+def test_a_mirrored_angle_is_on_the_side_that_was_drawn_and_as_far_in_front():
+    angle, right = np.linspace(0, 2 * np.pi, 17), np.array([1.0, -1.0])[:, None]
+    turned = mirrored(angle, right)
+    assert np.all(np.cos(turned) * right >= -1e-12) and np.allclose(np.sin(turned), np.sin(angle))
+
+
+def test_what_is_seen_of_a_limb_is_its_side_and_its_reach_beside_its_siblings():
+    _, graph = trunk_drawing(trunk_skeleton(bushy()))
+    laterals = np.flatnonzero(graph.limb_parent == 0)
+    found = seen_about(graph, 0, laterals)
+    foot = graph.start[graph.limb_first[laterals], 0]
+    assert found.right.tolist() == np.sign(graph.xy[graph.limb_first[laterals], 0] - foot).tolist()
+    assert found.reach.max() == 1.0 and found.reach.min() > 0.7 and found.weight.sum() == pytest.approx(1.0)
+
+
+def test_no_limb_leaves_the_round_crown_that_its_side_shows():
+    _, graph = trunk_drawing(trunk_skeleton(many_limbs()))
+    room = Room.of(graph)
+    depth = sibling_depth(graph, sibling_angles(graph, KEY))
+    assert np.all(np.abs(depth[room.ends]) <= room.deep[room.ends] + 1e-9)
+    assert Room.of(trunk_drawing(trunk_skeleton(forked()))[1]) is None
+
+
+@pytest.mark.parametrize("seed", range(3))
+def test_a_crown_is_about_as_deep_as_it_is_wide_and_round(seed):
+    tree = as_tree(trunk_skeleton(many_limbs()), key=root_key(seed))
+    found = roundness(tree)
+    assert 0.75 <= found["depth"] <= 1.33 and found["round"] >= 0.7 and found["gap"] <= 120.0, found
 
 
 def test_siblings_angles_are_normal_about_those():
@@ -156,6 +209,6 @@ def test_a_limb_that_turns_up_on_the_page_turns_up_in_depth_too():
     bent = capsules([((50.0, 130.0), (50.0, 20.0), 6.0), ((50.0, 90.0), (80.0, 80.0), 3.0), ((80.0, 80.0), (84.0, 30.0), 3.0)])
     _, graph = trunk_drawing(trunk_skeleton(bent))
     rows = np.flatnonzero(graph.limb == 1)
-    depth = sibling_depth(graph, np.where(graph.limb_parent < 0, np.nan, 0.9))[rows]
-    rise = np.diff(depth) / np.hypot(*np.diff(graph.xy[rows], axis=0).T)
+    depth = sibling_depth(graph, np.where(graph.limb_parent < 0, np.nan, 0.9))
+    rise = (depth[rows] - depth[graph.parent[rows]]) / np.hypot(*(graph.xy[rows] - graph.start[rows]).T)
     assert abs(rise[0]) > 2.0 * abs(rise[-1]) > 0.0
