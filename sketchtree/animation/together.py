@@ -5,7 +5,8 @@ from dataclasses import dataclass, replace
 
 import numpy as np
 
-from sketchtree.animation.growing import MOST_JOINTS, Growing
+from sketchtree.animation.growing import Growing
+from sketchtree.animation.wanted import LEAST_JOINTS, MOST_JOINTS
 from sketchtree.asset import Animation, Armature, Asset, Keys
 from sketchtree.axes import NULL
 from sketchtree.errors import OptionError
@@ -16,12 +17,12 @@ from sketchtree.skeleton_joined import joined
 from sketchtree.watch import Pulse, no_pulse
 
 
-def growing_of(models: Sequence[Model], *, mode: str = "full", bend: float = 0.0, pulse: Pulse = no_pulse) -> "Growing | Together":
-    """One tree, or several that stand together, as they grow. Raises OptionError where there is none, or one that can't grow."""
+def growing_of(models: Sequence[Model], *, mode: str = "full", bend: float = 0.0, most_joints: int = MOST_JOINTS, pulse: Pulse = no_pulse) -> "Growing | Together":
+    """One tree, or several that stand together, as they grow, moved by at most so many joints in all. Raises OptionError where there is none, or one that can't grow."""
     if not models:
         raise OptionError("There is no tree that could grow.", remedy="Give one.")
     plans = [GrowthPlan.of(model.skeleton, mode=mode, bend=bend) for model in models]
-    each = [Growing.of(model, plan, most_joints=MOST_JOINTS // len(models), pulse=pulse) for model, plan in zip(models, plans, strict=True)]
+    each = [Growing.of(model, plan, most_joints=max(most_joints // len(models), LEAST_JOINTS), pulse=pulse) for model, plan in zip(models, plans, strict=True)]
     return each[0] if len(each) == 1 else Together(tuple(each))
 
 

@@ -310,7 +310,7 @@ class Crew:
     async def moving(self, document: Document, name: str, tree: str, grown: Grown, tell: Tell = untold) -> dict[str, bytes]:
         """As `Engine.moving`. A film takes long: pages get their growths meanwhile."""
         film = name.endswith(FILMS)
-        return await (self._filmer if film else self._ager).files(self._whose(document, tree), name, grown.ageing, grown.seconds, tell, film=film)
+        return await (self._filmer if film else self._ager).files(self._whose(document, tree), name, grown, tell, film=film)
 
     def _whose(self, document: Document, tree: str) -> Whose:
         return self._of_photo(document).whose(document) if tree == "photo" else Whose.drawn(document)

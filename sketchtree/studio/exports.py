@@ -86,7 +86,7 @@ def _growing(name: str, export: Export) -> list[str]:
     grown, output = export.growth, name + export.format
     words = ["sketchtree", "grow", name + PROJECT, "-o", output if export.format not in FILMS else name + ".glb"]
     words += ["--movie", output] if export.format in FILMS else []
-    said = {"mode": grown.mode, "bend": grown.bend, "seconds": grown.seconds}
+    said = {"mode": grown.mode, "bend": grown.bend, "seconds": grown.seconds, "lod": grown.lod}
     plain = Grown()
     return words + [word for one, value in said.items() if value != getattr(plain, one) for word in (f"--{one}", value if one == "mode" else f"{value:g}")]
 

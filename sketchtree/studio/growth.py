@@ -51,11 +51,7 @@ class Grown(Ageing):
     """What a file of the growth is to be."""
 
     seconds: Annotated[float, Meta(ge=0.1, le=60)] = 10.0  # that it takes
-
-    @property
-    def ageing(self) -> Ageing:
-        """How it grows."""
-        return Ageing(mode=self.mode, bend=self.bend)
+    lod: Annotated[int, Meta(ge=0, le=3)] = 0  # level of detail
 
 
 class Held:
@@ -109,10 +105,10 @@ class Ager:
             self._used()
             return self._last[1]
 
-    async def files(self, whose: Whose, name: str, ageing: Ageing, seconds: float, tell: Tell = untold, *, film: bool = False) -> dict[str, bytes]:
+    async def files(self, whose: Whose, name: str, grown: Grown, tell: Tell = untold, *, film: bool = False) -> dict[str, bytes]:
         """Files to keep, by name: animated, or a film. Raises SketchTreeError; cancelled, its making ends."""
         async with self._turn:
-            return await self._ask("film" if film else "moving", whose, (name, ageing.mode, ageing.bend, seconds), tell)
+            return await self._ask("film" if film else "moving", whose, (name, grown.mode, grown.bend, grown.seconds, grown.lod), tell)
 
     def end(self) -> None:
         """End the process, and forget."""

@@ -12,7 +12,7 @@ from sketchtree.editing.document import Document
 from sketchtree.errors import SketchError
 from sketchtree.sketch.strokes import Stroke
 from sketchtree.studio import growth
-from sketchtree.studio.growth import Ageing, Ager, Held, Whose
+from sketchtree.studio.growth import Ageing, Ager, Grown, Held, Whose
 
 DRAWING = Document(strokes={"trunk": Stroke("trunk", np.array([[0.0, 0.0], [0.0, 9.0]]))})
 
@@ -176,10 +176,10 @@ def test_files_to_keep_are_made_each_time_and_the_growth_of_the_page_stays():
         hand.asked[0][1].set_result(b"glb")
         await task
         for film, kind in ((False, "moving"), (True, "film")):
-            task = asyncio.create_task(ager.files(Whose.drawn(DRAWING), "oak.usd", Ageing(mode="age"), 4.0, film=film))
+            task = asyncio.create_task(ager.files(Whose.drawn(DRAWING), "oak.usd", Grown(mode="age", seconds=4.0, lod=2), film=film))
             await asyncio.sleep(0.001)
             (said, _, *how), answer = hand.asked[-1]
-            assert (said, how) == (kind, ["oak.usd", "age", 0.0, 4.0])
+            assert (said, how) == (kind, ["oak.usd", "age", 0.0, 4.0, 2])
             answer.set_result({"oak.usd": b"usd"})
             assert await task == {"oak.usd": b"usd"}
         assert await ager.made(Whose.drawn(DRAWING), Ageing()) == b"glb" and len(hand.asked) == 3

@@ -98,7 +98,7 @@ def read(folder, data: bytes):
 def test_it_grows_up_to_the_tree_that_its_file_has(growth, tmp_path):
     growths = Growths(None)
     growths.lay("elm", growth.standing(wish(wanted()), {}, Watch()))
-    moving = growths.files("elm", "elm.glb", "full", 0.0, 4.0, Watch())["elm.glb"]
+    moving = growths.files("elm", "elm.glb", "full", 0.0, 4.0, 0, Watch())["elm.glb"]
     still = growth.files(wish(wanted()), {}, "elm.glb", FILES, Watch())["elm.glb"]
     asset, end = read(tmp_path, moving), read(tmp_path, still)
     assert asset.animation.seconds == 4.0 and asset.about == end.about

@@ -60,16 +60,16 @@ def test_a_growth_that_no_command_makes_is_told(on, tree):
         exports.command_line(DOCUMENT.replace(trunk=TrunkChoices(on=on)), exports.Export(format=".glb", tree=tree, growth=Grown()))
 
 
-@pytest.mark.parametrize(("mode", "bend"), [("full", 0.0), ("age", -15.0)])
-def test_growing_it_has_the_bytes_of_the_command_line(jobs, command, mode, bend):
+@pytest.mark.parametrize(("mode", "bend", "lod"), [("full", 0.0, 0), ("age", -15.0, 0), ("full", 0.0, 2)])
+def test_growing_it_has_the_bytes_of_the_command_line(jobs, command, mode, bend, lod):
     jobs.growths.lay("bare", jobs.trunk_bench.standing(WISH, Watch()))
-    wanted = exports.Export(format=".glb", tree="photo", growth=Grown(mode=mode, bend=bend, seconds=4.0))
-    assert jobs.growths.files("bare", "bare.glb", mode, bend, 4.0, Watch())["bare.glb"] == command(wanted)
+    wanted = exports.Export(format=".glb", tree="photo", growth=Grown(mode=mode, bend=bend, seconds=4.0, lod=lod))
+    assert jobs.growths.files("bare", "bare.glb", mode, bend, 4.0, lod, Watch())["bare.glb"] == command(wanted)
 
 
 def test_the_page_plays_the_same(jobs):
     jobs.growths.lay("bare", jobs.trunk_bench.standing(WISH, Watch()))
-    assert jobs.growths.glb("bare", "full", 0.0, Watch()) == jobs.growths.files("bare", "bare.glb", "full", 0.0, 10.0, Watch())["bare.glb"]
+    assert jobs.growths.glb("bare", "full", 0.0, Watch()) == jobs.growths.files("bare", "bare.glb", "full", 0.0, 10.0, 0, Watch())["bare.glb"]
 
 
 def test_its_files_ask_for_no_other_tree(jobs):

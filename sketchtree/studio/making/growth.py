@@ -6,11 +6,12 @@ The tree of a drawing is made here of its document; one that another process mad
 import pickle
 import tempfile
 from collections.abc import Callable
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from pathlib import Path
 
 from sketchtree.animation.growing import Growing
 from sketchtree.animation.together import Together, growing_of
+from sketchtree.animation.wanted import joints_of
 from sketchtree.dressing import Dress
 from sketchtree.editing.document import Document
 from sketchtree.errors import OptionError
@@ -19,7 +20,7 @@ from sketchtree.export.gltf import asset_bytes
 from sketchtree.export.write import write_asset
 from sketchtree.foliage.leaves import Leaves
 from sketchtree.geometry.mesh import Mesh
-from sketchtree.levels.make import Model
+from sketchtree.levels.make import Model, level_of_detail
 from sketchtree.skeleton import TreeSkeleton
 from sketchtree.studio.growth import FILMS
 from sketchtree.studio.making.watching import pulses
@@ -76,14 +77,14 @@ class Growths:
             watch.on_part(0.0)
             return asset_bytes(asset)
 
-    def files(self, of: Document | str, name: str, mode: str, bend: float, seconds: float, watch: Watch) -> dict[str, bytes]:
-        """The files that it becomes, by name: one that moves, or a film. Raises SketchTreeError."""
+    def files(self, of: Document | str, name: str, mode: str, bend: float, seconds: float, lod: int, watch: Watch) -> dict[str, bytes]:
+        """The files that it becomes, by name: one that moves, or a film; `lod`: its level of detail, 0-3. Raises SketchTreeError."""
         with tempfile.TemporaryDirectory() as folder:
             path = Path(folder) / name
             film = path.suffix in FILMS
             if not film:
                 check_program(path)
-            growing, about = self._grown(of, mode, bend, watch)
+            growing, about = self._grown(of, mode, bend, watch, lod)
             if film:
                 with watch("film"):
                     drawn, reason = growth_film(growing, path, frames=FRAMES, seconds=seconds, part=watch.on_part)
@@ -96,14 +97,14 @@ class Growths:
                     write_asset(path, asset)
             return {str(one.relative_to(folder)): one.read_bytes() for one in sorted(Path(folder).rglob("*")) if one.is_file()}
 
-    def _grown(self, of: Document | str, mode: str, bend: float, watch: Watch) -> tuple[Growing | Together, dict]:
+    def _grown(self, of: Document | str, mode: str, bend: float, watch: Watch, lod: int = 0) -> tuple[Growing | Together, dict]:
         at, standing = self._stands(of, watch)
-        wish = at, mode, bend
+        wish = at, mode, bend, lod
         if self._growing is None or self._growing[0] != wish:
             self._growing = None
+            models = standing.models if lod == 0 else [replace(model, meshes=level_of_detail(model, lod)) for model in standing.models]
             with watch("grow"):
-                pulse = pulses(watch, 0.0, 1.0, step=0.1)
-                grown = growing_of(standing.models, mode=mode, bend=bend, pulse=pulse)
+                grown = growing_of(models, mode=mode, bend=bend, most_joints=joints_of(lod), pulse=pulses(watch, 0.0, 1.0, step=0.1))
                 grown.get_ready()
             self._growing = wish, grown
         return self._growing[1], standing.about

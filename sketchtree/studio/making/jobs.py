@@ -199,8 +199,8 @@ class Jobs:
     def _age(self, number, watch, of: Document | str, mode: str, bend: float):
         return self.growths.glb(of, mode, bend, watch)
 
-    def _moving(self, number, watch, of: Document | str, name: str, mode: str, bend: float, seconds: float):
-        return self.growths.files(of, name, mode, bend, seconds, watch)
+    def _moving(self, number, watch, of: Document | str, name: str, mode: str, bend: float, seconds: float, lod: int):
+        return self.growths.files(of, name, mode, bend, seconds, lod, watch)
 
     _film = _moving
 

@@ -1,6 +1,6 @@
 // The options of export as rows: level of detail, levels, leaves, wood, game pack, solid. What cannot go together is dimmed, and why is said below.
 
-import { choice } from "../../parts/choice";
+import { choice, type Choice } from "../../parts/choice";
 import { element } from "../../parts/element";
 import { toggle } from "../../parts/toggle";
 import { blocked, changed, USUAL, type ExportOptions, type OptionName } from "./export_options";
@@ -38,9 +38,10 @@ export function exportControls(): ExportControls {
   return { root: element("div", { class: "export-options" }, ...rows.map((row) => row.root), reasons), options: () => now };
 }
 
-function lod(change: Change): Row {
-  const made = choice<string>({
-    label: "Detail", showLabel: true, value: "0", testId: "export-lod", onPick: (value) => change({ lod: Number(value) as ExportOptions["lod"] }),
+/** Of how many triangles it is made. */
+export function detailChoice(testId: string, onPick: (lod: ExportOptions["lod"]) => void): Choice<string> {
+  return choice<string>({
+    label: "Detail", showLabel: true, value: "0", testId, onPick: (value) => onPick(Number(value) as ExportOptions["lod"]),
     options: [
       { value: "0", label: "Full", title: "All triangles" },
       { value: "1", label: "50 %", title: "At most half of the triangles" },
@@ -48,6 +49,10 @@ function lod(change: Change): Row {
       { value: "3", label: "6 %", title: "For far away" },
     ],
   });
+}
+
+function lod(change: Change): Row {
+  const made = detailChoice("export-lod", (value) => change({ lod: value }));
   return { name: "lod", root: made.root, show: (options) => made.set(String(options.lod)) };
 }
 

@@ -7,12 +7,15 @@ import type { Store } from "../../store";
 import { SECONDS } from "../../tree/growth/ageing";
 import { howItGrows } from "../../tree/growth/how";
 import { plain } from "../figures";
+import { detailChoice } from "./export_controls";
+import type { ExportOptions } from "./export_options";
 
 /** As the program's `Grown`. */
 export interface GrownOptions {
   mode: "age" | "full" | "scale";
   bend: number;
   seconds: number;
+  lod: ExportOptions["lod"];
 }
 
 export interface GrowthControls {
@@ -31,8 +34,10 @@ export function growthControls(store: Store): GrowthControls {
     label: "Takes", min: SHORTEST, max: LONGEST, step: 0.5, value: seconds, testId: "export-growth-seconds", hint: "From seed to tree",
     show: (value) => `${plain(value, 1)} s`, onInput: put, reset: { label: `${SECONDS} s`, onReset: () => { put(SECONDS); long.set(SECONDS); } },
   });
-  const root = element("div", { class: "export-options" }, howItGrows(store, "export-growth", true), long.root);
-  return { root, options: () => ({ ...store.ui.ageing, seconds }) };
+  let lod: ExportOptions["lod"] = 0;
+  const detail = detailChoice("export-growth-lod", (value) => { lod = value; });
+  const root = element("div", { class: "export-options" }, howItGrows(store, "export-growth", true), long.root, detail.root);
+  return { root, options: () => ({ ...store.ui.ageing, seconds, lod }) };
 }
 
 /** Files that move, and films. */
