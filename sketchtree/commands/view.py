@@ -78,6 +78,8 @@ def _meshes(tree: Path, level: int, seed: int, db: Path | None):
     if holds_scribbles(tree):
         from sketchtree.commands import scribbled
 
+        if level:
+            raise OptionError(f"The tree of {tree} is made anew, in one level of detail, and there is none numbered {level}.", remedy="Leave `--level` out.")
         chosen = click.get_current_context().get_parameter_source("seed") is not ParameterSource.DEFAULT
         return list(scribbled.grown(tree, db, seed=seed, seed_chosen=chosen)[0].model.meshes)
     contents = read_contents(tree)

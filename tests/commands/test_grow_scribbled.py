@@ -9,6 +9,7 @@ import pytest
 from click.testing import CliRunner
 from PIL import Image, ImageDraw
 
+from sketchtree.commands.app import run
 from sketchtree.commands.build import build
 from sketchtree.commands.convert import convert
 from sketchtree.commands.forest import forest
@@ -128,12 +129,18 @@ def test_it_is_looked_at_as_the_tree_that_is_made_of_it(project, tmp_path, monke
         (build, ("-o", "tree.glb", "--fill"), "`--fill` does nothing here: bare.sketchtree keeps a photo with what is scribbled on it."),
         (infer, ("-o", "drawn.swc"), "`infer` reads drawings. `sketchtree grow bare.sketchtree -o TRUNK.swc --levels 0` writes its trunk in 3D."),
         (inspect, ("-o", "seen.png"), "`inspect` reads drawings. `sketchtree grow bare.sketchtree -o TREE.glb --matte MATTE.png --trunk TRUNK.swc` writes what is found in it."),
+        (view, ("--screenshot", "seen.png", "--level", "2"), "is made anew, in one level of detail, and there is none numbered 2."),
         (forest, ("-o", "forest.glb"), "`forest` reads drawings. `sketchtree build bare.sketchtree -o TREE.glb` makes its tree."),
     ],
 )
 def test_what_can_not_be_made_of_it_is_refused_by_name(project, tmp_path, command, more, says):
     answer = CliRunner().invoke(command, [str(project), more[0], str(tmp_path / more[1]), *more[2:]])
     assert answer.exit_code != 0 and says in str(answer.exception or answer.output) and not (tmp_path / more[1]).exists()
+
+
+def test_of_a_batch_it_is_the_one_that_failed(project, tmp_path):
+    assert run(["batch", str(project), "--out", str(tmp_path / "all"), "--quiet"]) == 1
+    assert "`batch` reads drawings. `sketchtree build bare.sketchtree -o TREE.glb` makes its tree." in (tmp_path / "all" / "batch.json").read_text()
 
 
 def test_as_drawn_means_its_strokes_and_there_are_none(project, tmp_path):
