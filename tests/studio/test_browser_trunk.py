@@ -195,9 +195,20 @@ def test_a_drag_along_the_contour_merges_what_lies_between(page, ear, hand):
     before, (x, y) = points(ear), tip_of(ear)
     found_anew(page, ear, lambda: hand.drag([(x - 6, y + 9), (x, y), (x + 6, y + 9)]))
     assert len(trunk(ear)["merge"]) == 1 and (x, y) not in points(ear) and len(points(ear)) < len(before)
-    page.get("trunk-back").click()
-    ear.wait(lambda: trunk(ear)["merge"] == [], "no edits")
-    assert page.get("trunk-edits").is_hidden()
+    found_anew(page, ear, lambda: page.get("trunk-back").click())
+    assert trunk(ear)["merge"] == [] and page.get("trunk-edits").is_hidden() and points(ear) == before
+
+
+def test_two_clicks_with_shift_merge_as_a_drag_does(page, ear, hand):
+    x, y = tip_of(ear)
+    page.page.keyboard.down("Shift")
+    hand.click(x - 6, y + 9)
+    assert hand.hover(x, y + 3).startswith("Merge: ")
+    hand.click(x + 6, y + 9)
+    page.page.keyboard.up("Shift")
+    ear.wait(lambda: len(trunk(ear)["merge"]) == 1, "a merge")
+    page.get("undo").click()
+    ear.wait(lambda: trunk(ear)["merge"] == [], "no merge")
 
 
 def test_points_can_be_reached_by_the_keyboard(page, ear):

@@ -9,7 +9,7 @@ import { type Deed, why } from "./points";
 
 const LARGEST = 6; // CSS pixels: radius of a handle where there is room
 const SMALLEST = 2.25;
-const ROOM = 0.2; // of the way between two
+const ROOM = 0.14; // of the way between two
 const DARK = "#1b1d1b"; // on a photo it is the same, light or dark
 const SOFT = "#6b6c64";
 const WRONG = "#a5281b";

@@ -112,44 +112,45 @@ export function act({ store }: Desk, deed: Deed): void {
   store.chooseTrunk({ remove, add, merge }, `${deed.what} point ${count(next)}`); // a step each, however quickly they come
 }
 
-function reach(desk: Desk, grid: { unit: number }): number {
-  return pixels(desk, byHand() ? REACH_BY_HAND : REACH) / grid.unit;
+interface Aim extends Here {
+  x: number; // pixels of the photo
+  y: number;
+  reach: number;
+}
+
+/** Where the pen is, on the contour's own grid; null: there is no contour. */
+function aim(desk: Desk, at: Touch): Aim | null {
+  const { underlay, found } = desk.store.known;
+  const here = pointsHere(desk.store);
+  if (!here || !underlay || !found) return null;
+  const grid = gridOf(found, underlay);
+  const [x, y] = toPixels(grid, at.x, at.y);
+  return { ...here, x, y, reach: pixels(desk, byHand() ? REACH_BY_HAND : REACH) / grid.unit };
 }
 
 function placeAt(desk: Desk, at: Touch): Place | null {
-  const { underlay, found } = desk.store.known;
-  const here = pointsHere(desk.store);
-  if (!here || !underlay || !found) return null;
-  const grid = gridOf(found, underlay);
-  const [x, y] = toPixels(grid, at.x, at.y);
-  return nearestCorner(here.corners, x, y, reach(desk, grid)) ?? nearestPlace(here.contour, x, y, reach(desk, grid));
+  const to = aim(desk, at);
+  return to && (nearestCorner(to.corners, to.x, to.y, to.reach) ?? nearestPlace(to.contour, to.x, to.y, to.reach));
 }
 
 function deedAt(desk: Desk, at: Touch): Deed | null {
-  const { underlay, found } = desk.store.known;
-  const here = pointsHere(desk.store);
-  if (!here || !underlay || !found) return null;
-  const grid = gridOf(found, underlay);
-  const [x, y] = toPixels(grid, at.x, at.y);
-  const far = reach(desk, grid);
-  const corner = nearestCorner(here.corners, x, y, far);
-  if (corner) return { what: "remove", corner, why: keeps(here.corners, [corner]) };
-  const gone = nearestCorner(here.edits.remove.map((point) => ({ x: point[0], y: point[1], point })), x, y, far);
+  const to = aim(desk, at);
+  if (!to) return null;
+  const { contour, corners, edits, x, y, reach } = to;
+  const corner = nearestCorner(corners, x, y, reach);
+  if (corner) return { what: "remove", corner, why: keeps(corners, [corner]) };
+  const gone = nearestCorner(edits.remove.map((point) => ({ x: point[0], y: point[1], point })), x, y, reach);
   if (gone) return { what: "restore", point: gone.point };
-  const place = nearestPlace(here.contour, x, y, far);
+  const place = nearestPlace(contour, x, y, reach);
   return place && { what: "add", place };
 }
 
 /** What lies from a place to where the pen is now, wherever that is: the nearest place of the contour counts. */
 function spanTo(desk: Desk, from: Place, at: Touch): Deed | null {
-  const { underlay, found } = desk.store.known;
-  const here = pointsHere(desk.store);
-  if (!here || !underlay || !found) return null;
-  const grid = gridOf(found, underlay);
-  const [x, y] = toPixels(grid, at.x, at.y);
-  const to = nearestCorner(here.corners, x, y, reach(desk, grid)) ?? nearestPlace(here.contour, x, y);
-  if (!to) return null;
-  if (from.ring !== to.ring) return { what: "merge", from, to, gone: [], why: "On one contour only" };
-  const gone = cornersBetween(here.contour, here.corners, from, to);
-  return { what: "merge", from, to, gone, why: !isClear(here.contour, from, to) ? "Too far round" : gone.length ? keeps(here.corners, gone) : "No point between" };
+  const to = aim(desk, at);
+  const end = to && (nearestCorner(to.corners, to.x, to.y, to.reach) ?? nearestPlace(to.contour, to.x, to.y));
+  if (!to || !end) return null;
+  if (from.ring !== end.ring) return { what: "merge", from, to: end, gone: [], why: "On one contour only" };
+  const gone = cornersBetween(to.contour, to.corners, from, end);
+  return { what: "merge", from, to: end, gone, why: !isClear(to.contour, from, end) ? "Too far round" : gone.length ? keeps(to.corners, gone) : "No point between" };
 }
