@@ -13,12 +13,10 @@ def voxel_rows(xyz: Float[np.ndarray, "point 3"], size: float) -> Int[np.ndarray
     away = (((xyz / size - cell) - 0.5) ** 2).sum(axis=1)
     key = _number(cell.astype(np.int64))
     order = np.argsort(key, kind="stable")
-    first = np.r_[0, np.flatnonzero(np.diff(key[order])) + 1]
-    voxel = np.cumsum(np.isin(np.arange(len(order)), first, assume_unique=True)) - 1
-    least = np.minimum.reduceat(away[order], first)
-    hit = np.flatnonzero(away[order] == least[voxel])
-    _, one = np.unique(voxel[hit], return_index=True)
-    return np.sort(order[hit[one]])
+    begins = np.r_[True, np.diff(key[order]) > 0]
+    voxel, away = np.cumsum(begins) - 1, away[order]
+    hit = np.flatnonzero(away == np.minimum.reduceat(away, np.flatnonzero(begins))[voxel])
+    return np.sort(order[hit[np.r_[True, np.diff(voxel[hit]) > 0]]])
 
 
 def voxel_count(xyz: Float[np.ndarray, "point 3"], size: float) -> int:

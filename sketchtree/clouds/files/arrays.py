@@ -1,5 +1,7 @@
 """Which points are in this file of numpy's? NPY: one table, or one with named columns; NPZ: tables by name."""
 
+import struct
+import tokenize
 import zipfile
 import zlib
 from collections.abc import Iterator
@@ -14,6 +16,7 @@ from sketchtree.errors import SketchError
 _PLACE = ("xyz", "points", "point", "positions", "position", "pos", "coords", "coordinates", "vertices")
 _COLOUR = ("rgb", "colours", "colors", "colour", "color")
 _NORMAL = ("normals", "normal")
+_DAMAGED = (ValueError, OSError, EOFError, KeyError, SyntaxError, tokenize.TokenError, zipfile.BadZipFile, zlib.error, struct.error, MemoryError, NotImplementedError, RuntimeError)
 _SAVE = "Save the points as `xyz`, an array of three columns; colours as `rgb`."
 
 
@@ -35,8 +38,7 @@ def read_npz(file: BinaryIO, name: str) -> Source:
     """The points of an NPZ file: `xyz` or `points`, with `rgb` or `colours` and `normals`."""
     if not zipfile.is_zipfile(file):
         raise SketchError(f"{name} is an archive that was cut off.", remedy="Copy or export it again.")
-    with zipfile.ZipFile(file) as archive:
-        held = {entry.filename: entry.file_size for entry in archive.infolist()}
+    held = _loaded(lambda: {entry.filename: entry.file_size for entry in zipfile.ZipFile(file).infolist()}, name)
     if not held or any(not entry.endswith(".npy") for entry in held):
         raise SketchError(f"{name} is an archive, not a point cloud.", remedy="Unpack it, and give the cloud inside.")
     if sum(held.values()) > UNPACKED:
@@ -48,7 +50,7 @@ def read_npz(file: BinaryIO, name: str) -> Source:
     place, colour, normal = (next((word for word in group if word in names), None) for group in (_PLACE, _COLOUR, _NORMAL))
     if place is None:
         raise SketchError(f"{name} holds {', '.join(sorted(names)[:6])}; none is `xyz` or `points`.", remedy=_SAVE)
-    with np.load(file, allow_pickle=False) as archive:
+    with _loaded(lambda: np.load(file, allow_pickle=False), name) as archive:
         found = [None if key is None else _loaded(lambda key=key: archive[key], name) for key in (place, colour, normal)]
     if found[1] is not None and found[1].ndim == 2 and found[1].shape[1] == 4:
         found[1] = found[1][:, :3]  # without alpha
@@ -58,7 +60,7 @@ def read_npz(file: BinaryIO, name: str) -> Source:
 def _loaded(load, name: str) -> np.ndarray:
     try:
         return load()
-    except (ValueError, OSError, EOFError, KeyError, zipfile.BadZipFile, zlib.error, MemoryError) as error:
+    except _DAMAGED as error:
         raise SketchError(f"{name} can't be read ({str(error).splitlines()[0] if str(error) else type(error).__name__}).", remedy="Save it again.") from None
 
 

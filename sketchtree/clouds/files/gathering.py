@@ -14,7 +14,7 @@ from sketchtree.clouds.voxels import voxel_rows, voxel_size
 _HELD = 2.0  # times `max_points`: when thinning begins
 _FAR = 1000.0  # a cloud whose middle is farther from the origin is moved
 _NOWHERE = 1e9  # a coordinate beyond this is no place
-_GROWS = 1.15  # voxels from one thinning to the next, at the least
+_GROWS = 1.15  # voxels, whenever they are too many
 
 
 @dataclass(frozen=True, eq=False)
@@ -52,7 +52,8 @@ class Gathering:
         if self._offset is None:
             middle = np.median(xyz, axis=0)
             self._offset = np.round(middle) if np.linalg.norm(middle) > _FAR else np.zeros(3)
-        others = (None if column is None else column[kept].astype(np.float32) for column in (piece.colour, piece.normal))
+        with np.errstate(over="ignore", invalid="ignore"):
+            others = [None if column is None else column[kept].astype(np.float32) for column in (piece.colour, piece.normal)]
         self._hold(xyz - self._offset, *others)
         if self._count > _HELD * self._most:
             self._thin()
@@ -67,22 +68,24 @@ class Gathering:
         return Columns(xyz, colour, normal, tuple(map(float, self._offset)), self._voxel, self._read, self._nowhere)
 
     def _hold(self, *columns) -> None:
-        if self._voxel:
-            rows = voxel_rows(columns[0], self._voxel)
-            columns = tuple(None if column is None else column[rows] for column in columns)
+        columns = _kept(columns, self._voxel) if self._voxel else columns
         self._held.append(columns)
         self._count += len(columns[0])
 
     def _thin(self) -> None:
         columns = self._joined()
-        if self._voxel:
-            rows = voxel_rows(columns[0], self._voxel)
-            columns = tuple(None if column is None else column[rows] for column in columns)
-        if len(columns[0]) > self._most:
-            self._voxel = max(voxel_size(columns[0], self._most), _GROWS * self._voxel)
-            rows = voxel_rows(columns[0], self._voxel)
-            columns = tuple(None if column is None else column[rows] for column in columns)
+        self._voxel = self._voxel or voxel_size(columns[0], self._most)
+        columns = _kept(columns, self._voxel)
+        while len(columns[0]) > self._most:
+            self._voxel *= _GROWS
+            columns = _kept(columns, self._voxel)
         self._held, self._count = [columns], len(columns[0])
 
     def _joined(self) -> tuple:
         return tuple(None if any(part[k] is None for part in self._held) else np.concatenate([part[k] for part in self._held]) for k in range(3))
+
+
+def _kept(columns: tuple, voxel: float) -> tuple:
+    """One point of each voxel."""
+    rows = voxel_rows(columns[0], voxel)
+    return tuple(None if column is None else column[rows] for column in columns)

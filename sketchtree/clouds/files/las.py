@@ -52,6 +52,8 @@ def _unpacked(file: BinaryIO, header: LasHeader, name: str) -> Iterator[np.ndarr
         import lazrs
     except ImportError:
         raise SketchError(f"{name} is a LAZ file, which needs the package `lazrs`.", remedy="Install it: pip install 'sketchtree[multiview]'.") from None
+    if not _has_table(file, header):
+        raise SketchError(f"{name} is a LAZ file whose table of chunks makes no sense.", remedy="Copy or export it again.")
     done = 0
     try:
         unpacker = lazrs.LasZipDecompressor(file, header.packed)
@@ -61,5 +63,23 @@ def _unpacked(file: BinaryIO, header: LasHeader, name: str) -> Iterator[np.ndarr
             unpacker.decompress_many(data)
             done += wanted
             yield np.frombuffer(data, np.uint8).reshape(wanted, header.size)
-    except lazrs.LazrsError as error:
-        raise SketchError(f"{name} can't be unpacked after {done:,} of its {header.count:,} points ({error}).", remedy="Copy or export it again.") from None
+    except BaseException as error:  # lazrs panics at some damage, which is no Exception
+        if not isinstance(error, lazrs.LazrsError) and type(error).__name__ != "PanicException":
+            raise
+        raise SketchError(f"{name} can't be unpacked after {done:,} of its {header.count:,} points ({str(error)[:80]}).", remedy="Copy or export it again.") from None
+
+
+def _has_table(file: BinaryIO, header: LasHeader) -> bool:
+    """Whether the table of chunks is in the file, and no longer than the file could hold: lazrs makes room for it unasked."""
+    end = file.seek(0, 2)
+    file.seek(header.begins)
+    at = int.from_bytes(file.read(8), "little", signed=True)
+    if at == -1:  # written at the very end, by those who write without going back
+        file.seek(max(end - 8, 0))
+        at = int.from_bytes(file.read(8), "little", signed=True)
+    there = header.begins < at <= end - 8
+    if there:
+        file.seek(at + 4)
+        there = int.from_bytes(file.read(4), "little") <= (at - header.begins) // header.size + 1
+    file.seek(header.begins)
+    return there

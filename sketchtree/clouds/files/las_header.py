@@ -36,7 +36,8 @@ class LasHeader:
 
     def xyz(self, records: Shaped[np.ndarray, "point byte"]) -> Float[np.ndarray, "point 3"]:
         """Places, in the file's coordinates."""
-        return np.ascontiguousarray(records[:, :12]).view("<i4") * self.scale + self.offset
+        with np.errstate(over="ignore"):  # what is nowhere is left out later
+            return np.ascontiguousarray(records[:, :12]).view("<i4") * self.scale + self.offset
 
     def colour(self, records: Shaped[np.ndarray, "point byte"]) -> Float[np.ndarray, "point 3"]:
         """Colours, 16 bits each as they should be; some writers use 8."""

@@ -48,7 +48,9 @@ def read_ply(file: BinaryIO, name: str) -> Source:
 
 def _pieces(table: Iterator[list], groups) -> Iterator[Piece]:
     for columns in table:
-        yield Piece(*(None if group is None else np.stack([columns[k] for k in group], axis=1).astype(np.float64) for group in groups))
+        with np.errstate(invalid="ignore"):  # numbers that are none are left out later
+            piece = Piece(*(None if group is None else np.stack([columns[k] for k in group], axis=1).astype(np.float64) for group in groups))
+        yield piece
 
 
 def _text(file: BinaryIO, name: str, before: tuple[Element, ...], vertex: Element, lines: int) -> Iterator[dict]:
@@ -95,6 +97,10 @@ def _binary(file: BinaryIO, name: str, vertex: Element) -> Iterator[dict]:
 
 def _walked(file: BinaryIO, name: str, vertex: Element) -> dict:
     """Columns of records that differ in length: one by one."""
+    least = sum((one.type if one.length is None else one.length).itemsize for one in vertex.properties)
+    there = _left(file) // least
+    if there < vertex.count:
+        raise truncated(name, there, vertex.count)
     columns = {k: np.empty(vertex.count) for k, one in enumerate(vertex.properties) if one.length is None}
     for row in range(vertex.count):
         for k, one in enumerate(vertex.properties):
@@ -116,6 +122,14 @@ def _pass_over(file: BinaryIO, element: Element, name: str) -> None:
             value = _number(file, one.type if one.length is None else one.length)
             if value is None or (one.length is not None and not _skip(file, int(value) * one.type.itemsize)):
                 raise SketchError(f"{name} ends in its {element.name}s, after {row:,} of {element.count:,}.", remedy="Copy or export it again.")
+
+
+def _left(file: BinaryIO) -> int:
+    """Bytes from here to the end."""
+    here = file.tell()
+    end = file.seek(0, 2)
+    file.seek(here)
+    return end - here
 
 
 def _number(file: BinaryIO, kind: np.dtype):

@@ -52,7 +52,7 @@ def prepare(given: Placed | PointCloud, *, up: Literal["auto", "y", "z"] = "auto
     cloud, above, floor = _cleared(stood.cloud, remarks)
     _check(len(cloud))
     found = plants(cloud.xyz, above)
-    rows = one_tree(found, tree)
+    rows = one_tree(found, tree, [_in_file(placement, x, z) for x, z in found.place])
     remarks += _left_out(found)
     cloud, above = cloud.select(rows), above[rows]
     if len(cloud) > points:
@@ -91,6 +91,13 @@ def _cleared(cloud: PointCloud, remarks: list[str]) -> tuple[PointCloud, np.ndar
 def _check(count: int) -> None:
     if count < _FEWEST:
         raise SketchError(f"Only {count:,} points of the cloud may be a tree.", remedy="Give a cloud with more points, or one with a tree in it.")
+
+
+def _in_file(placement: Placement, x: float, z: float) -> str:
+    """Where a tree stands, in the file's own coordinates."""
+    here = placement.to_file(np.array([x, 0.0, z]))
+    one, other = ((0, "x"), (2, "z")) if placement.up == "y" else ((0, "x"), (1, "y"))
+    return ", ".join(f"{name} {round(float(here[k]), 1) + 0.0:.1f}" for k, name in (one, other))
 
 
 def _left_out(found: Plants) -> list[str]:

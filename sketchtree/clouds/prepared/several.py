@@ -5,6 +5,7 @@ through the air (many short steps cost less than a long one), so crowns that tou
 few points beside the largest, is undergrowth, and so is what doesn't reach breast height: it is left out, and that is said; unless it goes on into a tree, as a branch does that hangs to the ground.
 """
 
+from collections.abc import Sequence
 from dataclasses import dataclass
 
 import numpy as np
@@ -20,6 +21,7 @@ from sketchtree.errors import OptionError, SketchError
 
 _LOOKED_AT = 60_000  # points that ways are sought through
 _NEIGHBOURS = 8
+_SAID = 9  # trees that an error names
 _TOUCHES = 2.0  # times as far as its own points' sixth neighbours
 _SLENDER = 0.15  # of the largest tree's thickness for its height: what is thinner may be a branch that hangs to the ground
 _LOW, _FEW = 0.35, 0.1  # of the highest plant, of the largest's points: less is undergrowth
@@ -75,11 +77,11 @@ def _borne_by(xyz, low, above, tree, height: float) -> int:
     return int(np.bincount(tree[others[nearest[touching]]]).argmax()) if touching.sum() >= 3 else NULL
 
 
-def one_tree(found: Plants, tree: int | None) -> Int[np.ndarray, " kept"]:
-    """Rows of the one tree, or of the tree of that number (from 1). Raises SketchError where there are several and none was chosen, OptionError for a number that none has."""
+def one_tree(found: Plants, tree: int | None, places: Sequence[str]) -> Int[np.ndarray, " kept"]:
+    """Rows of the one tree, or of the tree of that number (from 1). `places`: where each stands, in words. Raises SketchError where there are several and none was chosen, OptionError for a number that none has."""
     if tree is None and len(found) > 1:
-        list_ = "; ".join(f"{k}: {h:.1f} m high, at x {round(x, 1) + 0.0:.1f}, z {round(z, 1) + 0.0:.1f}" for k, ((x, z), h) in enumerate(zip(found.place[:9], found.height[:9], strict=True), 1))
-        raise SketchError(f"{len(found)} trees stand in the cloud ({list_}).", remedy="Say which with `--tree K`, or cut it out of the cloud.")
+        said = "; ".join(f"{k}: {height:.1f} m high, at {place}" for k, (height, place) in enumerate(zip(found.height[:_SAID], places, strict=False), 1))
+        raise SketchError(f"{len(found)} trees stand in the cloud ({said}{'; ...' if len(found) > _SAID else ''}).", remedy="Say which with `--tree K`, or cut it out of the cloud.")
     if tree is not None and not 1 <= tree <= len(found):
         raise OptionError(f"There is no tree {tree}: the cloud has {len(found)}.", remedy=f"Say 1 to {len(found)}; 1 is the largest.")
     return np.flatnonzero(found.of_point == (0 if tree is None else tree - 1))

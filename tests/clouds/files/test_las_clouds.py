@@ -89,5 +89,14 @@ def test_a_file_that_makes_no_sense_is_named(tmp_path, data, says):
 
 
 def test_a_laz_file_that_was_cut_off_is_named(tmp_path):
+    with pytest.raises(SketchError) as error:
+        read(tmp_path, laz(XYZ)[:-100], "cloud.laz")
+    assert str(error.value) == "cloud.laz is a LAZ file whose table of chunks makes no sense. Copy or export it again."
+
+
+def test_a_laz_file_that_is_damaged_inside_is_named(tmp_path):
+    data = bytearray(laz(XYZ, 6))
+    begins = int.from_bytes(data[96:100], "little") + 8  # past the table's place
+    data[begins + 30 : begins + 70] = b"\xff" * 40
     with pytest.raises(SketchError, match=r"^cloud\.laz can't be unpacked after 0 of its 200 points \("):
-        read(tmp_path, laz(XYZ)[:-900], "cloud.laz")
+        read(tmp_path, bytes(data), "cloud.laz")

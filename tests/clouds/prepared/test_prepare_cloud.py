@@ -134,6 +134,11 @@ def test_several_trees_are_named_with_their_places():
     )
 
 
+def test_their_places_are_said_in_the_files_coordinates():
+    with pytest.raises(SketchError, match=r"2: 4\.9 m high, at x 103\.0, y 50\.0\)"):
+        prepare(PointCloud(lying(two()[0]) + [100.0, 50.0, 7.0]))
+
+
 def test_one_of_them_is_taken_by_its_number():
     xyz, whose = two()
     first, second = (prepare(PointCloud(xyz), tree=k) for k in (1, 2))
