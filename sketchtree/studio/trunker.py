@@ -23,7 +23,7 @@ from sketchtree.studio.making.trunk_asked import TrunkWish
 
 _REST = 0.6  # seconds without a change before it is made
 _PAUSE = 0.2  # seconds between two tellings of how far it is
-_PATIENCE = 4.0  # seconds in which what is stopped ends by itself, before its process is ended: a system of equations has no pulse
+_PATIENCE = 6.0  # seconds in which what is stopped ends by itself, before its process is ended: a system of equations has no pulse
 _NO_TREE = SketchError("No scribbles tell a tree yet.", remedy="Draw along its trunk, and beside it.")
 
 

@@ -1,5 +1,6 @@
 """The tree of scribbles leaves the studio as the very files that `sketchtree build` and `sketchtree grow` write of the saved project: grown up, and as it grows."""
 
+import asyncio
 import shlex
 
 import pytest
@@ -10,9 +11,12 @@ from sketchtree.errors import OptionError
 from sketchtree.options import FileOptions
 from sketchtree.sketch.strokes import StrokeKind
 from sketchtree.studio import exports
-from sketchtree.studio.growth import Grown
+from sketchtree.studio.growth import Ageing, Ager, Grown
+from sketchtree.studio.hand import Hand
+from sketchtree.studio.laid_photo import LaidPhoto
 from sketchtree.studio.making.jobs import Jobs
 from sketchtree.studio.making.trunk_asked import TrunkWish
+from sketchtree.studio.trunker import Trunker
 from sketchtree.trunk.wanted import TrunkChoices
 from sketchtree.watch import Watch
 
@@ -70,6 +74,24 @@ def test_growing_it_has_the_bytes_of_the_command_line(jobs, command, mode, bend,
 def test_the_page_plays_the_same(jobs):
     jobs.growths.lay("bare", jobs.trunk_bench.standing(WISH, Watch()))
     assert jobs.growths.glb("bare", "full", 0.0, Watch()) == jobs.growths.files("bare", "bare.glb", "full", 0.0, 10.0, 0, Watch())["bare.glb"]
+
+
+def test_it_goes_from_the_process_that_made_it_to_the_one_that_has_it_grow(jobs):
+    async def grown():
+        trunk, told = Hand("trunk", None, lambda number, value: None), []
+        trunker = Trunker(trunk, LaidPhoto(), lambda outcome: None, lambda work: None)
+        ager = Ager(lambda: Hand("age", None, lambda number, value: None))
+        try:
+            glb = await ager.made(trunker.whose(DOCUMENT), Ageing(), lambda stage, done: told.append((stage, done)))
+        finally:
+            ager.end(), trunker.end()
+        return glb, told
+
+    glb, told = asyncio.run(grown())
+    done = [one for _, one in told]
+    assert {"read", "mesh", "grow", "export"} <= {stage for stage, _ in told} and done == sorted(done) and done[-1] <= 1
+    jobs.growths.lay("bare", jobs.trunk_bench.standing(WISH, Watch()))
+    assert glb == jobs.growths.glb("bare", "full", 0.0, Watch())
 
 
 def test_its_files_ask_for_no_other_tree(jobs):
