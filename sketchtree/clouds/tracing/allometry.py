@@ -34,9 +34,9 @@ _MOST, _ENOUGH = 0.7, 8  # the foot's thickness is told by wood that bears so mu
 
 
 def radii(
-    parent: Int[np.ndarray, " node"], step: Float[np.ndarray, " node"], limb: Int[np.ndarray, " node"], seen: Measured, width: Float[np.ndarray, " node"], thinnest: float
+    parent: Int[np.ndarray, " node"], step: Float[np.ndarray, " node"], limb: Int[np.ndarray, " node"], seen: Measured, width: Float[np.ndarray, " node"], thinnest: float, foot: float | None = None
 ) -> tuple[Float[np.ndarray, " node"], float]:
-    """(radius of every node, metres; γ). `step`: metres from its parent; `width`: of its layer, metres; `thinnest`: metres, of any twig."""
+    """(radius of every node, metres; γ). `step`: metres from its parent; `width`: of its layer, metres; `thinnest`: metres, of any twig; `foot`: radius there, metres, where it is known."""
     borne = np.log(sum_to_root(parent, step) + 0.5 * width)
     noise = _noise(seen, limb)
     radius = np.sqrt(np.maximum(np.nan_to_num(seen.radius) ** 2 - noise**2, 0.0))
@@ -45,7 +45,7 @@ def radii(
     log = np.log(np.where(known, radius, 1.0))
     spread = np.where(known, _SURE / np.maximum(seen.seen, 0.1) + typical / np.maximum(radius, 1e-9) / 4, np.inf)
     goes_back = _goes_back(parent, known)
-    rule, gamma = _rule(borne, log, known & goes_back, spread, thinnest)
+    rule, gamma = _rule(borne, log, known & goes_back, spread, thinnest, foot)
     known &= np.abs(log - rule) < np.where(goes_back, _ODD, _ODD / 3)
     trust = np.where(known, spread**-2.0, 0.0)
     best = rule + _beside(parent, limb, np.where(known, log - rule, 0.0), trust)
@@ -79,7 +79,7 @@ def _goes_back(parent, known):
     return share > _MOSTLY
 
 
-def _rule(borne, log, known, spread, thinnest: float):
+def _rule(borne, log, known, spread, thinnest: float, foot: float | None):
     """(log radius by Eq. 5 at every node, γ): d_root and γ by least squares that odd ones count little in."""
     most = borne.max()
     if not known.any():
@@ -87,7 +87,7 @@ def _rule(borne, log, known, spread, thinnest: float):
     x, y, sure = borne[known] - most, log[known], 1.0 / (spread[known] ** 2 + _SPREAD**2)
     low = x > np.log(_MOST) if (x > np.log(_MOST)).sum() >= _ENOUGH else x >= np.sort(x)[-min(_ENOUGH, len(x))]
     usual = GAMMA
-    root = float(np.median(y[low] - usual * x[low]))
+    root = float(np.median(y[low] - usual * x[low])) if foot is None else float(np.log(foot))
     if most > np.log(_TWIG_BEARS) and root > np.log(_TWIG):
         usual = float(np.clip((root - np.log(_TWIG)) / (most - np.log(_TWIG_BEARS)), *_BETWEEN))
     weight, gamma = sure, usual

@@ -12,6 +12,7 @@ from sketchtree.traverse import generations, limb_chains, sum_to_root
 
 _BARK = 1.5  # radii from an axis that still belong to its bark
 _MOSTLY = 0.75  # of a limb's nodes that lie there
+_STUB = 2.0  # layers: a limb of one node that ends no farther from bark that was seen as such is part of it
 _HOSTS = 2  # limbs that a limb may be bark of: what bears it, and what bears that
 
 
@@ -41,7 +42,7 @@ def bumps(
     `width`: of its layer, metres."""
     part_of = np.arange(len(parent))
     chains = limb_chains(parent, limb)
-    radius = _between(chains, radius)
+    seen, radius = radius > 0, _between(chains, radius)
     whole = {int(rows[0]): rows for rows in chains}
     for rows in chains:
         foot = parent[rows[0]]
@@ -52,6 +53,8 @@ def bumps(
             apart = np.linalg.norm(centre[rows][:, None] - centre[host][None], axis=2)
             nearest = apart.argmin(axis=1)
             bark = np.maximum(_BARK * np.maximum(radius[host][nearest], radius[rows]), width[host][nearest])
+            if len(rows) == 1 and seen[host[nearest[0]]]:
+                bark += _STUB * width[rows]
             if np.mean(apart[np.arange(len(rows)), nearest] < bark) >= _MOSTLY:
                 part_of[rows] = host[nearest]
                 break

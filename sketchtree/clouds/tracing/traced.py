@@ -24,6 +24,7 @@ from sketchtree.traverse import generations, is_tip
 
 _LAYER = 0.006  # of the height
 _WIDE, _FINE, _THICK = 2.0, 0.4, 1.2  # a first layer is at least so many spacings wide; a second so many of the spacing there, and so many radii
+_STRAIGHT = 1.2  # power of steps for the first layers, which find out how thick the wood is
 THINNEST = 0.00015  # of the height: the radius of a twig
 
 
@@ -46,18 +47,18 @@ class _Wood:
     gamma: float
 
 
-def traced(xyz: Float[np.ndarray, "point 3"], feet: list[Int[np.ndarray, " start"]], graph: Joined | None = None) -> Traced:
-    """The tree that stands on feet, each of which is some of the points. Metres, y up."""
+def traced(xyz: Float[np.ndarray, "point 3"], feet: list[Int[np.ndarray, " start"]], graph: Joined | None = None, foot_radius: float | None = None) -> Traced:
+    """The tree that stands on feet, each of which is some of the points. Metres, y up. `foot_radius`: how thick the trunk is at its foot, metres, where that was measured."""
     graph = joined(xyz) if graph is None else graph
-    height, way = float(np.ptp(xyz[:, 1])), ways(xyz, graph, feet)
+    height = float(np.ptp(xyz[:, 1]))
     first = np.full(len(xyz), max(_LAYER * height, _WIDE * float(np.median(graph.spacing))))
-    rough = _wood(xyz, graph, way, first, THINNEST * height)
+    rough = _wood(xyz, graph, ways(xyz, graph, feet, _STRAIGHT), first, THINNEST * height, foot_radius)
     thick = np.where(rough.of_point == NULL, 0.0, rough.radius[rough.of_point])
-    wood = _wood(xyz, graph, way, np.maximum(_FINE * graph.spacing, _THICK * thick), THINNEST * height, thick)
+    wood = _wood(xyz, graph, ways(xyz, graph, feet), np.maximum(_FINE * graph.spacing, _THICK * thick), THINNEST * height, foot_radius, thick)
     return Traced(_skeleton(wood), wood.gamma, graph.pieces)
 
 
-def _wood(xyz, graph: Joined, way: Ways, width, thinnest: float, thick=None) -> _Wood:
+def _wood(xyz, graph: Joined, way: Ways, width, thinnest: float, foot: float | None, thick=None) -> _Wood:
     """Limbs and their thickness, by layers that are so wide at each point. `thick`: about how thick the wood is there, if that is known."""
     found = layers(xyz, graph, way, width)
     parent, of_point, width, end = found.parent, found.of_point, found.width, found.end
@@ -79,7 +80,7 @@ def _wood(xyz, graph: Joined, way: Ways, width, thinnest: float, thick=None) -> 
     centre = smoothed(parent, seen.centre, limb, seen.known)
     tips = is_tip(parent)
     centre[tips] = end[tips]  # a layer's middle would leave half of it out
-    radius, gamma = radii(parent, steps(parent, centre), limb, seen, width, thinnest)
+    radius, gamma = radii(parent, steps(parent, centre), limb, seen, width, thinnest, foot)
     return _Wood(parent, centre, radius, limb, of_point, gamma)
 
 

@@ -1,7 +1,7 @@
 """How far is every point from the foot, along the wood?
 
-The way to a point is the one of least Σ d² over the pairs that it takes (Dijkstra): many short steps cost less than a long one, so a way keeps to where points are dense and
-crosses a gap where it is narrow. Its length is Σ d, metres.
+The way to a point is the one of least Σ d^n over the pairs that it takes (Dijkstra). With n = 2 many short steps cost less than a long one, so a way keeps to where points are dense
+and crosses a gap where it is narrow, but winds; with n near 1 it runs straight, so that all round a thick trunk it is as long. Its length is Σ d, metres.
 """
 
 from dataclasses import dataclass
@@ -37,12 +37,12 @@ class Ways:
         return total
 
 
-def ways(xyz: Float[np.ndarray, "point 3"], graph: Joined, feet: list[Int[np.ndarray, " start"]]) -> Ways:
+def ways(xyz: Float[np.ndarray, "point 3"], graph: Joined, feet: list[Int[np.ndarray, " start"]], power: float = 2.0) -> Ways:
     """Ways from feet, each of which is some points that are all at its distance 0. Each point belongs to the foot from which it is reached most easily."""
     count, size = len(xyz), len(xyz) + len(feet)
     one = np.concatenate([graph.one, *(np.full(len(points), count + k) for k, points in enumerate(feet))])
     other = np.concatenate([graph.other, *feet])
-    cost = np.concatenate([graph.length**2, np.full(sum(map(len, feet)), 1e-18)])
+    cost = np.concatenate([graph.length**power, np.full(sum(map(len, feet)), 1e-18)])
     there = csr_matrix((cost, (one, other)), shape=(size, size))
     _, before, source = dijkstra(there.maximum(there.T), directed=False, indices=np.arange(count, size), return_predecessors=True, min_only=True)
     foot = source[:count] - count
