@@ -1,7 +1,7 @@
 """From the picture into space: the trunk as a `TreeSkeleton` whose projection is what was seen.
 
 Two ways to find depths: `siblings` (§II.3, rotations about the parent's axis), and `elevation`, ours: the same inference that strokes go through, with a template, if there are any. Either way x and y of every point are the
-picture's under one similarity, to the last bit, and `siblings` keeps the thickness too.
+picture's under one similarity, to the last bit, and so is thickness.
 """
 
 import dataclasses
@@ -43,7 +43,9 @@ def as_tree(
     sketch, graph = trunk_drawing(skeleton)
     if lift == "elevation":
         asked = options if height is None else dataclasses.replace(options, height=height)
-        return draw_out_graph(sketch, graph, templates, key=stage_key(key, "elevation"), options=asked).skeleton
+        drawn = draw_out_graph(sketch, graph, templates, key=stage_key(key, "elevation"), options=asked)
+        same = len(drawn.skeleton) == len(graph)  # a template may give it roots, which nobody measured
+        return drawn.skeleton.replace(radius=graph.width / 2.0 * drawn.similarity.scale) if same else drawn.skeleton
     depth = sibling_depth(graph, sibling_angles(graph, stage_key(key, "siblings"), spread))
     similarity = page_to_world(graph, height or Habit().height)
     return in_space(graph, depth, similarity, radius=graph.width / 2.0 * similarity.scale)

@@ -58,9 +58,10 @@ def binary_trunk(alpha: Float[np.ndarray, "row column"], root: tuple[float, floa
     told += _of_pieces(left, chosen)
     told += ["The matte is opaque all over: the whole picture was taken for the trunk. Draw a background scribble beside the tree."] if (labels[1:-1, 1:-1] == chosen).all() else []
     piece = labels == chosen
-    mask = drained(padded, piece, _without_small_holes(piece)[0], None if root is None else _nearest(piece, root))
+    whole = _without_small_holes(piece)[0]
+    mask = drained(padded, piece, whole, None if root is None else _nearest(piece, root))
     mask, _, holes = _without_small_holes(mask)
-    filled = ndimage.label(mask & ~piece)[1]
+    filled = ndimage.label(mask & whole & ~piece)[1]
     told += [f"{filled} small {'hole' if filled == 1 else 'holes'} in the trunk {'was' if filled == 1 else 'were'} filled."] if filled else []
     told += [f"The trunk has {holes} {'hole' if holes == 1 else 'holes'}; the loop round each is cut where the ways round it meet."] if holes else []
     mask = _without_pinches(mask, padded)

@@ -3,6 +3,7 @@
 The distance to the contour is the thickness where the matte is right. It is too little where bark has the colours behind it, and too much where many twigs make one blot. Ours, from limb to limb:
 
     by itself        no wood is thicker than `SWELLS` of its limb's median so far, counted from its foot outside its parent's circle (of a trunk also: nor than the `WIDE` quantile of its first `FOOT`)
+    to its end       r ≤ (Σ_c r_c³)^(1/3) + `TAPERS` l                   l   length of the piece: wood doesn't end at a step, but in forks
     from above       r ≤ r_bearer · min(1, `SPARE` · share^(1/3))        share   of the wood beyond the fork that the limb carries
     from below       r³ ≥ Σ_c r_c³                                       nor is wood thinner than what it bears needs (pipe model with Murray's exponent)
 
@@ -18,6 +19,7 @@ SWELLS = 1.2
 WIDE, FOOT = 0.5, 0.4
 SPARE = 1.3
 EXPONENT = 3.0
+TAPERS = 0.15  # a radius a length
 
 
 def borne_radius(parent: Int[np.ndarray, " node"], xy: Float[np.ndarray, "node 2"], radius: Float[np.ndarray, " node"], limb: Int[np.ndarray, " node"]) -> Float[np.ndarray, " node"]:
@@ -25,6 +27,7 @@ def borne_radius(parent: Int[np.ndarray, " node"], xy: Float[np.ndarray, "node 2
     step = np.where(parent == NULL, 0.0, np.hypot(*(xy - xy[np.maximum(parent, 0)]).T))
     wood = carried(parent, step)
     beyond = np.bincount(parent[1:], weights=wood[1:], minlength=len(parent))
+    radius = tapering(parent, step, radius)
     thick = np.array(radius, np.float64)
     for one in np.unique(limb):
         rows = np.flatnonzero(limb == one)
@@ -38,6 +41,18 @@ def borne_radius(parent: Int[np.ndarray, " node"], xy: Float[np.ndarray, "node 2
         if parent[row] != NULL:
             pipes[parent[row]] += thick[row] ** EXPONENT
     return thick * min(1.0, max(_foot(radius[limb == limb[0]], step[limb == limb[0]]), radius[0]) / thick[0])
+
+
+def tapering(parent: Int[np.ndarray, " node"], step: Float[np.ndarray, " node"], radius: Float[np.ndarray, " node"]) -> Float[np.ndarray, " node"]:
+    """What was measured, where it goes on as wood does; parents first."""
+    thick, onward, run = np.array(radius, np.float64), np.zeros(len(radius)), np.zeros(len(radius))
+    for row in range(len(thick) - 1, -1, -1):
+        if onward[row] > 0.0:
+            thick[row] = min(thick[row], onward[row] ** (1 / EXPONENT) + TAPERS * run[row])
+        if parent[row] != NULL:
+            onward[parent[row]] += thick[row] ** EXPONENT
+            run[parent[row]] = max(run[parent[row]], step[row])
+    return thick
 
 
 def carried(parent: Int[np.ndarray, " node"], step: Float[np.ndarray, " node"]) -> Float[np.ndarray, " node"]:

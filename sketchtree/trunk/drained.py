@@ -31,6 +31,7 @@ PIPES = 2.0
 STEM = 0.8  # of the flow at the ground: where so much runs through is the stem
 _NEAR = 6.0  # pixels, σ of what is near by
 _LOOSE, _AROUND = 1.15, 1.0  # of a limb's thickness, and pixels: what stays round its way
+_HANGS = 1.5  # pixels: thinner limbs in a veil are made two pixels wide, so that their axis hangs together
 _FAINTEST = 0.05  # alpha, in the cost of a way
 
 
@@ -55,7 +56,8 @@ def drained(alpha: Float[np.ndarray, "row column"], piece: Bool[np.ndarray, "row
     whole = float(water.flow[start])
     stem = float(np.median(room[ways & (water.flow >= STEM * whole)]))
     thin = np.minimum(room, SPARE * stem * (water.flow / max(whole, 1e-9)) ** (1.0 / PIPES))
-    return filled & around(ways, (1.0 - veil) * (_LOOSE * room + _AROUND) + veil * thin)
+    kept = filled & around(ways, (1.0 - veil) * (_LOOSE * room + _AROUND) + veil * thin)
+    return kept | ndimage.binary_dilation(ways & (room < _HANGS) & (veil > 0.0), structure=np.ones((2, 2)))
 
 
 def drainage(alpha, piece, room, start: tuple[int, int]) -> Drainage:

@@ -4,7 +4,7 @@ import numpy as np
 import pytest
 from silhouettes import capsules
 
-from sketchtree.trunk.borne import EXPONENT, SPARE, SWELLS, borne_radius
+from sketchtree.trunk.borne import EXPONENT, SPARE, SWELLS, TAPERS, borne_radius
 from sketchtree.trunk.limbs import trunk_drawing
 from sketchtree.trunk.skeletonise import trunk_skeleton
 
@@ -33,6 +33,15 @@ def test_what_tapers_as_wood_does_is_as_thick_as_it_measures():
 
 def test_a_trunk_is_no_thinner_at_its_foot_than_above():
     assert stem([2, 2, 6, 6, 6, 6, 6, 5, 4, 3]).min() == 3 and stem([2, 2, 6, 6, 6, 6, 6, 5, 4, 3])[:2] == pytest.approx([6, 6])
+
+
+def test_wood_does_not_end_at_a_step():
+    thick = stem([8, 8, 8, 8, 8, 3, 3, 3, 3, 3])
+    assert np.diff(thick).min() >= -10 * TAPERS - 1e-9 and thick[5:].tolist() == [3] * 5
+
+
+def test_a_blunt_end_stays_as_thick_as_it_is():
+    assert stem([6, 6, 6, 6, 6]).tolist() == [6] * 5
 
 
 def test_a_blot_of_twigs_makes_no_limb_thick():

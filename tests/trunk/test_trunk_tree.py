@@ -150,11 +150,12 @@ def test_the_root_is_the_origin_and_the_height_what_was_asked_for():
     assert tree.tip[0] == pytest.approx([0.0, 0.0, 0.0]) and tree.height == pytest.approx(9.0)
 
 
-def test_elevation_keeps_the_projection_too():
+def test_elevation_keeps_the_projection_and_the_thickness_too():
     skeleton = trunk_skeleton(forked())
     one = as_tree(skeleton, key=KEY, height=9.0)
     other = as_tree(skeleton, key=KEY, lift="elevation", height=9.0, options=ReadingOptions(template="none"))
     assert np.abs(one.tip[:, :2] - other.tip[:, :2]).max() < 1e-9 and np.ptp(other.tip[:, 2]) > 0
+    assert other.radius == pytest.approx(one.radius)
 
 
 def test_limbs_have_names_of_their_parents_and_orders():
