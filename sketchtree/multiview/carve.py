@@ -1,6 +1,7 @@
 """What is the largest body that no silhouette contradicts? The visual hull of masks (Laurentini 1994), for photos that are masks or show too little to be matched.
 
-A cube round the place looked at is split into voxels; one that falls outside the mask of more than `spare` views that have it in the picture is thrown away, the others are split again. The points are the middles of
+A cube round the place looked at is split into voxels; one that falls outside the mask of more than `spare` views that have it in the picture, or inside that of less than half of all, is thrown away, the others are
+split again. The points are the middles of
 the voxels at the surface, their normals point away from what is full around them, their colours are the mean of the views that show the surface from in front.
 """
 
@@ -19,7 +20,7 @@ _FACES = np.array([(1, 0, 0), (-1, 0, 0), (0, 1, 0), (0, -1, 0), (0, 0, 1), (0, 
 
 def silhouette(view: View) -> Bool[np.ndarray, "row column"] | None:
     """The mask that a view is: its alpha channel, or what is white where it is black and white. None: it is a photo."""
-    if not view.seen.all():
+    if view.cut_out:
         return view.seen
     brightness = view.rgb.mean(axis=2)
     two = (brightness < 0.1) | (brightness > 0.9)
@@ -45,7 +46,7 @@ def carved(views: list[View], masks: list[Bool[np.ndarray, "row column"]], *, vo
 
 
 def _inside(middle, side, cameras, away, spare) -> Bool[np.ndarray, " cell"]:
-    """Which voxels may touch the plant: their balls meet the mask in all but `spare` of the views that have them."""
+    """Which voxels may touch the plant: their balls meet the mask in all but `spare` of the views that have them, and in half of all."""
     misses, seen = np.zeros(len(middle), np.int64), np.zeros(len(middle), np.int64)
     for camera, distance in zip(cameras, away, strict=True):
         pixel, depth = camera.project(middle)
@@ -54,7 +55,7 @@ def _inside(middle, side, cameras, away, spare) -> Bool[np.ndarray, " cell"]:
         radius = 0.87 * side * camera.matrix[0, 0] / depth[held]  # half a diagonal, pixels
         misses[held] += distance[y, x] > radius
         seen[held] += 1
-    return (misses <= spare) & (seen >= 2)
+    return (misses <= spare) & (2 * (seen - misses) >= len(cameras))
 
 
 def _surface(cell, corner, side, views: list[View]) -> PointCloud:
@@ -71,7 +72,7 @@ def _surface(cell, corner, side, views: list[View]) -> PointCloud:
         pixel, depth = view.camera.project(xyz)
         held = np.flatnonzero(view.camera.holds(pixel, depth))
         x, y = pixel[held].astype(int).T
-        facing = np.maximum(-(normal[held] @ view.camera.ahead), 0.0) * view.seen[y, x]
+        facing = np.maximum(-(normal[held] @ view.camera.ahead), 0.0) * (view.seen[y, x] + 1e-3)
         colour[held] += facing[:, None] * view.rgb[y, x]
         weight[held] += facing
     return PointCloud(xyz, np.clip(colour / weight[:, None], 0.0, 1.0), normal)

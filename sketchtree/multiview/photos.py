@@ -30,6 +30,7 @@ class View:
     camera: Camera
     rgb: Float[np.ndarray, "row column 3"]  # sRGB, 0-1, 32 bits
     seen: Bool[np.ndarray, "row column"]  # whether the photo shows it, and it is not masked out
+    cut_out: bool = False  # whether its alpha channel masks something out: then what is seen is the plant
 
     @property
     def grey(self) -> Float[np.ndarray, "row column"]:
@@ -83,7 +84,8 @@ def views_of(placed: Iterator[tuple[Path, Camera, object]], longest: int) -> Ite
             size = tuple(max(1, round(side * by)) for side in picture.size)
             picture, camera = picture.resize(size, Image.Resampling.BOX, reducing_gap=None), camera.resized(size)
         flat, seen = undistorted(np.asarray(picture, np.float32) / 255.0, camera, lens)
-        yield View(file.name, camera, np.ascontiguousarray(flat[..., :3]), seen & (flat[..., 3] > 0.5) & ~bars(flat[..., :3]))
+        opaque = flat[..., 3] > 0.5
+        yield View(file.name, camera, np.ascontiguousarray(flat[..., :3]), seen & opaque & ~bars(flat[..., :3]), bool((seen & ~opaque).any()))
 
 
 def bars(rgb: Float[np.ndarray, "row column 3"]) -> Bool[np.ndarray, "row column"]:

@@ -1,7 +1,7 @@
 """Where were the photos taken from, if nobody says? Structure from motion with COLMAP (Schönberger & Frahm 2016, incremental), on the CPU → Poses.
 
-Photos of other sizes, other cameras and without EXIF may be mixed: photos of one size and focal length share a camera, and a focal length that is not told is taken as 1.2 times the longer side and found
-with the rest. Its threads add numbers in no fixed order, so that two runs agree to about a thousandth of a pixel, not to the last bit.
+Photos of other sizes, other cameras and without EXIF may be mixed: photos of one size and, by their EXIF, of one camera and focal length share a camera (if each had its own, small sets would bend), and a focal
+length that is not told is taken as 1.2 times the longer side and found with the rest. Its threads add numbers in no fixed order, so that two runs agree to about a thousandth of a pixel, not to the last bit.
 """
 
 import tempfile
@@ -22,6 +22,9 @@ ADVICE = (
     "Walk round the plant and take a photo every 10-15° (24-36 in all), a second round higher up for tall ones; keep the whole plant in the picture and the zoom as it is, "
     "have still, textured ground or a printed page around it, no wind and no blur."
 )
+
+
+_PHOTO, _MODEL, _FOCAL = 0x8769, 0x0110, (0x920A, 0xA405)  # EXIF: the block of the photo, the camera's model, focal length and what it were on 35 mm film
 
 
 @dataclass(frozen=True)
@@ -45,8 +48,8 @@ def structure_from_motion(
     with tempfile.TemporaryDirectory(prefix="sketchtree-views-") as place:
         place = Path(place)
         unsharp = blurred(files)
-        shrunk = _copied(files, place / "photos", longest, shared(part, 0.0, 0.1), pulse)
-        _matched(colmap, place, seed, part, pulse)
+        shrunk, groups = _copied(files, place / "photos", longest, shared(part, 0.0, 0.1), pulse)
+        _matched(colmap, place, groups, seed, part, pulse)
         poses = _mapped(colmap, place, len(files), seed, shared(part, 0.5, 1.0), pulse)
     return _found(poses, files, shrunk, unsharp)
 
@@ -60,33 +63,47 @@ def _colmap():
     return pycolmap
 
 
-def _copied(files: list[Path], place: Path, longest: int, part, pulse: Pulse) -> dict[str, float]:
-    """Upright copies of at most so many pixels a side, PNG in name order; by how much each is smaller."""
+def _copied(files: list[Path], place: Path, longest: int, part, pulse: Pulse) -> tuple[dict[str, float], list[list[str]]]:
+    """Upright copies of at most so many pixels a side; (by how much each is smaller, the copies that share a camera)."""
     place.mkdir()
-    by = {}
+    by, groups = {}, {}
     for k, file in enumerate(files):
         pulse()
         stored = read_photo(file)
-        focal = stored.getexif().get_ifd(0x8769)
+        told = stored.getexif()
+        exif = _focal_only(told)
         picture = ImageOps.exif_transpose(stored).convert("RGB")
         size = picture.size
         picture.thumbnail((longest, longest), Image.Resampling.LANCZOS)
         by[file.name] = size[0] / picture.size[0]
-        exif = Image.Exif()
-        exif.get_ifd(0x8769).update({tag: focal[tag] for tag in (0x920A, 0xA405) if tag in focal})  # focal length; the same as if on 35 mm film
-        picture.save(place / f"{file.name}.jpg", quality=95, subsampling=0, exif=exif)
+        copy = f"{file.name}.jpg"
+        picture.save(place / copy, quality=95, subsampling=0, exif=exif)
+        own = (size, told.get(_MODEL), *(told.get_ifd(_PHOTO).get(tag) for tag in _FOCAL))
+        groups.setdefault(own, []).append(copy)
         part((k + 1) / len(files))
-    return by
+    return by, list(groups.values())
 
 
-def _matched(colmap, place: Path, seed: int, part, pulse: Pulse) -> None:
+def _focal_only(told: Image.Exif) -> Image.Exif:
+    """What tells the focal length, and not how the photo is to be turned."""
+    kept = Image.Exif()
+    if _MODEL in told:
+        kept[_MODEL] = told[_MODEL]
+    kept.get_ifd(_PHOTO).update({tag: value for tag, value in told.get_ifd(_PHOTO).items() if tag in _FOCAL})
+    return kept
+
+
+def _matched(colmap, place: Path, groups: list[list[str]], seed: int, part, pulse: Pulse) -> None:
     colmap.set_random_seed(seed)
     extraction, reader = colmap.FeatureExtractionOptions(), colmap.ImageReaderOptions()
     extraction.use_gpu, reader.camera_model = False, "SIMPLE_RADIAL"
     extraction.sift.darkness_adaptivity = True
-    colmap.extract_features(place / "points.db", place / "photos", reader_options=reader, extraction_options=extraction, device=colmap.Device.cpu)
-    part(0.3)
-    pulse()
+    for k, names in enumerate(groups):
+        colmap.extract_features(
+            place / "points.db", place / "photos", names, camera_mode=colmap.CameraMode.SINGLE, reader_options=reader, extraction_options=extraction, device=colmap.Device.cpu
+        )
+        pulse()
+        part(0.1 + 0.2 * (k + 1) / len(groups))
     matching = colmap.FeatureMatchingOptions()
     matching.use_gpu = False
     colmap.match_exhaustive(place / "points.db", matching_options=matching, device=colmap.Device.cpu)
@@ -111,7 +128,10 @@ def _mapped(colmap, place: Path, count: int, seed: int, part, pulse: Pulse) -> P
         raise ViewsError(f"None of the {count} photos could be placed: too few of their details were found again in others.", remedy=ADVICE)
     best = max(models, key=lambda number: models[number].num_reg_images())
     models[best].write_binary(place / "model")
-    return read_colmap(place / "model")
+    try:
+        return read_colmap(place / "model")
+    except ViewsError:  # a focal length below 0: what was found is no picture of a world
+        raise ViewsError(f"None of the {count} photos could be placed: the cameras found make no sense.", remedy=ADVICE) from None
 
 
 def _found(poses: Poses, files: list[Path], shrunk: dict[str, float], unsharp: list[str]) -> Found:

@@ -2,7 +2,7 @@
 
 Sky, of a photo: what is reached from its upper border over pixels that are even (brightness changes by less than `EVEN` to the next) and either bright (above 0.75 in all channels) or blue (b > r + 0.03,
 b ≥ g, above 0.35). Behind, of a cloud: what is no nearer to the place looked at than the nearest camera is. Ground, of a cloud with y up: the level plane (tilted by 15° at most) that most points of the lower third
-lie on, if at least a tenth of all do and they reach as far across as three quarters of the cloud is wide; all points under it, or less than 1.2 % of the cloud's height above it, are ground. A trunk's foot
+lie on, if at least a tenth of all do and they reach as far across as 0.4 of the cloud's width, both ways; all points under it, or less than 1.2 % of the cloud's height above it, are ground. A trunk's foot
 goes with it.
 """
 
@@ -18,7 +18,7 @@ from sketchtree.multiview.sources import looked_at
 EVEN = 0.04
 LEVEL = np.cos(np.radians(15.0))
 ABOVE = 0.012  # of the cloud's height
-SHARE, ACROSS = 0.1, 0.75
+SHARE, ACROSS = 0.1, 0.4
 _TRIES = 300
 
 

@@ -1,0 +1,60 @@
+"""What is not the plant goes by stated rules."""
+
+import numpy as np
+from ring import camera_at
+
+from sketchtree.clouds.cloud import PointCloud
+from sketchtree.keys import root_key
+from sketchtree.multiview.sky_and_ground import ground, sky, within
+
+CHANCE = np.random.default_rng(2)
+TREE = np.column_stack([CHANCE.normal(0, 0.1, 800), CHANCE.uniform(0, 3, 800), CHANCE.normal(0, 0.1, 800)])
+MEADOW = np.column_stack([CHANCE.uniform(-2, 2, 900), CHANCE.normal(0, 0.006, 900), CHANCE.uniform(-2, 2, 900)])
+
+
+def test_blue_or_bright_and_even_to_the_upper_border_is_sky():
+    rgb = np.full((40, 40, 3), [0.4, 0.6, 0.9], np.float32)
+    rgb[:, 20:] = 0.95
+    rgb[25:] = [0.3, 0.4, 0.2]
+    found = sky(rgb)
+    assert found[:23, :18].all() and found[:23, 23:].all() and not found[25:].any()
+
+
+def test_a_dark_limb_before_the_sky_and_a_bright_leaf_below_it_are_not():
+    rgb = np.full((40, 40, 3), 0.9, np.float32)
+    rgb[:, 18:22] = 0.2
+    rgb[30:] = 0.2
+    rgb[33:37, 5:15] = 0.9
+    found = sky(rgb)
+    assert not found[:, 18:22].any() and not found[30:].any()
+
+
+def test_what_stands_behind_the_cameras_ring_is_behind():
+    cameras = [camera_at(60.0 * k) for k in range(6)]
+    np.testing.assert_array_equal(within(np.array([[0.2, 1.0, 0.0], [9.0, 0.5, 0.0]]), cameras), [True, False])
+
+
+def test_level_ground_goes_and_the_tree_stays():
+    found = ground(PointCloud(np.concatenate([TREE, MEADOW])), key=root_key(0))
+    assert found[800:].mean() > 0.99
+    assert found[:800][TREE[:, 1] > 0.06].mean() == 0.0
+
+
+def test_ground_on_a_gentle_slope_goes_too():
+    slope = np.array([[np.cos(0.15), -np.sin(0.15), 0], [np.sin(0.15), np.cos(0.15), 0], [0, 0, 1]])
+    assert ground(PointCloud(np.concatenate([TREE, MEADOW @ slope.T])), key=root_key(0))[800:].mean() > 0.99
+
+
+def test_a_tree_without_ground_loses_nothing():
+    assert not ground(PointCloud(TREE), key=root_key(0)).any()
+
+
+def test_a_pot_that_is_no_wider_than_a_part_of_the_plant_stays():
+    crown = np.column_stack([CHANCE.uniform(-1, 1, 900), CHANCE.uniform(2, 3, 900), CHANCE.uniform(-1, 1, 900)])
+    pot = MEADOW * [0.1, 1, 0.1]
+    assert not ground(PointCloud(np.concatenate([crown, TREE, pot])), key=root_key(0)).any()
+
+
+def test_the_same_key_gives_the_same_ground():
+    cloud = PointCloud(np.concatenate([TREE, MEADOW]))
+    np.testing.assert_array_equal(ground(cloud, key=root_key(4)), ground(cloud, key=root_key(4)))
