@@ -9,6 +9,7 @@ from typing import Literal
 import numpy as np
 from jaxtyping import Float
 
+from sketchtree.axes import NULL
 from sketchtree.clouds.cloud import PointCloud
 from sketchtree.clouds.files.placed import Placed, Placement
 from sketchtree.clouds.prepared.doubled import single_rows
@@ -101,9 +102,8 @@ def _in_file(placement: Placement, x: float, z: float) -> str:
 
 
 def _left_out(found: Plants) -> list[str]:
-    if not found.undergrowth:
-        return []
-    return [f"{found.undergrowth} low plant{'s' if found.undergrowth > 1 else ''} beside the tree{'s' if len(found) > 1 else ''} left out."]
+    count = int((found.of_point == NULL).sum())
+    return [f"{count:,} points are of low plants, or of what lies on the ground; they were left out."] if count else []
 
 
 def _foot(xyz, above):

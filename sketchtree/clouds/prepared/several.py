@@ -34,7 +34,6 @@ class Plants:
     of_point: Int[np.ndarray, " point"]  # 0, 1, ...: whose each point is; NULL for undergrowth
     place: Float[np.ndarray, "tree 2"]  # (x, z) where each stands, metres
     height: Float[np.ndarray, " tree"]  # metres
-    undergrowth: int  # plants that are none of them; all that don't reach breast height count as one
 
     def __len__(self) -> int:
         return len(self.place)
@@ -63,7 +62,7 @@ def plants(xyz: Float[np.ndarray, "point 3"], above: Float[np.ndarray, " point"]
         name[k] = _borne_by(xyz, of_point == k, above, sure, height[k])
     for k in np.flatnonzero((name == NULL) & tall):  # slender, and for itself: a young tree
         name[k], trees = len(trees), np.append(trees, k)
-    return Plants(np.where(weeds, NULL, name[of_point]), place[trees], height[trees], int((name == NULL).sum()) + bool(weeds.any()))
+    return Plants(np.where(weeds, NULL, name[of_point]), place[trees], height[trees])
 
 
 def _borne_by(xyz, low, above, tree, height: float) -> int:

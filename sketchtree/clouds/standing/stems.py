@@ -15,12 +15,15 @@ from scipy.sparse import csr_matrix
 from scipy.sparse.csgraph import connected_components
 from scipy.spatial import cKDTree
 
+from sketchtree.clouds.voxels import voxel_rows
+
 _BREAST, _PART = 1.3, 0.12  # metres, of the height: whichever is less
 _OVER = 1.25  # the slab ends so many breast heights up
 _LOW, _HIGH = 0.35, 0.85  # a stem begins below, and reaches above, these parts of the slab
 _LINK, _SPACINGS = 0.012, 4.0  # points are close within so much of the height, and within so many spacings
 _SHARE = 0.03  # of the largest stem's points
 _LAYERS = 10
+_LOOKED_AT = 5000  # points whose spacing is measured
 _BESIDE = 0.05  # of the height: what is nearer to a stem may be of its foot
 _TOGETHER, _APART = 1 / 7, 1.0  # of the height, metres
 
@@ -67,20 +70,15 @@ def stems(xyz: Float[np.ndarray, "point 3"], above: Float[np.ndarray, " point"])
 
 
 def _pieces(xyz, link: float):
-    """The pieces that hang together, 0, 1, ..."""
+    """The pieces that hang together, 0, 1, ...; of many points in a small place one stands for the rest."""
     tree = cKDTree(xyz)
-    near = tree.query(xyz, k=min(7, len(xyz)))[0].reshape(len(xyz), -1)
-    link = max(link, _SPACINGS * float(np.median(near[:, -1])))
-    pairs = tree.query_pairs(link, output_type="ndarray") if len(xyz) < 20_000 else _near_pairs(tree, xyz, link)
-    return connected_components(csr_matrix((np.ones(len(pairs), np.int8), pairs.T), shape=(len(xyz), len(xyz))), directed=False)[1]
-
-
-def _near_pairs(tree: cKDTree, xyz, link: float):
-    """Pairs closer than that, of each point with some neighbours only: many points have too many."""
-    distance, near = tree.query(xyz, k=24, distance_upper_bound=link)
-    one = np.repeat(np.arange(len(xyz)), 24)
-    kept = np.isfinite(distance.ravel())
-    return np.stack([one[kept], near.ravel()[kept]], axis=1)
+    some = xyz[:: max(1, len(xyz) // _LOOKED_AT)]
+    link = max(link, _SPACINGS * float(np.median(tree.query(some, k=min(7, len(xyz)))[0].reshape(len(some), -1)[:, -1])), 1e-9)
+    rows = voxel_rows(xyz, link / 4)
+    few = cKDTree(xyz[rows])
+    pairs = few.query_pairs(link, output_type="ndarray")
+    piece = connected_components(csr_matrix((np.ones(len(pairs), np.int8), pairs.T), shape=(len(rows), len(rows))), directed=False)[1]
+    return piece[few.query(xyz)[1]]
 
 
 def _foot(xyz, above, top: float):

@@ -7,6 +7,7 @@ from scenes import floor, limb, lying, tree
 from sketchtree.clouds.cloud import PointCloud
 from sketchtree.clouds.files.placed import Placed, Placement
 from sketchtree.clouds.prepared.doubled import single_rows
+from sketchtree.clouds.prepared.finite import finite
 from sketchtree.clouds.prepared.ground import ground
 from sketchtree.clouds.prepared.outliers import outliers
 from sketchtree.clouds.prepared.prepare import prepare
@@ -90,7 +91,16 @@ def test_heights_are_above_the_ground_under_each_point():
     np.testing.assert_allclose(found.above[: len(TREE)][trunk], TREE[trunk, 1], atol=0.12)
 
 
-# doubles, outliers
+# no places, doubles, outliers
+
+
+def test_points_that_are_no_places_are_left_out_and_counted():
+    cloud, lost = finite(np.array([[1.0, 2, 3], [np.nan, 0, 0], [4, 5, np.inf]]), np.array([[0.1] * 3, [0.2] * 3, [0.3] * 3]))
+    assert cloud.xyz.tolist() == [[1, 2, 3]]
+    assert cloud.colour.tolist() == [[0.1] * 3]
+    assert lost == 2
+    with pytest.raises(SketchError, match="The cloud has no points"):
+        finite(np.full((2, 3), np.nan))
 
 
 def test_points_that_are_there_twice_are_merged_into_the_first():
@@ -151,9 +161,10 @@ def test_one_of_them_is_taken_by_its_number():
 
 @pytest.mark.parametrize("height", [1.5, 0.4])
 def test_low_plants_beside_a_tree_are_left_out_and_that_is_said(height):
-    found = prepare(PointCloud(np.concatenate([TREE, tree(height, 2, (2.5, 1.0))])))
+    low = tree(height, 2, (2.5, 1.0))
+    found = prepare(PointCloud(np.concatenate([TREE, low])))
     assert found.cloud.height == pytest.approx(6.0, abs=0.3)
-    assert found.remarks == ("1 low plant beside the tree left out.",)
+    assert found.remarks[0] == f"{len(low):,} points are of low plants, or of what lies on the ground; they were left out."
 
 
 def test_a_branch_that_hangs_to_the_ground_is_of_the_tree():
