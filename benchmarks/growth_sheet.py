@@ -58,7 +58,7 @@ def photo(templates: Database, path: Path) -> None:
     """Photo and lines, matte, trunk, and the tree of it from the front and from the side."""
     shown = read_photo(PHOTO)
     scribbles = read_scribbles(MARKS, shown)
-    found = find_trunk(shown, scribbles, templates, key=root_key(0))
+    found = find_trunk(shown, scribbles, templates, key=root_key(0), reading=ReadingOptions(template="norway_maple"))
     bare, leafy = (grown_tree(of_picture(found, TreeOptions(season=season), templates, key=root_key(0))).model.meshes for season in ("bare", "summer"))
     marked, traced = Image.fromarray(shown.rgb), Image.fromarray(shown.rgb)
     for lines, ink in ((scribbles.foreground, (220, 30, 30)), (scribbles.background, (235, 190, 0))):
