@@ -1,6 +1,7 @@
 """A whole tree that grows toward points: it reaches them, as its species does, and beats plain space colonisation."""
 
 import dataclasses
+from functools import cache
 
 import numpy as np
 import pytest
@@ -16,12 +17,12 @@ from sketchtree.clouds.growing.hull_fill import crown_of, hull_fill, unseen_insi
 from sketchtree.clouds.growing.roots import roots_of
 from sketchtree.clouds.growing.settled import settled
 from sketchtree.clouds.growing.shedding import absorbed, buried
-from sketchtree.clouds.growing.species import names, read_species, species
+from sketchtree.clouds.growing.species import names, read_species, recipe_folder, species
 from sketchtree.clouds.growing.wanted import Growing, plain
 from sketchtree.clouds.tracing.traced import traced
 from sketchtree.errors import OptionError, SketchError, TemplateError
 from sketchtree.keys import root_key
-from sketchtree.skeleton import Kind
+from sketchtree.skeleton import Kind, TreeSkeleton
 
 KEY = root_key(0)
 
@@ -115,7 +116,7 @@ def test_several_roots_compete_and_each_grows_what_is_its_own(kind):
     both = np.concatenate([one, one + [2.5, 0.0, 0.0]])
     tree = grown(both, [feet(one)[0], feet(one)[0] + len(one)], kind, key=KEY).skeleton
     assert set(tree.tree) == {0, 1}
-    assert tree.tip[tree.tree == 0, 0].max() < 1.6 < 1.8 > 0.9
+    assert tree.tip[tree.tree == 0, 0].max() < 1.6
     assert tree.tip[tree.tree == 1, 0].min() > 0.9
 
 
@@ -189,7 +190,7 @@ def test_thin_wood_settles_among_its_points_and_the_root_stays():
 # the unseen inside
 
 
-def ball(count=3000, depth=0.05):
+def ball(count=1500, depth=0.05):
     rng = np.random.default_rng(0)
     way = rng.normal(size=(count, 3))
     return np.array([0.0, 3.0, 0.0]) + (1.0 - depth * rng.uniform(size=(count, 1))) * way / np.linalg.norm(way, axis=1, keepdims=True)
@@ -215,7 +216,9 @@ def test_points_that_enclose_nothing_are_refused():
     assert str(refused.value) == "The crown's points enclose no space. Give a cloud of a whole crown, or grow without filling its inside."
 
 
+@cache
 def lollipop():
+    """A bare stem with a ball of which only the outside was seen."""
     stem = bark(spacing=0.06)
     stem = stem[(stem[:, 1] < 1.9) & (np.abs(stem[:, 0]) < 0.3)]
     return np.concatenate([stem, ball()])
@@ -233,13 +236,13 @@ def inner(tree) -> float:
 
 
 def test_branches_fill_a_crown_of_which_only_leaves_were_seen(kind):
-    cloud = lollipop()
+    cloud, kind = lollipop(), dataclasses.replace(kind, internode=0.2)
     bare, full = (grown(cloud, feet(cloud), kind, key=KEY, wanted=Growing(fill=fill)).skeleton for fill in (False, None))
     assert inner(full) > 2 * inner(bare)
 
 
 def test_a_traced_tree_is_filled_too_and_keeps_its_own_rows(kind):
-    cloud = lollipop()
+    cloud, kind = lollipop(), dataclasses.replace(kind, internode=0.2)
     tree = traced(cloud, feet(cloud)).skeleton
     full = filled(tree, cloud, kind, key=KEY)
     assert np.array_equal(full.tip[: len(tree)], tree.tip)
@@ -280,8 +283,6 @@ def test_an_unknown_species_is_refused_by_name():
     ],
 )
 def test_a_recipe_at_fault_is_refused_by_key(tmp_path, change, message):
-    from sketchtree.clouds.growing.species import recipe_folder
-
     text = (recipe_folder() / "peach.toml").read_text(encoding="utf-8")
     (tmp_path / "mine.toml").write_text(text.replace(*change), encoding="utf-8")
     with pytest.raises(TemplateError) as refused:
@@ -302,8 +303,6 @@ def test_the_internode_follows_from_how_far_points_lie_apart(points):
 
 
 def test_angles_are_those_of_a_traced_tree():
-    from sketchtree.skeleton import TreeSkeleton
-
     parent, tip, limb = [NULL, *range(30)], [[0.0, 0.1 * k, 0.0] for k in range(31)], [0] * 31
     for k, node in enumerate(range(3, 28, 2)):
         turn, lean = np.radians(100.0 * k), np.radians(50.0)

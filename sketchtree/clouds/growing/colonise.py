@@ -15,7 +15,7 @@ from sketchtree.axes import NULL
 from sketchtree.clouds.growing.logistic import MOST, Influence
 from sketchtree.clouds.growing.markers import Markers
 from sketchtree.clouds.growing.metamer import Buds
-from sketchtree.clouds.growing.perception import Detour, perceived, taken
+from sketchtree.clouds.growing.perception import Detour, perceived, taken, workers
 from sketchtree.clouds.growing.rules import one_each, pairs, shoots
 from sketchtree.clouds.growing.shedding import buried
 from sketchtree.clouds.growing.species import Species
@@ -126,7 +126,7 @@ def _hopeful(buds: Buds, xyz, far: float) -> Buds:
     """Buds with a point within so many metres: all others wait in vain."""
     if not len(xyz):
         return buds.select(np.zeros(len(buds), bool))
-    distance, _ = cKDTree(xyz).query(buds.place, distance_upper_bound=max(far, _LOOKS * float(buds.thick.max(initial=0.0))), workers=-1)
+    distance, _ = cKDTree(xyz).query(buds.place, distance_upper_bound=max(far, _LOOKS * float(buds.thick.max(initial=0.0))), workers=workers(len(buds)))
     return buds.select(np.isfinite(distance))
 
 

@@ -1,6 +1,7 @@
 """The tree that grows toward points: every step in order.
 
-    points → box of 10 m → weights (Eq. 8) [→ points of the unseen inside] → seeds at the roots → cycles of growth (`colonise`) → thickness (Eq. 5) → collapse → Hermite → TreeSkeleton
+    points → box of 10 m → weights (Eq. 8) [→ points of the unseen inside] → seeds at the roots → cycles of growth (`colonise`)
+    → wood within thicker wood taken in → thickness (Eq. 5) → settled among the points → collapse → Hermite → TreeSkeleton
 
 Guo et al. 2018, §5. It is a likely tree of its species that reaches the points; `clouds.tracing` gives the tree that stands in them.
 """

@@ -21,6 +21,12 @@ from sketchtree.axes import NULL
 THETA = 90.0  # degrees
 KILL = 0.5  # d_k / d_i
 _NEAREST = 12  # buds that a point asks, nearest first
+_MANY = 10_000
+
+
+def workers(count: int) -> int:
+    """Threads that so many questions are worth: all processors, or one."""
+    return -1 if count > _MANY else 1
 
 
 @dataclass(frozen=True, eq=False)
@@ -50,10 +56,10 @@ def perceived(
     if not len(place) or not len(point):
         return holder
     tree, farthest = cKDTree(place), float(reach.max()) * (1.0 + 1e-12)
-    near = np.flatnonzero(np.isfinite(tree.query(point, distance_upper_bound=farthest, workers=-1)[0]))
+    near = np.flatnonzero(np.isfinite(tree.query(point, distance_upper_bound=farthest, workers=workers(len(point)))[0]))
     if not len(near):
         return holder
-    distance, bud = tree.query(point[near], k=min(_NEAREST, len(place)), distance_upper_bound=farthest, workers=-1)
+    distance, bud = tree.query(point[near], k=min(_NEAREST, len(place)), distance_upper_bound=farthest, workers=workers(len(near)))
     distance, bud = distance.reshape(len(near), -1), bud.reshape(len(near), -1)
     there = np.isfinite(distance)
     bud = np.where(there, bud, 0)
@@ -71,5 +77,5 @@ def taken(tree: cKDTree, node: Float[np.ndarray, "node 3"], kill: Float[np.ndarr
     """Rows of the tree's points that lie within the kill distance of some node; `kill`: of each."""
     if not len(node):
         return np.zeros(0, np.int64)
-    within = tree.query_ball_point(node, kill, workers=-1, return_sorted=False)
+    within = tree.query_ball_point(node, kill, workers=workers(len(node)), return_sorted=False)
     return np.unique(np.concatenate([np.asarray(rows, np.int64) for rows in within]))

@@ -9,6 +9,7 @@ from jaxtyping import Float, Int
 from scipy.spatial import cKDTree
 
 from sketchtree.axes import NULL
+from sketchtree.clouds.growing.perception import workers
 from sketchtree.traverse import child_count
 
 _ROUNDS = 3
@@ -28,7 +29,7 @@ def settled(
     best = _thickest(parent, radius)
     inner = np.flatnonzero((parent != NULL) & (count > 0))
     for _ in range(_ROUNDS):
-        distance, near = cKDTree(place).query(xyz, distance_upper_bound=reach, workers=-1)
+        distance, near = cKDTree(place).query(xyz, distance_upper_bound=reach, workers=workers(len(xyz)))
         held = np.isfinite(distance)
         near = near[held]
         number = np.bincount(near, minlength=len(parent))

@@ -11,6 +11,7 @@ from scipy.spatial import cKDTree
 
 from sketchtree.axes import NULL
 from sketchtree.clouds.growing.collapse import kept
+from sketchtree.clouds.growing.perception import workers
 from sketchtree.clouds.growing.thickness import radii
 from sketchtree.skeleton_rows import parents_first
 from sketchtree.traverse import generations
@@ -76,7 +77,7 @@ def _within(parent, place, radius, out: float, overlap: float = 0.0):
     thick = np.flatnonzero(out * radius > 0.5 * np.median(_steps(parent, place)))
     if not len(thick):
         return host
-    distance, near = cKDTree(place[thick]).query(place, k=min(_NEAREST, len(thick)), distance_upper_bound=out * float(radius.max()), workers=-1)
+    distance, near = cKDTree(place[thick]).query(place, k=min(_NEAREST, len(thick)), distance_upper_bound=out * float(radius.max()), workers=workers(len(place)))
     distance, near = distance.reshape(len(place), -1), near.reshape(len(place), -1)
     other = thick[np.minimum(near, len(thick) - 1)]
     own = radius[:, None]

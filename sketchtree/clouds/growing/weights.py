@@ -14,6 +14,8 @@ import numpy as np
 from jaxtyping import Float
 from scipy.spatial import cKDTree
 
+from sketchtree.clouds.growing.perception import workers
+
 EPS_D, EPS_A = 0.03, 0.9
 AROUND = 16  # points that an axis is found from
 _SPACINGS = 3.0  # ε_D is never less than so many times the median distance to the nearest point
@@ -22,7 +24,7 @@ _PAIRS = 20_000_000  # more would not fit into memory: ε_D gives way
 
 def axes(xyz: Float[np.ndarray, "point 3"], tree: cKDTree, around: int = AROUND) -> Float[np.ndarray, "point 3"]:
     """The unit direction in which points spread most round each."""
-    _, near = tree.query(xyz, k=min(around, len(xyz)), workers=-1)
+    _, near = tree.query(xyz, k=min(around, len(xyz)), workers=workers(len(xyz)))
     near = near.reshape(len(xyz), -1)
     away = xyz[near] - xyz[near].mean(axis=1, keepdims=True)
     return np.linalg.eigh(np.einsum("pki,pkj->pij", away, away))[1][:, :, 2]
