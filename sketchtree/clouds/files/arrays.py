@@ -57,7 +57,8 @@ def read_npz(file: BinaryIO, name: str) -> Source:
     return _source(*found, name, "NPZ")
 
 
-def _loaded(load, name: str) -> np.ndarray:
+def _loaded(load, name: str):
+    """What `load` gives. Raises SketchError, naming the file, where it is damaged."""
     try:
         return load()
     except _DAMAGED as error:

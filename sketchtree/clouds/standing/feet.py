@@ -24,9 +24,9 @@ _FEWEST = 6  # points of a ring, where the stem has as many
 class Feet:
     """Where a plant stands, its largest stem first."""
 
-    rows: list[Int[np.ndarray, " start"]]  # the lowest ring of each stem: what `tracing.traced` begins with
+    rows: list[Int[np.ndarray, "_"]]  # the lowest ring of each stem: what `tracing.traced` begins with
     place: Float[np.ndarray, "foot 3"]  # its middle, metres
-    stems: list[Int[np.ndarray, " low"]]  # the points of each stem, up to a bit above breast height
+    stems: list[Int[np.ndarray, "_"]]  # the points of each stem, up to a bit above breast height
 
 
 def feet(xyz: Float[np.ndarray, "point 3"], above: Float[np.ndarray, " point"] | None = None, *, count: int | Literal["auto"] = "auto") -> Feet:

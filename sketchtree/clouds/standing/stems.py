@@ -32,7 +32,7 @@ _TOGETHER, _APART = 1 / 7, 1.0  # of the height, metres
 class Stems:
     """Stems, the largest first; and which of them are of one plant."""
 
-    rows: list[Int[np.ndarray, " low"]]  # points of each, up to a bit above breast height
+    rows: list[Int[np.ndarray, "_"]]  # points of each, up to a bit above breast height
     place: Float[np.ndarray, "stem 2"]  # (x, z) where each stands, metres
     thick: Float[np.ndarray, " stem"]  # how far its points typically lie from its middle, metres
     plant: Int[np.ndarray, " stem"]  # numbered from the one with most points
