@@ -62,7 +62,7 @@ export const SHORTCUTS: Shortcut[] = [
   scribble("p", "vertices", "The contour's points"),
   scribble("r", "foot", "Where the trunk stands"),
   { keys: ["m"], shown: "M", does: "The matte: tint, black and white, none", group: "Trunk from scribbles", act: nextView },
-  { keys: ["PageDown"], shown: "Page ↓ ↑", does: "The next point, the last; Delete removes it", group: "Trunk from scribbles", act: (desk) => nextPoint(desk, 1) },
+  { keys: ["PageDown"], shown: "Page ↓ ↑", does: "The next point, the one before; Delete removes it", group: "Trunk from scribbles", act: (desk) => nextPoint(desk, 1) },
   { keys: ["PageUp"], shown: "", does: "", group: "Trunk from scribbles", act: (desk) => nextPoint(desk, -1) },
   { keys: ["Insert"], shown: "Insert", does: "A point half way to the next", group: "Trunk from scribbles", act: pointBetween },
   { keys: ["Mod+z"], shown: "Ctrl Z", does: "Undo", group: "Edit", act: ({ store }) => store.send({ type: "undo" }) },

@@ -11,6 +11,7 @@ import type { Desk, Eraser } from "./desk";
 
 const POINTS = "Click: remove or add a point · drag: merge";
 const POINTS_BY_HAND = "Tap: remove or add a point · drag: merge";
+const FIRST = "Scribble on the tree and beside it first";
 const FOOT = "Click where the trunk stands";
 const THINNEST = 1; // CSS pixels
 const THICKEST = 24;
@@ -29,12 +30,14 @@ export function mountOptions(desk: Desk): HTMLElement {
   });
   const hint = element("p", { class: "hint" }, "");
   const underlay = underlayOptions(desk);
+  const ofTrunk = (): string => (!store.known.found ? FIRST : store.ui.tool === "foot" ? FOOT : byHand() ? POINTS_BY_HAND : POINTS);
   const show = (): void => {
     const { tool, selectedStrokes } = store.ui;
     const sized = { width: pen, brush, paint }[brushOf(tool)];
     const draws = sized !== pen || tool === "branch" || tool === "crown" || tool === "obstacle";
-    const says = tool === "select" || tool === "vertices" || tool === "foot";
-    hint.textContent = tool === "vertices" ? (byHand() ? POINTS_BY_HAND : POINTS) : tool === "foot" ? FOOT : selectedStrokes.length > 1 ? "Drag moves them" : selectedStrokes.length === 1 ? "Drag reshapes · Alt moves" : "Click or encircle lines";
+    const selects = tool === "select";
+    const says = selects || tool === "vertices" || tool === "foot";
+    hint.textContent = says && !selects ? ofTrunk() : selectedStrokes.length > 1 ? "Drag moves them" : selectedStrokes.length === 1 ? "Drag reshapes · Alt moves" : "Click or encircle lines";
     const parts: HTMLElement[] = draws ? [sized] : tool === "erase" ? [eraser.root] : says ? [hint] : [];
     if (store.known.underlay && (tool === "select" || draws)) parts.splice(tool === "select" ? 0 : 1, 1, underlay); // it says more than the hint
     underlay.classList.toggle("brief", draws);
@@ -43,7 +46,7 @@ export function mountOptions(desk: Desk): HTMLElement {
     if (!sameParts(root, parts)) root.replaceChildren(...parts);
     if (tool !== "select" && desk.movesUnderlay) desk.movesUnderlay = false;
   };
-  store.on(["tool", "selectedStrokes", "underlay"], show);
+  store.on(["tool", "selectedStrokes", "underlay", "trunks"], show);
   show();
   return root;
 }

@@ -6,7 +6,7 @@ import { element } from "../../parts/element";
 
 export type PictureUse = "photo" | "underlay" | "drawing";
 
-const PHOTO = "It shows a tree: you outline the crown and mark a few branches, and the limbs in it are traced.";
+const PHOTO = "It shows a tree: outline the crown and mark a few branches; or, where it is bare, scribble on it and beside it.";
 const TRACE = "It lies faintly under the page, and you draw the branches yourself. For sketches and pictures of any kind.";
 const READ = "Dark lines on light paper become strokes. For line drawings, scans and pencil pages.";
 

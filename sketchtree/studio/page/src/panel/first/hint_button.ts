@@ -10,8 +10,8 @@ export function hintButton(store: Store, hint: Hint): HTMLButtonElement {
     onPress: () => { if (hint.root.hidden) hint.show(); else hint.root.hidden = true; },
   });
   made.classList.add("hint-again");
-  const follow = (): void => { made.hidden = store.known.strokes.size === 0; };
-  store.on("strokes", follow);
+  const follow = (): void => { made.hidden = store.known.strokes.size === 0 || (store.known.underlay?.photo ?? false); }; // of a photo a card says it
+  store.on(["strokes", "underlay"], follow);
   follow();
   return made;
 }
