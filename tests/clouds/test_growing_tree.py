@@ -94,6 +94,8 @@ def test_after_every_cycle_there_is_a_tree_and_it_grows(result):
     length = [result.at(cycle).length.sum() for cycle in (0, 5, 10, result.cycles)]
     assert length[0] == 0.0
     assert length[1] < length[2]
+    young, old = result.at(8), result.skeleton
+    assert young.radius[0] < 0.9 * old.radius[0]
     assert result.at(result.cycles + 99).length.sum() == pytest.approx(result.skeleton.length.sum())
 
 

@@ -1,6 +1,6 @@
 """What else grows inside a crown that was seen from outside only?
 
-Guo et al. 2018, §6.1 and Figure 8, for a tree that stands already, however it was found: buds all along its thinner wood grow towards points of the unseen inside (`hull_fill`).
+Guo et al. 2018, §6.1 and Figure 8, for a tree that stands already, however it was found: buds all along its wood grow towards points of the unseen inside (`hull_fill`).
 What they grow is thick by Eq. 5, with d_root / l_root^γ as the standing wood has it, and no thicker than what bears it.
 """
 
@@ -28,8 +28,6 @@ from sketchtree.skeleton_rows import limbs
 from sketchtree.traverse import generations, sum_from_root, sum_to_root
 from sketchtree.watch import Pulse, no_pulse
 
-_THIN = 0.35  # of the stem at its foot: thicker wood has no buds
-
 
 def filled(
     tree: TreeSkeleton, xyz: Float[np.ndarray, "point 3"], species: Species, *, key: Key[Array, ""], wanted: Growing = Growing(), pulse: Pulse = no_pulse  # noqa: B008 (frozen)
@@ -50,12 +48,12 @@ def filled(
 
 
 def _buds(tree: TreeSkeleton, place, species: Species, word: np.uint64) -> Buds:
-    """A lateral bud at every node of thinner wood."""
+    """A lateral bud at every node."""
     base = np.arange(len(tree))
     for rows in generations(tree.parent)[1:]:
         base[rows] = base[tree.parent[rows]]
     length = sum_from_root(tree.parent, np.linalg.norm(place - np.where(tree.is_base[:, None], place, place[tree.parent]), axis=1))
-    rows = np.flatnonzero(~tree.is_base & (tree.radius < _THIN * tree.radius[base]))
+    rows = np.flatnonzero(~tree.is_base)
     heading = unit(tree.vector[rows])
     heading[np.linalg.norm(heading, axis=1) < 0.5] = [0.0, 1.0, 0.0]
     side = rolled(carried(np.tile([1.0, 0.0, 0.0], (len(rows), 1)), heading), heading, 2.0 * np.pi * keys.uniform(word, rows, 9))

@@ -61,11 +61,15 @@ class Grown:
     @cached_property
     def skeleton(self) -> TreeSkeleton:
         """The tree, in metres of the cloud; kind GROWN."""
-        return finished(self.wood, self.wood.standing(), self)
+        return finished(self.wood, self.wood.standing(), self.roots.radius, self)
 
     def at(self, cycle: int) -> TreeSkeleton:
-        """The tree after some cycles of growth, as the paper's Figure 12 shows it; what was shed later still stands."""
-        return finished(self.wood, self.wood.standing(cycle), self)
+        """The tree after some cycles of growth, as the paper's Figure 12 shows it; what was shed later still stands.
+
+        Its stems are as thick as Eq. 5 makes wood that bears so much: d_t = d_root (l_t / l)^γ."""
+        rows, step = self.wood.standing(cycle), self.wood.step()
+        share = min(step[rows].sum() / max(step[self.wood.standing()].sum(), 1e-12), 1.0)
+        return finished(self.wood, rows, self.roots.radius * share**self.species.gamma, self)
 
 
 def grown(
@@ -101,15 +105,15 @@ def _markers(inside, species: Species, wanted: Growing, key) -> Markers:
     return Markers(np.concatenate([cloud.xyz, more]), np.r_[cloud.weight, np.ones(len(more))])
 
 
-def finished(wood: Wood, rows: Int[np.ndarray, " row"], grows: "Grown") -> TreeSkeleton:
-    """Some of the wood as a skeleton in the cloud's metres: thick by Eq. 5, settled among the points, collapsed, smoothed."""
+def finished(wood: Wood, rows: Int[np.ndarray, " row"], root: Float[np.ndarray, " root"], grows: Grown) -> TreeSkeleton:
+    """Some of the wood as a skeleton in the cloud's metres: thick by Eq. 5, settled among the points, collapsed, smoothed. `root`: radius at the roots, which come first."""
     number = np.append(np.full(len(wood), NULL), NULL)
     number[rows] = np.arange(len(rows))
     parent, place, gamma = number[wood.parent[rows]], wood.place[rows], grows.species.gamma
     if grows.wanted.sheds:
-        parent, place = absorbed(parent, place, grows.roots.radius, gamma)
+        parent, place = absorbed(parent, place, root, gamma)
     step = np.where(parent == NULL, 0.0, np.linalg.norm(place - place[parent], axis=1))
-    radius = radii(parent, step, _at_bases(grows.roots, len(parent)), gamma)
+    radius = radii(parent, step, np.append(root, np.ones(len(parent) - len(root))), gamma)
     if grows.wanted.settles:
         place = settled(parent, place, radius, grows.xyz, _SETTLES * grows.species.internode)
     stays, parent = collapsed(parent, place, radius)
@@ -118,8 +122,3 @@ def finished(wood: Wood, rows: Int[np.ndarray, " row"], grows: "Grown") -> TreeS
     limb, order = limbs(parent, place, radius)
     kind = np.full(len(parent), int(Kind.GROWN))
     return TreeSkeleton.from_columns(parent, grows.box.to_world(place), radius * grows.box.scale, limb=limb, order=order, tree=tree_of(parent), kind=kind)
-
-
-def _at_bases(roots: Roots, size: int):
-    """Radii at the roots, which come first."""
-    return np.append(roots.radius, np.ones(size - len(roots.radius)))
