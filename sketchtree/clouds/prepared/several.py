@@ -10,17 +10,15 @@ from dataclasses import dataclass
 
 import numpy as np
 from jaxtyping import Float, Int
-from scipy.sparse import csr_matrix
-from scipy.sparse.csgraph import dijkstra
 from scipy.spatial import cKDTree
 
 from sketchtree.axes import NULL
+from sketchtree.clouds.standing.reached import reached
 from sketchtree.clouds.standing.stems import Stems, stems
 from sketchtree.clouds.voxels import voxel_rows, voxel_size
 from sketchtree.errors import OptionError, SketchError
 
 _LOOKED_AT = 60_000  # points that ways are sought through
-_NEIGHBOURS = 8
 _SAID = 9  # trees that an error names
 _TOUCHES = 2.0  # times as far as its own points' sixth neighbours
 _SLENDER = 0.15  # of the largest tree's thickness for its height: what is thinner may be a branch that hangs to the ground
@@ -97,18 +95,6 @@ def _whose(xyz, found: Stems, number: int):
     starts = [some[voxel_rows(xyz[some], voxel_size(xyz[some], 4000))] if len(some) > 4000 else some for some in starts]
     rows = np.concatenate([*starts, rest])
     ends = np.cumsum([len(some) for some in starts])
-    reached = _reached(xyz[rows], [np.arange(end - len(some), end) for end, some in zip(ends, starts, strict=True)])
-    known = np.flatnonzero(reached != NULL)
-    return reached[known][cKDTree(xyz[rows[known]]).query(xyz)[1]]
-
-
-def _reached(xyz, starts: list):
-    """From which starts each point is reached over steps between neighbours, of least Σ d²; NULL where it isn't."""
-    count, k = len(xyz), min(_NEIGHBOURS + 1, len(xyz))
-    distance, near = cKDTree(xyz).query(xyz, k=k)
-    one = np.concatenate([np.repeat(np.arange(count), k - 1), *(np.full(len(some), count + number) for number, some in enumerate(starts))])
-    other = np.concatenate([near[:, 1:].ravel(), *starts])
-    cost = np.concatenate([distance[:, 1:].ravel() ** 2 + 1e-18, np.full(sum(map(len, starts)), 1e-18)])
-    there = csr_matrix((cost, (one, other)), shape=(count + len(starts),) * 2)
-    source = dijkstra(there.maximum(there.T), directed=False, indices=np.arange(count, count + len(starts)), return_predecessors=True, min_only=True)[2]
-    return np.where(source[:count] >= count, source[:count] - count, NULL)
+    from_feet = reached(xyz[rows], [np.arange(end - len(some), end) for end, some in zip(ends, starts, strict=True)])
+    known = np.flatnonzero(from_feet != NULL)
+    return from_feet[known][cKDTree(xyz[rows[known]]).query(xyz)[1]]

@@ -1,6 +1,6 @@
 """On which points does the plant stand? One set of start points for each root.
 
-`auto` takes the stems that come out of the ground (`stems`): one for a tree, several for a shrub. A number asks for so many roots: the stems with most points and, where there are
+`auto` takes the stems that come out of the ground (`stems`, `parted`): one for a tree, several for a shrub. A number asks for so many roots: the stems with most points and, where there are
 fewer, clusters of projected density (`density`; Guo et al. 2018, §5.3) in what is low. A start set is the lowest ring of its stem.
 """
 
@@ -11,6 +11,7 @@ import numpy as np
 from jaxtyping import Float, Int
 
 from sketchtree.clouds.standing.density import density, roots
+from sketchtree.clouds.standing.parted import parted
 from sketchtree.clouds.standing.stems import breast_height, stems
 from sketchtree.errors import OptionError
 
@@ -35,7 +36,7 @@ def feet(xyz: Float[np.ndarray, "point 3"], above: Float[np.ndarray, " point"] |
         raise OptionError(f"`roots` is {count}; the cloud has {len(xyz):,} points.", remedy=f"Say auto, or 1 to {MOST}.")
     above = xyz[:, 1] - xyz[:, 1].min() if above is None else above
     found = stems(xyz, above)
-    groups = [found.rows[k] for k in np.flatnonzero(found.plant == 0)]
+    groups = parted(xyz, above, [found.rows[k] for k in np.flatnonzero(found.plant == 0)])
     groups = [rows for rows in groups if len(rows) >= _SHARE * len(groups[0])]
     if count != "auto":
         groups = groups[:count] if len(groups) >= count else _by_density(xyz, above, count, groups)

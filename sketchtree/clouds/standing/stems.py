@@ -18,7 +18,7 @@ from scipy.spatial import cKDTree
 from sketchtree.clouds.voxels import voxel_rows
 
 _BREAST, _PART = 1.3, 0.12  # metres, of the height: whichever is less
-_OVER = 1.25  # the slab ends so many breast heights up
+OVER = 1.25  # the slab ends so many breast heights up
 _LOW, _HIGH = 0.35, 0.85  # a stem begins below, and reaches above, these parts of the slab
 _LINK, _SPACINGS = 0.012, 4.0  # points are close within so much of the height, and within so many spacings
 _SHARE = 0.03  # of the largest stem's points
@@ -47,9 +47,9 @@ def breast_height(height: float) -> float:
 def stems(xyz: Float[np.ndarray, "point 3"], above: Float[np.ndarray, " point"]) -> Stems:
     """The stems among points so high above the ground. There is always one: where nothing reaches breast height, the piece that has most points."""
     height = float(np.percentile(above, 99.9))
-    top = _OVER * breast_height(height)
+    top = OVER * breast_height(height)
     slab = np.flatnonzero(above <= max(top, float(np.partition(above, min(3, len(above) - 1))[min(3, len(above) - 1)])))
-    piece = _pieces(xyz[slab], _LINK * height)
+    piece = pieces(xyz[slab], _LINK * height, _SPACINGS)
     number = piece.max() + 1
     count = np.bincount(piece, minlength=number)
     low, high = np.full(number, np.inf), np.full(number, -np.inf)
@@ -69,11 +69,11 @@ def stems(xyz: Float[np.ndarray, "point 3"], above: Float[np.ndarray, " point"])
     return Stems(rows, place, thick, _plants(place, count[chosen], min(_TOGETHER * height, _APART)), weeds[beside])
 
 
-def _pieces(xyz, link: float):
-    """The pieces that hang together, 0, 1, ...; of many points in a small place one stands for the rest."""
+def pieces(xyz: Float[np.ndarray, "point 3"], link: float, spacings: float) -> Int[np.ndarray, " point"]:
+    """The pieces that hang together over steps of `link` metres, or of so many spacings where that is more: 0, 1, ...; of many points in a small place one stands for the rest."""
     tree = cKDTree(xyz)
     some = xyz[:: max(1, len(xyz) // _LOOKED_AT)]
-    link = max(link, _SPACINGS * float(np.median(tree.query(some, k=min(7, len(xyz)))[0].reshape(len(some), -1)[:, -1])), 1e-9)
+    link = max(link, spacings * float(np.median(tree.query(some, k=min(7, len(xyz)))[0].reshape(len(some), -1)[:, -1])), 1e-9)
     rows = voxel_rows(xyz, link / 4)
     few = cKDTree(xyz[rows])
     pairs = few.query_pairs(link, output_type="ndarray")

@@ -31,6 +31,16 @@ def test_a_shrub_has_a_foot_for_each_stem():
     np.testing.assert_allclose(sorted(found.place[:, 0]), [0.0, 0.25, 0.5], atol=0.05)
 
 
+def test_stems_that_cross_below_breast_height_have_feet_of_their_own():
+    crossing = np.concatenate([stem(0.03, 0.8, noise=0.0005, count=1500, lean=0.25), stem(0.03, 0.8, noise=0.0005, count=1500, lean=-0.25, seed=1) + [0.2, 0, 0], crown(low=0.7, high=4.0)])
+    np.testing.assert_allclose(sorted(feet(crossing).place[:, 0]), [0.0, 0.2], atol=0.03)
+
+
+def test_a_trunk_scanned_from_two_sides_has_one_foot():
+    front, back = stem(0.5, 3.0, seen=0.35, noise=0.003, count=4000), stem(0.5, 3.0, seen=0.35, noise=0.003, count=4000, seed=1)
+    assert len(feet(np.concatenate([front, back * [-1, 1, 1], crown(low=2.5, high=12.0, count=9000)])).rows) == 1
+
+
 def test_so_many_roots_as_are_asked_for_the_largest_first():
     assert len(feet(SHRUB, count=2).rows) == 2
     assert len(feet(SHRUB, count=1).rows) == 1
