@@ -10,7 +10,7 @@ its largest tributary until hardly anything is left. What lies within a limb's t
 
     in a veil    r ≤ `SPARE` R (flow / flow at the ground)^(1/2)        R of the stem; the pipe model        a veil: small holes are `HOLES` of it and more
 
-A clean silhouette stays as it is, but for what is smaller than a twig.
+Where hardly anything shows through there is no veil: a clean silhouette stays as it is.
 """
 
 from dataclasses import dataclass
@@ -26,12 +26,14 @@ LEAST = 0.08  # pixels² a pixel of the trunk's height
 ENDS = 0.125  # of that, until which a limb goes on
 VEILED = 3.0
 HOLES = 0.05
+CLEAN = 0.001  # of a piece: so few small holes are no veil
 SPARE = 1.0
 PIPES = 2.0
 STEM = 0.8  # of the flow at the ground: where so much runs through is the stem
 _NEAR = 6.0  # pixels, σ of what is near by
 _LOOSE, _AROUND = 1.15, 1.0  # of a limb's thickness, and pixels: what stays round its way
 _HANGS = 1.5  # pixels: thinner limbs in a veil are made two pixels wide, so that their axis hangs together
+_THIN = 0.2  # of a veil, from which on limbs may hang by less than a pixel
 _FAINTEST = 0.05  # alpha, in the cost of a way
 
 
@@ -46,6 +48,8 @@ class Drainage:
 
 def drained(alpha: Float[np.ndarray, "row column"], piece: Bool[np.ndarray, "row column"], filled: Bool[np.ndarray, "row column"], start: tuple[int, int] | None = None) -> Bool[np.ndarray, "row column"]:
     """The limbs of a piece. `filled`: the piece without its small holes; `start`: row and column where it stands (None: the middle of its foot)."""
+    if np.count_nonzero(filled & ~piece) <= CLEAN * np.count_nonzero(piece):
+        return filled
     room = ndimage.distance_transform_edt(filled)
     start = _foot(piece, room) if start is None else start
     water = drainage(alpha, piece, room, start)
@@ -57,7 +61,7 @@ def drained(alpha: Float[np.ndarray, "row column"], piece: Bool[np.ndarray, "row
     stem = float(np.median(room[ways & (water.flow >= STEM * whole)]))
     thin = np.minimum(room, SPARE * stem * (water.flow / max(whole, 1e-9)) ** (1.0 / PIPES))
     kept = filled & around(ways, (1.0 - veil) * (_LOOSE * room + _AROUND) + veil * thin)
-    return kept | ndimage.binary_dilation(ways & (room < _HANGS) & (veil > 0.0), structure=np.ones((2, 2)))
+    return kept | ndimage.binary_dilation(ways & (room < _HANGS) & (veil > _THIN), structure=np.ones((2, 2)))
 
 
 def drainage(alpha, piece, room, start: tuple[int, int]) -> Drainage:
@@ -83,29 +87,23 @@ def _ways(water: Drainage, least: Float[np.ndarray, "row column"]) -> Bool[np.nd
     """The ways of limbs: where enough runs through, and on from there by the largest tributaries."""
     flow, enough = water.flow.ravel(), least.ravel()
     kept = flow >= enough
-    largest: dict[int, int] = {}
-    for here, there in zip(water.order.tolist(), water.onward.tolist(), strict=True):
-        if there >= 0 and (there not in largest or flow[here] > flow[largest[there]]):
-            largest[there] = here
-    for end in [int(here) for here in np.flatnonzero(kept) if here in largest and not kept[largest[here]]]:
+    largest = np.full(flow.size, -1)
+    rising = water.order[np.argsort(flow[water.order], kind="stable")]
+    onward = np.full(flow.size, -1)
+    onward[water.order] = water.onward
+    largest[onward[rising[:-1]]] = rising[:-1]  # of several tributaries the last, which is the largest, stays; the ground, the largest of all, runs nowhere
+    for end in np.flatnonzero(kept & (largest >= 0) & ~kept[largest]).tolist():
         at = end
-        while at in largest and flow[largest[at]] >= ENDS * enough[end]:
-            at = largest[at]
+        while largest[at] >= 0 and flow[largest[at]] >= ENDS * enough[end]:
+            at = int(largest[at])
             kept[at] = True
     return kept.reshape(water.flow.shape)
 
 
 def around(ways: Bool[np.ndarray, "row column"], radius: Float[np.ndarray, "row column"]) -> Bool[np.ndarray, "row column"]:
-    """The pixels within a circle of some pixel of the ways."""
-    found = np.zeros(ways.shape, bool)
-    size = np.ceil(2.0 * np.where(ways, radius, 0.0)).astype(int)
-    for twice in np.unique(size[ways]):
-        place = np.argwhere(size == twice)
-        low, high = place.min(axis=0), place.max(axis=0) + 1
-        reach = twice // 2 + 1
-        window = tuple(slice(max(a - reach, 0), b + reach) for a, b in zip(low, high, strict=True))
-        found[window] |= ndimage.distance_transform_edt(size[window] != twice) <= twice / 2.0
-    return found
+    """The pixels within the circle of the nearest pixel of the ways."""
+    away, (row, column) = ndimage.distance_transform_edt(~ways, return_indices=True)
+    return away <= np.ceil(2.0 * radius[row, column]) / 2.0
 
 
 def _foot(piece, room) -> tuple[int, int]:

@@ -25,10 +25,13 @@ def test_all_opacity_of_a_piece_runs_to_the_ground():
     assert set(water.order[water.onward == -1]) == {115 * piece.shape[1] + 50}
 
 
-def test_a_clean_silhouette_stays_as_it_is():
+def test_a_clean_silhouette_stays_as_it_is_and_a_few_holes_change_hardly_a_pixel():
     piece = forked() >= 0.5
-    left = drained(forked(), piece, piece)
-    assert not (left & ~piece).any() and (piece & ~left).sum() <= 0.01 * piece.sum()
+    assert np.array_equal(drained(forked(), piece, piece), piece)
+    holed = piece.copy()
+    holed[[110, 95, 40], 50] = False
+    left = drained(forked(), holed, piece)
+    assert not (left & ~piece).any() and (piece & ~left).sum() <= 0.02 * piece.sum()
 
 
 @pytest.mark.parametrize("seed", range(3))
