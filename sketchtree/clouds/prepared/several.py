@@ -1,8 +1,10 @@
 """How many trees stand in the cloud, and which points are whose?
 
 Stems that come out of the ground (`standing.stems`) are grouped into plants. Every point belongs to the plant from whose feet it is reached most easily, along wood rather than
-through the air (many short steps cost less than a long one), so crowns that touch are parted where they do. Trees are numbered from the one with most points. A plant that is much lower than the highest, or has
-few points beside the largest, is undergrowth, and so is what doesn't reach breast height: it is left out, and that is said; unless it goes on into a tree, as a branch does that hangs to the ground.
+through the air (`standing.reached`), so crowns that touch are parted where they do. Trees are numbered from the one with most points.
+
+A plant that is much lower than the highest, or has few points beside the largest, is undergrowth, and so is what doesn't reach breast height: it is left out, and that is said;
+unless it goes on into a tree, as a branch does that hangs to the ground. A stem that is much too thin for its height may be such a branch too.
 """
 
 from collections.abc import Sequence
@@ -75,7 +77,10 @@ def _borne_by(xyz, low, above, tree, height: float) -> int:
 
 
 def one_tree(found: Plants, tree: int | None, places: Sequence[str]) -> Int[np.ndarray, " kept"]:
-    """Rows of the one tree, or of the tree of that number (from 1). `places`: where each stands, in words. Raises SketchError where there are several and none was chosen, OptionError for a number that none has."""
+    """Rows of the one tree, or of the tree of that number (from 1). `places`: where each stands, in words.
+
+    Raises SketchError where there are several and none was chosen, OptionError for a number that none has.
+    """
     if tree is None and len(found) > 1:
         said = "; ".join(f"{k}: {height:.1f} m high, at {place}" for k, (height, place) in enumerate(zip(found.height[:_SAID], places, strict=False), 1))
         raise SketchError(f"{len(found)} trees stand in the cloud ({said}{'; ...' if len(found) > _SAID else ''}).", remedy="Say which with `--tree K`, or cut it out of the cloud.")

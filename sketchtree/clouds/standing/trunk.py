@@ -36,8 +36,7 @@ class Trunk:
 
 def trunk(stem: Float[np.ndarray, "low 3"], breast_height: float) -> Trunk | None:
     """The trunk that a stem's points, up to a bit above breast height, lie round. None where they are too few, or lie round nothing."""
-    base, axis, found = _begun(stem)
-    slices = None
+    base, axis = _begun(stem)
     for _ in range(_ROUNDS):
         slices = _slices(stem, base, axis)
         if slices is None:
@@ -68,7 +67,7 @@ def _begun(stem):
     low, high = np.median(stem[stem[:, 1] <= level], axis=0), np.median(stem[stem[:, 1] >= level], axis=0)
     axis = high - low if high[1] - low[1] > 1e-6 else np.array([0.0, 1.0, 0.0])
     axis = axis / np.linalg.norm(axis)
-    return low + (stem[:, 1].min() - low[1]) / max(axis[1], 0.2) * axis, axis, None
+    return low + (stem[:, 1].min() - low[1]) / max(axis[1], 0.2) * axis, axis
 
 
 def _slices(stem, base, axis):
