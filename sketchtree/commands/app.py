@@ -19,6 +19,7 @@ COMMANDS = {
     "studio": "Draw in the browser: the tree follows the pen.",
     "photo": "One photo and a few strokes in, a complete textured 3D tree out.",
     "grow": "A picture with scribbles, a drawing, or any tree in, a tree that grows out.",
+    "cloud": "A point cloud in, the tree that stands in it out.",
     "forest": "Several sketches in, a forest out: the trees compete for space and light.",
     "batch": "Many drawings in, a tree and a report of each out.",
     "infer": "Only the drawn branches, in 3D.",

@@ -71,6 +71,11 @@ def dress(command):
     return _apply((*chosen, *_BESIDE), command)
 
 
+def wear(command):
+    """What a tree wears, how it is pruned and what is written beside it, of commands all of whose wood was seen."""
+    return _apply((*(option for option in _TREE if _named(option, "prune", "leaf", "season", "bark", "wood", "solid")), *_BESIDE), command)
+
+
 def leaves(command):
     """--leaves merged|instanced, of commands whose files hold one level of detail."""
     return _LEAVES(command)

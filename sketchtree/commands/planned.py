@@ -5,8 +5,7 @@ import click
 from sketchtree.errors import OptionError
 
 COMMANDS = {
-    "views": "Many photos, or a point cloud",
-    "cloud": "Many photos, or a point cloud",
+    "views": "Many photos",
 }
 """Command → the section of docs/roadmap.md that describes it."""
 

@@ -10,7 +10,7 @@ from sketchtree.clouds.tracing.circles import circles
 from sketchtree.clouds.tracing.joined import joined
 from sketchtree.clouds.tracing.layers import layers
 from sketchtree.clouds.tracing.limbs import bumps, limbs_of
-from sketchtree.clouds.tracing.smoothed import led_back, smoothed
+from sketchtree.clouds.tracing.smoothed import led_back, smoothed, straightened
 from sketchtree.clouds.tracing.thickness import Measured, measured
 from sketchtree.clouds.tracing.traced import traced
 from sketchtree.clouds.tracing.ways import ways
@@ -191,6 +191,15 @@ def test_smoothing_keeps_feet_and_tips():
     found = smoothed(parent, centre, np.zeros(5, int), np.zeros(5, bool))
     assert (found[[0, 4]] == centre[[0, 4]]).all()
     assert np.abs(found[1:4, 0]).max() < 0.1
+
+
+def test_thick_wood_is_straight_and_twigs_are_as_crooked_as_they_are():
+    zigzag = np.stack([0.1 * (-1.0) ** np.arange(12), 0.2 * np.arange(12), np.zeros(12)], axis=1)
+    parent, limb = np.array([NULL, *range(11)]), np.zeros(12, int)
+    thick = straightened(parent, zigzag, limb, np.full(12, 0.5))
+    thin = straightened(parent, zigzag, limb, np.full(12, 0.001))
+    assert np.abs(thick[3:-3, 0]).max() < 0.03
+    assert np.abs(thin - zigzag).max() < 0.01
 
 
 def test_a_branch_leaves_where_its_own_course_leads_back_to():

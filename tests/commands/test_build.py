@@ -160,7 +160,7 @@ def test_the_sketch_itself_is_never_overwritten(tmp_path, capfd):
     assert "would overwrite the sketch itself" in capfd.readouterr().err
 
 
-@pytest.mark.parametrize("command", ["views", "cloud"])
+@pytest.mark.parametrize("command", ["views"])
 def test_a_planned_command_says_where_it_is_described(command, capfd):
     assert run([command, "anything", "--at", "all"]) == 2
     assert "docs/roadmap.md" in capfd.readouterr().err

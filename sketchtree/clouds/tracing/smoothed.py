@@ -12,7 +12,8 @@ from jaxtyping import Bool, Float, Int
 from sketchtree.axes import NULL
 from sketchtree.traverse import limb_chains
 
-_PASSES = 3
+_PASSES, _STIFF = 3, 8
+_SLIM = 0.4  # radii over steps: thinner wood is left as it is
 _LOST, _KNOWN = 0.3, 0.25  # how far a centre goes to the middle of its neighbours in each pass
 _COURSE = 4  # nodes that a limb's first course is told by
 _BACK = 6  # nodes that it may be led back
@@ -22,14 +23,26 @@ def smoothed(
     parent: Int[np.ndarray, " node"], centre: Float[np.ndarray, "node 3"], limb: Int[np.ndarray, " node"], known: Bool[np.ndarray, " node"]
 ) -> Float[np.ndarray, "node 3"]:
     """Centres, metres; `known`: those that lie on an axis that was seen."""
+    return _drawn(parent, centre, limb, np.where(known, _KNOWN, _LOST), _PASSES)
+
+
+def straightened(
+    parent: Int[np.ndarray, " node"], centre: Float[np.ndarray, "node 3"], limb: Int[np.ndarray, " node"], radius: Float[np.ndarray, " node"]
+) -> Float[np.ndarray, "node 3"]:
+    """Centres, metres, of wood whose thickness is known: thick wood doesn't turn within a few of its radii, twigs stay as they are."""
+    step = np.where(parent == NULL, np.inf, np.linalg.norm(centre - centre[parent], axis=1))
+    return _drawn(parent, centre, limb, 0.5 * np.clip((radius / np.maximum(step, 1e-12) - _SLIM) / (1.0 - _SLIM), 0.0, 1.0), _STIFF)
+
+
+def _drawn(parent, centre, limb, share, passes: int):
+    """Each to the middle of its neighbours by such a share, so many times."""
     centre = centre.copy()
-    share = np.where(known, _KNOWN, _LOST)
     for rows in limb_chains(parent, limb):
         whole = np.r_[parent[rows[0]], rows] if parent[rows[0]] != NULL else rows
         if len(whole) < 3:
             continue
         inner = whole[1:-1]
-        for _ in range(_PASSES):
+        for _ in range(passes):
             middle = (centre[whole[:-2]] + centre[whole[2:]]) / 2
             centre[inner] += share[inner, None] * (middle - centre[inner])
     return centre

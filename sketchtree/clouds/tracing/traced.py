@@ -15,7 +15,7 @@ from sketchtree.clouds.tracing.allometry import radii
 from sketchtree.clouds.tracing.joined import Joined, joined
 from sketchtree.clouds.tracing.layers import layers
 from sketchtree.clouds.tracing.limbs import bumps, limbs_of, steps
-from sketchtree.clouds.tracing.smoothed import led_back, smoothed
+from sketchtree.clouds.tracing.smoothed import led_back, smoothed, straightened
 from sketchtree.clouds.tracing.thickness import measured
 from sketchtree.clouds.tracing.ways import Ways, ways
 from sketchtree.skeleton import Kind, TreeSkeleton
@@ -23,7 +23,7 @@ from sketchtree.skeleton_rows import limbs, parents_first, tree_of
 from sketchtree.traverse import generations, is_tip
 
 _LAYER = 0.006  # of the height
-_WIDE, _FINE, _THICK = 2.0, 0.4, 1.2  # a first layer is at least so many spacings wide; a second so many of the spacing there, and so many radii
+_WIDE, _FINE, _THICK = 2.0, 0.35, 1.2  # a first layer is at least so many spacings wide; a second so many of the spacing there, and so many radii
 _STRAIGHT = 1.2  # power of steps for the first layers, which find out how thick the wood is
 THINNEST = 0.00015  # of the height: the radius of a twig
 
@@ -81,7 +81,7 @@ def _wood(xyz, graph: Joined, way: Ways, width, thinnest: float, foot: float | N
     tips = is_tip(parent)
     centre[tips] = end[tips]  # a layer's middle would leave half of it out
     radius, gamma = radii(parent, steps(parent, centre), limb, seen, width, thinnest, foot)
-    return _Wood(parent, centre, radius, limb, of_point, gamma)
+    return _Wood(parent, straightened(parent, centre, limb, radius), radius, limb, of_point, gamma)
 
 
 def _skeleton(wood: _Wood) -> TreeSkeleton:

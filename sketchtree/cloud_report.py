@@ -1,0 +1,46 @@
+"""What was done to make a tree of a point cloud: the report of every tree, with a block `cloud`. What only a drawing has is empty or null."""
+
+import numpy as np
+
+from sketchtree.cloud_tree import CloudTree
+from sketchtree.reading_report import frame, plain
+
+
+def cloud_report(tree: CloudTree, *, command: str, seed: int, seconds: dict[str, float], options: dict, warnings: tuple[str, ...] = ()) -> dict:
+    """The report of one run, by `report.schema.json`."""
+    run = frame(command, seed, seconds, options, (*tree.warnings, *warnings))
+    return plain(run | _found(tree) | {"cloud": _cloud(tree)})
+
+
+def _found(tree: CloudTree) -> dict:
+    skeleton, model = tree.skeleton, tree.model
+    leaf = sum(mesh.triangle_count for mesh in model.meshes if mesh.name.startswith("leaf"))
+    placed = tree.prepared.placement.similarity
+    stems, trees = int(skeleton.is_base.sum()), len(np.unique(skeleton.tree))
+    return {
+        "attachments": [],
+        "roles": [],
+        "cuts": [],
+        "segments": {"drawn": tree.seen - stems, "total": skeleton.segment_count, "limbs": len(np.unique(skeleton.limb)), "roots": 0, "stems": stems, "trees": trees},
+        "template_used": model.template,
+        "height": skeleton.height,
+        "leaves": len(model.leaves),
+        "triangles": {"wood": sum(mesh.triangle_count for mesh in model.meshes) - leaf, "leaf": leaf},
+        "wood_used": model.wood_used,
+        "transform": {"scale": placed.scale, "translate": list(placed.translate)},
+    }
+
+
+def _cloud(tree: CloudTree) -> dict:
+    prepared, feet = tree.prepared, tree.feet
+    trunks = [{"root": one.root, "breast": one.breast, "error": one.error, "seen": one.seen} if one is not None else None for one in tree.trunks]
+    return {
+        "points": len(prepared.cloud),
+        "up": prepared.placement.up,
+        "up_sure": prepared.up_sure,
+        "ground": prepared.ground,
+        "trees": prepared.trees,
+        "pieces": tree.pieces,
+        "feet": [{"place": place.tolist(), "diameter": thick} for place, thick in zip(feet.place, trunks, strict=True)],
+        "species": {"name": tree.species.name, "internode": tree.species.internode, "roll": tree.species.roll, "branching": tree.species.branching, "gamma": tree.species.gamma},
+    }

@@ -1,0 +1,166 @@
+"""A point cloud in, the tree that stands in it out: every stage in order.
+
+    file → points in metres → upright, one tree, clean → feet, trunk's thickness → traced | grown → what nobody saw → collapsed, smoothed → leaves, meshes
+
+*traced* (the default, ours): the wood runs where the points are. *grown* (Guo et al. 2018, §5): a tree of a species grows toward the points.
+"""
+
+from dataclasses import dataclass
+from pathlib import Path
+
+import numpy as np
+from jaxtyping import Array, Key
+
+from sketchtree.clouds.cloud import PointCloud
+from sketchtree.clouds.files.placed import Placed
+from sketchtree.clouds.files.read_cloud import read_placed
+from sketchtree.clouds.growing.collapse import collapsed, kept
+from sketchtree.clouds.growing.estimated import estimated
+from sketchtree.clouds.growing.filled import filled
+from sketchtree.clouds.growing.grown import grown
+from sketchtree.clouds.growing.hull_fill import unseen_inside
+from sketchtree.clouds.growing.species import Species, species
+from sketchtree.clouds.growing.wanted import Growing
+from sketchtree.clouds.prepared.prepare import POINTS, Prepared, prepare
+from sketchtree.clouds.standing.feet import Feet, feet
+from sketchtree.clouds.standing.stems import breast_height
+from sketchtree.clouds.standing.trunk import Trunk, trunk
+from sketchtree.clouds.tracing.traced import traced
+from sketchtree.errors import OptionError
+from sketchtree.growth_tree import GrowthOptions, Worn, grown_tree, of_skeleton
+from sketchtree.keys import stage_key
+from sketchtree.options import TreeOptions
+from sketchtree.skeleton import TreeSkeleton
+from sketchtree.templates.store.database import Database
+from sketchtree.watch import Watch
+
+METHODS = ("traced", "grown")
+GENERAL = "broadleaf"
+"""The species whose figures are taken where the points say nothing."""
+
+
+@dataclass(frozen=True)
+class CloudOptions:
+    """How a tree is taken from points."""
+
+    up: str = "auto"  # auto | y | z
+    tree: int | None = None  # which of several, 1 the largest
+    unit: float = 1.0  # metres that 1 in the file means
+    points: int = POINTS  # of the tree, at most
+    method: str = "traced"  # of METHODS
+    species: str = "auto"  # of `clouds.growing.species.names()`; auto: estimated from the points
+    roots: int | None = None  # feet; None: as many as there are stems
+    inside: bool | None = None  # branches inside a crown that was seen from outside only; None: where the points leave it out
+
+    def __post_init__(self):
+        if self.method not in METHODS:
+            raise OptionError(f"There is no method called {self.method!r}.", remedy=f"Choose one of: {', '.join(METHODS)}.")
+        if not 100 <= self.points <= 10_000_000:
+            raise OptionError(f"`--points {self.points}` is out of range.", remedy="Give 100 to 10,000,000.")
+        if self.species != "auto":
+            species(self.species)
+
+
+@dataclass(frozen=True, eq=False)
+class CloudTree:
+    """A tree that stands in points, and how it was found."""
+
+    prepared: Prepared
+    feet: Feet
+    trunks: tuple[Trunk | None, ...]  # of each foot; None where its thickness can't be told
+    species: Species
+    pieces: int | None  # that the points fell into; None of one that was grown
+    seen: int  # rows that were seen, the first ones; the others fill the inside
+    model: Worn
+    warnings: tuple[str, ...]
+
+    @property
+    def skeleton(self) -> TreeSkeleton:
+        """Metres, the foot of the largest stem at the origin."""
+        return self.model.skeleton
+
+
+def cloud_to_tree(
+    given: str | Path | Placed | PointCloud,
+    templates: Database | None = None,
+    *,
+    key: Key[Array, ""],
+    wanted: CloudOptions = CloudOptions(),
+    tree: TreeOptions = TreeOptions(),
+    template: str | None = None,
+    watch: Watch | None = None,
+) -> CloudTree:
+    """The tree in a cloud. `template`: the exemplar whose leaves and bark it wears. Raises SketchError for a cloud that can't be read or holds no tree, or several; OptionError."""
+    watch = watch or Watch()
+    with watch("read"):
+        placed = read_placed(given, unit=wanted.unit) if isinstance(given, str | Path) else given
+        prepared = prepare(placed, up=wanted.up, tree=wanted.tree, points=wanted.points)
+        stands = feet(prepared.cloud.xyz, prepared.above, count="auto" if wanted.roots is None else wanted.roots)
+    with watch("infer"):
+        found = _wood(prepared, stands, wanted, key)
+    with watch("propagate"):
+        wood, seen = _whole(found, prepared, wanted, key)
+    begun = of_skeleton(wood, tree, templates, key=key, template=template)
+    model = grown_tree(begun, GrowthOptions(levels=0), tree, watch=watch).model
+    told = (*prepared.remarks, *_remarks(found, stands), *begun.warnings, *model.warnings)
+    return CloudTree(prepared, stands, found.trunks, found.species, found.pieces, seen, model, tuple(dict.fromkeys(told)))
+
+
+@dataclass(frozen=True, eq=False)
+class _Wood:
+    tree: TreeSkeleton
+    trunks: tuple[Trunk | None, ...]
+    species: Species
+    pieces: int | None
+
+
+def _wood(prepared: Prepared, stands: Feet, wanted: CloudOptions, key) -> _Wood:
+    """What was seen, as a skeleton."""
+    xyz = prepared.cloud.xyz
+    trunks = tuple(trunk(xyz[rows], breast_height(prepared.cloud.height)) for rows in stands.stems)
+    known = None if trunks[0] is None else trunks[0].root / 2
+    if wanted.method == "traced":
+        found = traced(xyz, stands.rows, foot_radius=known if len(trunks) == 1 else None)
+        base = species(GENERAL if wanted.species == "auto" else wanted.species)
+        kind = estimated(xyz, base, found.skeleton, found.gamma) if wanted.species == "auto" else base
+        return _Wood(found.skeleton, trunks, kind, found.pieces)
+    kind = estimated(xyz, species(GENERAL)) if wanted.species == "auto" else species(wanted.species)
+    thick = None if None in trunks else np.array([one.root / 2 for one in trunks])
+    return _Wood(grown(xyz, stands.rows, kind, key=stage_key(key, "toward points"), radius=thick).skeleton, trunks, kind, None)
+
+
+def _whole(found: _Wood, prepared: Prepared, wanted: CloudOptions, key) -> tuple[TreeSkeleton, int]:
+    """(the tree with what nobody saw, how many of its rows were seen)."""
+    tree = _refined(found.tree) if wanted.method == "traced" else found.tree
+    xyz = prepared.cloud.xyz
+    if wanted.inside is False or (wanted.inside is None and not unseen_inside(xyz)):
+        return tree, len(tree)
+    return filled(tree, xyz, found.species, key=stage_key(key, "inside"), wanted=Growing()), len(tree)
+
+
+def _refined(tree: TreeSkeleton) -> TreeSkeleton:
+    """The same with fewer rows where limbs run straight (§5.3, branch collapse)."""
+    stays, parent = collapsed(tree.parent, tree.tip, tree.radius)
+    parent, place, radius = kept(stays, parent), tree.tip[stays], tree.radius[stays]
+    return TreeSkeleton.from_columns(parent, place, radius, limb=tree.limb[stays], order=tree.order[stays], tree=tree.tree[stays], kind=tree.kind[stays])
+
+
+def _remarks(found: _Wood, stands: Feet) -> list[str]:
+    told = []
+    if found.pieces is not None and found.pieces > 1:
+        told.append(f"The points fall into {found.pieces:,} pieces; gaps between them were bridged where they are narrow.")
+    if len(stands.rows) > 1:
+        told.append(f"The plant stands on {len(stands.rows)} feet.")
+    if found.trunks[0] is None:
+        told.append("How thick the trunk is can't be told from the points at its foot; the rest of the wood says so.")
+    return told
+
+
+@dataclass(frozen=True)
+class CloudSource:
+    """A source: a point cloud, or a file of one, becomes the tree that stands in it, metres."""
+
+    wanted: CloudOptions = CloudOptions()
+
+    def __call__(self, input: str | Path | Placed | PointCloud, *, key: Key[Array, ""]) -> TreeSkeleton:
+        return cloud_to_tree(input, key=key, wanted=self.wanted, tree=TreeOptions(leaf="none")).skeleton
