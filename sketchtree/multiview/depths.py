@@ -31,10 +31,10 @@ class Quality:
     shrinks: tuple[int, ...]  # levels, coarsest first
     rounds: tuple[int, ...]  # sweeps of both colours at each
     best: int = 2  # partners that count at a pixel
-    step: int = 2  # pixels between the samples of a patch
+    step: int = 1  # pixels between the 5 × 5 samples of a patch: twigs are thin
     segments: bool = True  # Eq. 2's second term
     coherence: bool = True  # Eq. 3-4 by fusion moves
-    guided: int = 3  # radius of the guided filter, pixels; 0: none
+    guided: int = 2  # radius of the guided filter, pixels; 0: none
 
 
 PREVIEW = Quality(longest=480, sources=4, shrinks=(2, 1), rounds=(4, 2))
@@ -115,7 +115,7 @@ def _refine(levels: list[Level], quality: Quality, pulse: Pulse, part) -> None:
 
 
 def _finish(levels: list[Level], quality: Quality, pulse: Pulse, part) -> None:
-    """The guided filter, and the last likelihoods."""
+    """The guided filter, and the last likelihoods. A pixel that the filter would make less likely keeps its depth."""
 
     def score(row: int) -> None:
         level = levels[row]
@@ -130,7 +130,12 @@ def _finish(levels: list[Level], quality: Quality, pulse: Pulse, part) -> None:
         return smoothed(level.plane, level.grey, level.likely, disparity_unit(level, levels), quality.guided)
 
     side_by_side(score, range(len(levels)), pulse, shared(part, 0.0, 0.5))
-    if quality.guided:
-        for level, rho in zip(levels, side_by_side(smooth, range(len(levels)), pulse, shared(part, 0.5, 0.6)), strict=True):
-            level.plane[..., 0] = np.where(level.used & (level.likely > 0), rho, level.plane[..., 0])
-        side_by_side(score, range(len(levels)), pulse, shared(part, 0.6, 1.0))
+    if not quality.guided:
+        return
+    before = [(level.plane.copy(), level.likely, level.agreeing) for level in levels]
+    for level, rho in zip(levels, side_by_side(smooth, range(len(levels)), pulse, shared(part, 0.5, 0.6)), strict=True):
+        level.plane[..., 0] = np.where(level.used & (level.likely > 0), rho, level.plane[..., 0])
+    side_by_side(score, range(len(levels)), pulse, shared(part, 0.6, 1.0))
+    for level, (plane, likely, agreeing) in zip(levels, before, strict=True):
+        worse = level.likely < likely
+        level.plane[worse], level.likely[worse], level.agreeing[worse] = plane[worse], likely[worse], agreeing[worse]

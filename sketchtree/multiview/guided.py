@@ -3,7 +3,8 @@
     q_p = ā_p I_p + b̄_p        a_k = cov_k(I, ρ) / (var_k(I) + ε),  b_k = ρ̄_k − a_k Ī_k
 
 Means over a window are weighted by the likelihood of Eq. 3, 0 where there is no depth, so that nothing flows in from where none was found. For one guide the filter is a fixed weighting of pixels, so it may be put to
-each of a plane's three numbers: what is averaged at a pixel is where the planes around would lie at it, not their depths, and a round limb is not flattened (ours). A pixel that would move by more than `MOST` keeps
+each of a plane's three numbers. What is averaged at a pixel is the middle between the depths around and where the planes around would lie at it: the first alone would flatten a round limb, the second would bulge it by
+as much (ours). A pixel that would move by more than `MOST` keeps
 its depth: it stands at an edge that the photo does not show.
 """
 
@@ -38,5 +39,6 @@ def smoothed(plane: Float[np.ndarray, "row column 3"], guide, likely, pixel: flo
     """Inverse depths after the filter, of planes (ρ, ∂ρ/∂x, ∂ρ/∂y); `pixel`: inverse depth of one pixel of disparity."""
     y, x = np.indices(likely.shape)
     rho, across, down = np.moveaxis(np.asarray(plane, np.float64) / pixel, 2, 0)
-    found = guided(rho - across * x - down * y, guide, likely, radius) + x * guided(across, guide, likely, radius) + y * guided(down, guide, likely, radius)
+    flat = guided(rho - 0.5 * (across * x + down * y), guide, likely, radius)
+    found = flat + 0.5 * (x * guided(across, guide, likely, radius) + y * guided(down, guide, likely, radius))
     return np.where(np.abs(found - rho) <= MOST, found, rho) * pixel

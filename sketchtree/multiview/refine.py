@@ -8,12 +8,16 @@ As printed it has no term between neighbours, so that a cut would have nothing t
 
     λ Σ_pq w_pq min(|Δdisparity|, τ)        w_pq = exp(−|ΔI| / σ_I),   λ = .06, τ = 2 px, disparity in pixels of the median partner
 
+Δ is taken between the planes of the two pixels where these meet, halfway, so that a slanted limb costs nothing.
+
 Suggested are, one after the other, what the partners' depth maps say when carried over, the planes of segments, the likeliest plane within two pixels, and a running median; each is mixed in by a fusion move. So the
 energy falls from move to move.
 """
 
+from typing import NamedTuple
+
 import numpy as np
-from jaxtyping import Float
+from jaxtyping import Float, Int
 from scipy.ndimage import median_filter
 
 from sketchtree.multiview.coherence import likelihood
@@ -52,53 +56,61 @@ def refined(level: Level, levels: list[Level], near: Partners, label: np.ndarray
     pixel = disparity_unit(level, levels)
     plane = level.plane.copy()
     likely, _ = scored(level, levels, near, plane, step)
-    pairs, weight, node = _pairs(level)
-    rho = plane[..., 0][level.used]
-    own = np.zeros(len(pairs)) if not len(pairs) else weight * truncated((rho[pairs[:, 0]] - rho[pairs[:, 1]]) / pixel, TAU)
+    links = _links(level)
+    halfway = _halfway(plane, level.used, links)
+    own = links.weight * truncated((halfway[0] - halfway[1]) / pixel, TAU)
     energies = [float((1.0 - likely[level.used]).sum() + SMOOTH * own.sum())]
     for suggestion in _suggestions(level, levels, plane, likely, label):
         other = suggestion(plane, likely)
         other[..., 0] = np.where(other[..., 0] > 0, other[..., 0], plane[..., 0])
         score, _ = scored(level, levels, near, other, step)
         differs = level.used & (np.abs(other[..., 0] - plane[..., 0]) > _SAME * pixel) | level.used & (score > likely + 0.02)
-        takes, fall = _move(plane, likely, other, score, differs, pairs, weight, node, pixel)
+        takes, fall = _move(plane, likely, other, score, level.used, differs, links, pixel)
         plane[takes], likely[takes] = other[takes], score[takes]
         energies.append(energies[-1] - fall)
     return plane, energies
 
 
-def _pairs(level: Level):
-    """Neighbouring used pixels by their number, w_pq, and the number of every pixel."""
+class _Links(NamedTuple):
+    """Neighbouring used pixels."""
+
+    pairs: Int[np.ndarray, "pair 2"]  # by their number among the used pixels
+    weight: Float[np.ndarray, " pair"]  # w_pq
+    step: Float[np.ndarray, "pair 2"]  # from the first halfway to the second, columns and rows
+
+
+def _links(level: Level) -> _Links:
     node = np.cumsum(level.used.ravel()).reshape(level.shape) - 1
-    pairs, weight = [], []
-    for one, two in (((slice(None), slice(None, -1)), (slice(None), slice(1, None))), ((slice(None, -1), slice(None)), (slice(1, None), slice(None)))):
+    columns = []
+    for one, two, step in ((np.s_[:, :-1], np.s_[:, 1:], (0.5, 0.0)), (np.s_[:-1], np.s_[1:], (0.0, 0.5))):
         both = level.used[one] & level.used[two]
-        pairs.append(np.column_stack([node[one][both], node[two][both]]))
-        weight.append(np.exp(-np.abs(level.grey[one] - level.grey[two])[both] / EDGE))
-    return np.concatenate(pairs), np.concatenate(weight).astype(np.float64), node
+        weight = np.exp(-np.abs(level.grey[one] - level.grey[two])[both] / EDGE).astype(np.float64)
+        columns.append((np.column_stack([node[one][both], node[two][both]]), weight, np.tile(step, (len(weight), 1))))
+    return _Links(*(np.concatenate(column) for column in zip(*columns, strict=True)))
 
 
-def _move(plane, likely, other, score, differs, pairs, weight, node, pixel):
+def _halfway(plane, used, links: _Links) -> tuple[np.ndarray, np.ndarray]:
+    """The inverse depths of the planes of each pair where the two pixels meet."""
+    own = plane[used].astype(np.float64)
+    first, second = own[links.pairs[:, 0]], own[links.pairs[:, 1]]
+    return first[:, 0] + (first[:, 1:] * links.step).sum(axis=1), second[:, 0] - (second[:, 1:] * links.step).sum(axis=1)
+
+
+def _move(plane, likely, other, score, used, differs, links: _Links, pixel: float):
     """Where a fusion move takes the other plane, and by how much the energy falls. Pixels at which the two are the same stand still and pull at their neighbours."""
-    used = node[differs]
-    if not len(used):
+    if not differs.any():
         return differs, 0.0
-    every = int(node.max()) + 1
-    rho = np.full((every, 2), np.nan)
-    at = np.zeros(every, bool)
-    flat_used = np.r_[0, np.diff(node.ravel())] > 0
-    flat_used[0] = node.ravel()[0] == 0
-    rho[:, 0], rho[:, 1] = plane[..., 0].ravel()[flat_used], other[..., 0].ravel()[flat_used]
-    at[used] = True
+    at = differs[used]
     row = np.cumsum(at) - 1
     unary = np.stack([1.0 - likely[differs], 1.0 - score[differs]], axis=1).astype(np.float64)
-    first, second = pairs.T
-    cost = np.stack([[truncated((rho[first, i] - rho[second, j]) / pixel, TAU) for j in (0, 1)] for i in (0, 1)]).transpose(2, 0, 1) * (SMOOTH * weight)[:, None, None]
-    inner = at[first] & at[second]
-    for moving, still, flip in ((first, second, False), (second, first, True)):
+    first, second = zip(_halfway(plane, used, links), _halfway(np.where(differs[..., None], other, plane), used, links), strict=True)
+    cost = np.stack([[truncated((one - two) / pixel, TAU) for two in second] for one in first]).transpose(2, 0, 1) * (SMOOTH * links.weight)[:, None, None]
+    left, right = links.pairs.T
+    inner = at[left] & at[right]
+    for moving, still, of in ((left, right, np.s_[:, :, 0]), (right, left, np.s_[:, 0, :])):
         edge = at[moving] & ~at[still]
-        np.add.at(unary, row[moving[edge]], cost[edge][:, 0, :] if flip else cost[edge][:, :, 0])
-    takes, fall = fused(unary, np.column_stack([row[first[inner]], row[second[inner]]]), cost[inner])
+        np.add.at(unary, row[moving[edge]], cost[edge][of])
+    takes, fall = fused(unary, np.column_stack([row[left[inner]], row[right[inner]]]), cost[inner])
     found = np.zeros(differs.shape, bool)
     found[differs] = takes
     return found, fall

@@ -1,14 +1,15 @@
 """What in the photos is not the plant? Rules for sky, ground and what stands far behind, stated and simple (ours).
 
 Sky, of a photo: what is reached from its upper border over pixels that are even (brightness changes by less than `EVEN` to the next) and either bright (above 0.75 in all channels) or blue (b > r + 0.03,
-b ≥ g, above 0.35). Behind, of a cloud: what is no nearer to the place looked at than the nearest camera is. Ground, of a cloud with y up: the level plane (tilted by 15° at most) that most points of the lower third
+b ≥ g, above 0.35); and within `MIXED` pixels of it what has such a colour, though it is not even, and within `HOLES` of the picture what has such a
+colour and that of the nearest sky (to 0.08 in every channel), since sky shines past and between twigs. Behind, of a cloud: what is no nearer to the place looked at than the nearest camera is. Ground, of a cloud with y up: the level plane (tilted by 15° at most) that most points of the lower third
 lie on, if at least a tenth of all do and they reach as far across as 0.4 of the cloud's width, both ways; all points under it, or less than 1.2 % of the cloud's height above it, are ground. A trunk's foot
 goes with it.
 """
 
 import numpy as np
 from jaxtyping import Bool, Float, Key
-from scipy.ndimage import gaussian_gradient_magnitude, label
+from scipy.ndimage import binary_dilation, distance_transform_edt, gaussian_gradient_magnitude, label
 
 from sketchtree.clouds.cloud import PointCloud
 from sketchtree.keys import numpy_generator, stage_key
@@ -16,6 +17,7 @@ from sketchtree.multiview.cameras import Camera
 from sketchtree.multiview.sources import looked_at
 
 EVEN = 0.04
+MIXED, HOLES = 3, 0.15
 LEVEL = np.cos(np.radians(15.0))
 ABOVE = 0.012  # of the cloud's height
 SHARE, ACROSS = 0.1, 0.4
@@ -26,10 +28,14 @@ def sky(rgb: Float[np.ndarray, "row column 3"]) -> Bool[np.ndarray, "row column"
     """Which pixels are sky."""
     red, green, blue = rgb[..., 0], rgb[..., 1], rgb[..., 2]
     alike = (rgb.min(axis=2) > 0.75) | ((blue > red + 0.03) & (blue >= green) & (blue > 0.35))
-    alike &= gaussian_gradient_magnitude(rgb.mean(axis=2), 1.0) < EVEN
-    parts, _ = label(alike)
+    parts, _ = label(alike & (gaussian_gradient_magnitude(rgb.mean(axis=2), 1.0) < EVEN))
     at_top = np.unique(parts[0])
-    return np.isin(parts, at_top[at_top > 0])
+    found = np.isin(parts, at_top[at_top > 0])
+    if not found.any():
+        return found
+    away, (y, x) = distance_transform_edt(~found, return_indices=True)
+    hole = (away < HOLES * max(found.shape)) & (np.abs(rgb - rgb[y, x]).max(axis=2) < 0.08)
+    return found | alike & (hole | binary_dilation(found, np.ones((3, 3)), MIXED))
 
 
 def within(xyz: Float[np.ndarray, "point 3"], cameras: list[Camera]) -> Bool[np.ndarray, " point"]:

@@ -1,6 +1,7 @@
 """What do the compiled loops need of a view and its partners? One level of the pyramid, in arrays.
 
-Pictures of unlike sizes are put into one block, each in its upper left; `sizes` says how far each reaches.
+A patch on the even ground beside a twig holds the twig's edge, and would take its depth. So a pixel that looks like an even place (within `ALIKE`) no farther than `NEAR` pixels away belongs to that place, and is not used
+(ours). Pictures of unlike sizes are put into one block, each in its upper left; `sizes` says how far each reaches.
 """
 
 from dataclasses import dataclass, field
@@ -8,7 +9,7 @@ from dataclasses import dataclass, field
 import numpy as np
 from jaxtyping import Bool, Float
 from PIL import Image
-from scipy.ndimage import uniform_filter
+from scipy.ndimage import distance_transform_edt, uniform_filter
 
 from sketchtree.multiview.cameras import Camera
 from sketchtree.multiview.homography import transfer
@@ -17,6 +18,7 @@ from sketchtree.multiview.sky_and_ground import sky
 from sketchtree.multiview.sources import Sources
 
 EVEN = 0.012  # standard deviation of brightness over 5 × 5 pixels under which a place has no texture
+ALIKE, NEAR = 0.06, 3  # brightness of any channel; pixels
 
 
 @dataclass(eq=False)
@@ -60,6 +62,7 @@ def level_of(view: View, sources: Sources, shrink: int, least: int = 96) -> Leve
         seen = np.asarray(Image.fromarray(seen.astype(np.float32)).resize(size, Image.Resampling.BOX)) > 0.99
     grey = np.ascontiguousarray(rgb @ np.array([0.299, 0.587, 0.114], np.float32), np.float32)
     used = seen & textured(grey) & ~sky(rgb)
+    used &= ~like_even(rgb, seen & ~textured(grey))
     return Level(view.name, view.camera.resized(size), rgb, grey, used, sources, np.zeros((*grey.shape, 3), np.float32), np.full(grey.shape, 9.0, np.float32))
 
 
@@ -67,6 +70,14 @@ def textured(grey: Float[np.ndarray, "row column"]) -> Bool[np.ndarray, "row col
     """Whether there is anything to be found again round a pixel."""
     mean = uniform_filter(grey.astype(np.float64), 5)
     return uniform_filter(grey.astype(np.float64) ** 2, 5) - mean**2 > EVEN**2
+
+
+def like_even(rgb: Float[np.ndarray, "row column 3"], even: Bool[np.ndarray, "row column"]) -> Bool[np.ndarray, "row column"]:
+    """Which pixels look like the nearest even place."""
+    if not even.any():
+        return even
+    away, (y, x) = distance_transform_edt(~even, return_indices=True)
+    return (away <= NEAR) & (np.abs(rgb - uniform_filter(rgb, (3, 3, 0))[y, x]).max(axis=2) < ALIKE)
 
 
 def partners(level: Level, levels: list[Level]) -> Partners:
@@ -81,7 +92,8 @@ def partners(level: Level, levels: list[Level]) -> Partners:
 
 
 def block(pictures: list[np.ndarray]) -> np.ndarray:
-    """Pictures of unlike sizes in one array."""
+    """A patch on the even ground beside a twig holds the twig's edge, and would take its depth. So a pixel that looks like an even place (within `ALIKE`) no farther than `NEAR` pixels away belongs to that place, and is not used
+(ours). Pictures of unlike sizes in one array."""
     shape = np.max([picture.shape for picture in pictures], axis=0)
     found = np.zeros((len(pictures), *shape), pictures[0].dtype)
     for k, picture in enumerate(pictures):

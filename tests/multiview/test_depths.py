@@ -1,4 +1,4 @@
-"""Depth maps of a known world: near the truth, nearer with what the paper adds, and the same for the same seed."""
+"""Depth maps of a known world: near the truth, fewer pixels astray with what the paper adds, and the same for the same seed."""
 
 from dataclasses import replace
 
@@ -64,9 +64,9 @@ def test_depths_are_near_the_truth(ours):
     assert (off(ours) < 0.03).mean() > 0.85
 
 
-def test_what_the_paper_adds_makes_them_nearer(ours, plain):
-    assert np.median(off(ours)) < 0.9 * np.median(off(plain))
-    assert off(ours).mean() < off(plain).mean()
+def test_what_the_paper_adds_leaves_fewer_astray(ours, plain):
+    assert (off(ours) > 0.05).mean() < 0.8 * (off(plain) > 0.05).mean()
+    assert off(ours).mean() < 0.8 * off(plain).mean()
 
 
 def test_the_same_seed_gives_the_same_bytes(ours):
@@ -143,10 +143,11 @@ def test_eq4_and_its_pairs_fall_from_move_to_move(plain):
     assert len(energies) == len(level.sources.rows) + 4
     assert all(later <= earlier + 1e-9 for earlier, later in zip(energies, energies[1:], strict=False)) and energies[-1] < 0.97 * energies[0]
     likely, _ = scored(level, plain, partners(level, plain), plane, 2)
-    rho, unit, pair = plane[..., 0], disparity_unit(level, plain), 0.0
-    for one, two in ((np.s_[:, :-1], np.s_[:, 1:]), (np.s_[:-1], np.s_[1:])):
+    rho, unit, pair = plane.astype(float), disparity_unit(level, plain), 0.0
+    for one, two, k in ((np.s_[:, :-1], np.s_[:, 1:], 1), (np.s_[:-1], np.s_[1:], 2)):
         weight = np.exp(-np.abs(level.grey[one] - level.grey[two]) / 0.08) * (level.used[one] & level.used[two])
-        pair += (weight * np.minimum(np.abs(rho[one] - rho[two]) / unit, 2.0)).sum()
+        apart = (rho[one][..., 0] + 0.5 * rho[one][..., k]) - (rho[two][..., 0] - 0.5 * rho[two][..., k])
+        pair += (weight * np.minimum(np.abs(apart) / unit, 2.0)).sum()
     assert energies[-1] == pytest.approx((1 - likely[level.used]).sum() + SMOOTH * pair, rel=1e-3)
 
 
