@@ -31,20 +31,20 @@ def test_a_fisheye_by_hand():
 
 def painted(pixel):
     """A picture that is known between pixels."""
-    return (0.5 + 0.25 * np.sin(0.25 * pixel[:, 0]) + 0.25 * np.cos(0.3 * pixel[:, 1]))[:, None]
+    return (0.5 + 0.25 * np.sin(0.3 * pixel[:, 0]) + 0.25 * np.cos(0.3 * pixel[:, 1]))[:, None]
 
 
 @pytest.mark.parametrize("lens", LENSES)
 def test_a_bent_picture_comes_back(lens):
-    camera = camera_at(10.0, size=(64, 48), focal=0.8)
+    camera = camera_at(10.0, size=(40, 30), focal=0.8)
     focal, middle = camera.matrix[[0, 1], [0, 1]], camera.matrix[:2, 2]
     pixels = (camera.pixels() - middle) / focal
     straight = np.array([fsolve(lambda xy, at=at: lens.distort(xy[None])[0] - at, at) for at in pixels]) * focal + middle
-    flat, bent = (painted(pixel).reshape(48, 64, 1) for pixel in (camera.pixels(), straight))
+    flat, bent = (painted(pixel).reshape(30, 40, 1) for pixel in (camera.pixels(), straight))
     found, seen = undistorted(bent, camera, lens)
-    assert np.abs(bent - flat).max() > 0.1
-    assert np.abs(found - flat)[4:-4, 4:-4][seen[4:-4, 4:-4]].max() < 0.03
-    assert seen[4:-4, 4:-4].all()
+    assert np.abs(bent - flat).max() > 0.06
+    assert np.abs(found - flat)[3:-3, 3:-3][seen[3:-3, 3:-3]].max() < 0.03
+    assert seen[3:-3, 3:-3].all()
 
 
 def test_what_the_photo_does_not_show_is_told():

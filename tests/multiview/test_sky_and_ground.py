@@ -45,6 +45,11 @@ def test_ground_on_a_gentle_slope_goes_too():
     assert ground(PointCloud(np.concatenate([TREE, MEADOW @ slope.T])), key=root_key(0))[800:].mean() > 0.99
 
 
+def test_strays_far_out_do_not_save_the_ground():
+    strays = np.array([[30.0, 1.0, 0.0], [-30.0, 2.0, 5.0], [0.0, 1.0, 40.0]])
+    assert ground(PointCloud(np.concatenate([TREE, MEADOW, strays])), key=root_key(0))[800:1700].mean() > 0.99
+
+
 def test_a_tree_without_ground_loses_nothing():
     assert not ground(PointCloud(TREE), key=root_key(0)).any()
 
