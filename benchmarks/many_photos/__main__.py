@@ -51,7 +51,8 @@ def _compare(name: str, truth: Rendered, quality: Quality, wanted, place: Path) 
     if not wanted.no_sparse:
         began = time.process_time()
         points, off, placed = sparse_points(truth, place / "photos")
-        print(f"  sparse   {placed} of {wanted.views} photos placed, cameras off by {off:.2%} of the ring; CPU {time.process_time() - began:.0f} s")
+        where = f", cameras off by {off:.2%} of the ring" if placed else ""
+        print(f"  sparse   {placed} of {wanted.views} photos placed{where}; CPU {time.process_time() - began:.0f} s")
         if len(points):
             _tell("sparse", measured(points, truth))
         shown.append(points_picture(points, np.full((len(points), 3), 0.2), middle))

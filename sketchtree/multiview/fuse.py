@@ -1,13 +1,14 @@
 """Which of all the depths are true, and what cloud do they make? Visibility over the views, then one point a voxel (Guo et al. 2018, §4; rules ours).
 
 A pixel's place counts if its likelihood (Eq. 3) is at least `LEAST`, at least `AGREE` other views agree with it, and more views agree with it than see through it: a view sees through a place where its own depth map, likely
-there, shows something more than `BEHIND` farther away. What is left is gathered in voxels of the size of a pixel at the median depth: middle, mean colour, mean normal, each counted by likelihood.
+there, shows something more than `BEHIND` farther away. What is left is gathered in voxels of the size of a pixel at the median depth: middle, mean colour, mean normal, each counted by likelihood. A voxel with fewer than `COMPANY` others within `NEAR` voxels is a stray.
 """
 
 from dataclasses import dataclass
 
 import numpy as np
 from jaxtyping import Bool, Float
+from scipy.spatial import cKDTree
 
 from sketchtree.clouds.cloud import PointCloud
 from sketchtree.errors import ViewsError
@@ -17,6 +18,7 @@ from sketchtree.multiview.workplace import Level
 LEAST = 0.25
 AGREE = 2  # other views
 BEHIND = 0.02  # of the depth
+COMPANY, NEAR = 4, 3.0
 
 
 @dataclass(frozen=True, eq=False)
@@ -74,4 +76,6 @@ def thinned(points: Gathered, size: float, keep: Bool[np.ndarray, " point"] | No
     whole = np.bincount(voxel, trust)[:, None]
     mean = [np.stack([np.bincount(voxel, trust * column[:, k]) for k in range(3)], axis=1) / whole for column in (xyz, colour, normal)]
     length = np.linalg.norm(mean[2], axis=1, keepdims=True)
-    return PointCloud(mean[0], np.clip(mean[1], 0.0, 1.0), np.where(length > 1e-6, mean[2] / np.maximum(length, 1e-6), [0.0, 1.0, 0.0]))
+    cloud = PointCloud(mean[0], np.clip(mean[1], 0.0, 1.0), np.where(length > 1e-6, mean[2] / np.maximum(length, 1e-6), [0.0, 1.0, 0.0]))
+    stays = cKDTree(cloud.xyz).query_ball_point(cloud.xyz, NEAR * size, return_length=True) > COMPANY
+    return cloud.select(stays) if stays.any() else cloud

@@ -91,6 +91,12 @@ def test_a_voxel_has_one_point(ours):
     assert len(np.unique(cells, axis=0)) == len(cloud) < 400
 
 
+def test_a_point_far_from_all_others_is_a_stray(ours):
+    points = gathered(ours)
+    far = replace(points, **{name: np.concatenate([getattr(points, name), getattr(points, name)[:1] + shift]) for name, shift in (("xyz", 3.0), ("colour", 0.0), ("normal", 0.0), ("trust", 0.0))})
+    assert len(thinned(far, points.size)) == len(thinned(points, points.size))
+
+
 def test_half_a_chessboard_may_be_worked_on_in_pieces():
     level = level_of(VIEWS[2], SOURCES[2], 1)
     levels = [level_of(view, one, 1) for view, one in zip(VIEWS, SOURCES, strict=True)]
