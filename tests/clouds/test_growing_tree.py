@@ -189,6 +189,16 @@ def test_thin_wood_settles_among_its_points_and_the_root_stays():
     assert moved[0] == pytest.approx(place[0])
 
 
+def test_wood_settles_as_smooth_as_it_grew():
+    rng = np.random.default_rng(0)
+    points = np.stack([rng.normal(0, 0.03, 300), np.linspace(0, 3, 300), rng.normal(0, 0.03, 300)], axis=1)
+    place = np.stack([np.zeros(61), np.linspace(0, 3, 61), np.zeros(61)], axis=1)
+    moved = settled(np.arange(61) - 1, place, np.full(61, 0.01), points, 0.2)
+    way = np.diff(moved, axis=0)
+    way /= np.linalg.norm(way, axis=1, keepdims=True)
+    assert np.degrees(np.arccos(np.clip((way[1:] * way[:-1]).sum(axis=1), -1, 1))).max() < 15
+
+
 # the unseen inside
 
 
