@@ -1,4 +1,5 @@
-"""How good are clouds made of photos of a known tree? `python -m benchmarks.many_photos [TREE.glb ...]`: ours, plain PatchMatch and COLMAP's sparse points, as in Guo et al. 2018, Figure 10.
+"""How good are clouds made of photos of a known tree? `python -m benchmarks.many_photos [TREE.glb ...]`: ours, plain PatchMatch and COLMAP's sparse points, as in
+Guo et al. 2018, Figure 10.
 
 Without trees, of the oak of the examples, bare. Plain: without segments, coherence and guided filter. CPU seconds are of all cores together.
 """

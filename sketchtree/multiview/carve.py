@@ -1,12 +1,12 @@
 """What is the largest body that no silhouette contradicts? The visual hull of masks (Laurentini 1994), for photos that are masks or show too little to be matched.
 
-A cube round the place looked at is split into voxels; one that falls outside the mask of more than `spare` views that have it in the picture, or inside that of less than half of all, is thrown away, the others are
-split again. The points are the middles of
-the voxels at the surface, their normals point away from what is full around them, their colours are the mean of the views that show the surface from in front.
+A cube round the place looked at is split into voxels; one that falls outside the mask of more than `spare` views that have it in the picture, or inside that of
+less than half of all, is thrown away, the others are split again. The points are the middles of the voxels at the surface, their normals point away from what
+is full around them, their colours are the mean of the views that show the surface from in front.
 """
 
 import numpy as np
-from jaxtyping import Bool, Float
+from jaxtyping import Bool
 from scipy.ndimage import binary_dilation, distance_transform_edt
 
 from sketchtree.clouds.cloud import PointCloud

@@ -3,7 +3,8 @@
 Guo et al. 2018, Eq. 3:   L(p, (d_i, n_i)) = Σ_i' m(p, (d_i, n_i)) m_v(p, p', (d_i', n_i'))
 
     m     here how alike the patches are: 1 − the cost, 0 at least
-    m_v   how well the other photo agrees: p goes over to p' by its own plane and comes back by the plane that the other photo has there, e pixels beside; m_v = exp(−e² / 2σ²), our reading of "similar to [60]"
+    m_v   how well the other photo agrees: p goes over to p' by its own plane and comes back by the plane that the other photo has there, e pixels beside;
+          m_v = exp(−e² / 2σ²), our reading of "similar to [60]"
     L     the sum over `ENOUGH` photos, 1 at most (ours: so many suffice, since the rest may be hidden)
 """
 

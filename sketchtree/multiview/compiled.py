@@ -1,6 +1,7 @@
 """How are loops over pixels made fast? Compiled by numba, without Python's lock, so that views are worked on in parallel.
 
-Nothing compiled is kept for the next run: numba's cache does not notice that a function called from another file has changed, and compiling takes seconds where depth maps take minutes.
+Nothing compiled is kept for the next run: numba's cache does not notice that a function called from another file has changed, and compiling takes seconds where
+depth maps take minutes.
 """
 
 import os

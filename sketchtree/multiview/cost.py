@@ -1,11 +1,12 @@
 """How unlike are the patch around a pixel and what another photo shows of the same slanted plane?
 
-The photo-consistency cost m of Guo et al. 2018, Eq. 2, is that of their [59], the normalised correlation of a patch; its pixels count by how near and how alike in brightness they are to the middle one
-(bilateral weights, Schönberger et al. 2016), so that a twig's patch is the twig and not the sky behind it:
+The photo-consistency cost m of Guo et al. 2018, Eq. 2, is that of their [59], the normalised correlation of a patch; its pixels count by how near and how alike
+in brightness they are to the middle one (bilateral weights, Schönberger et al. 2016), so that a twig's patch is the twig and not the sky behind it:
 
     m = 1 − cov_w(p, q) / √(var_w(p) var_w(q))  ∈ [0, 2]        w_k = exp(−Δgrey² / 2σ_g² − Δxy² / 2σ_x²)
 
-q is p's patch carried over by Eq. 1. A patch of even brightness says nothing: m = 1. Of several photos the mean of the `best` lowest counts, since some don't see the place.
+q is p's patch carried over by Eq. 1. A patch of even brightness says nothing: m = 1. Of several photos the mean of the `best` lowest counts, since some don't
+see the place.
 """
 
 import numpy as np

@@ -1,7 +1,9 @@
 """Which of all the depths are true, and what cloud do they make? Visibility over the views, then one point a voxel (Guo et al. 2018, §4; rules ours).
 
-A pixel's place counts if its likelihood (Eq. 3) is at least `LEAST`, at least `AGREE` other views agree with it, and more views agree with it than see through it: a view sees through a place where its own depth map, likely
-there, shows something more than `BEHIND` farther away. What is left is gathered in voxels of the size of a pixel at the median depth: middle, mean colour, mean normal, each counted by likelihood. A voxel with fewer than `COMPANY` others within `NEAR` voxels is a stray.
+A pixel's place counts if its likelihood (Eq. 3) is at least `LEAST`, at least `AGREE` other views agree with it, and more views agree with it than see through
+it: a view sees through a place where its own depth map, likely there, shows something more than `BEHIND` farther away. What is left is gathered in voxels of
+the size of a pixel at the median depth: middle, mean colour, mean normal, each counted by likelihood. A voxel with fewer than `COMPANY` others within `NEAR`
+voxels is a stray.
 """
 
 from dataclasses import dataclass

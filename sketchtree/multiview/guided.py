@@ -1,11 +1,12 @@
-"""How are depths made smooth but for the edges that the photo shows? A guided filter (He et al. 2013) on slanted planes, whose pixels count by how likely they are.
+"""How are depths made smooth but for the edges that the photo shows? A guided filter (He et al. 2013) on slanted planes, whose pixels count by how likely they
+are.
 
     q_p = ā_p I_p + b̄_p        a_k = cov_k(I, ρ) / (var_k(I) + ε),  b_k = ρ̄_k − a_k Ī_k
 
-Means over a window are weighted by the likelihood of Eq. 3, 0 where there is no depth, so that nothing flows in from where none was found. For one guide the filter is a fixed weighting of pixels, so it may be put to
-each of a plane's three numbers. What is averaged at a pixel is the middle between the depths around and where the planes around would lie at it: the first alone would flatten a round limb, the second would bulge it by
-as much (ours). A pixel that would move by more than `MOST` keeps
-its depth: it stands at an edge that the photo does not show.
+Means over a window are weighted by the likelihood of Eq. 3, 0 where there is no depth, so that nothing flows in from where none was found. For one guide the
+filter is a fixed weighting of pixels, so it may be put to each of a plane's three numbers. What is averaged at a pixel is the middle between the depths around
+and where the planes around would lie at it: the first alone would flatten a round limb, the second would bulge it by as much (ours). A pixel that would move by
+more than `MOST` keeps its depth: it stands at an edge that the photo does not show.
 """
 
 import numpy as np

@@ -6,7 +6,8 @@ Guo et al. 2018, Eq. 1:   H_i→j = K_j (R_j R_i⁻¹ − R_j (C_j − C_i) nᵀ
     X   the point of the plane that the pixel shows, in camera i
     v   as printed −nᵀX; the minus before it then moves the picture the wrong way (with X' = R_j (R_i⁻¹ X + C_i − C_j)), so v = nᵀX here
 
-Inverse depth is affine over the picture of a plane: ρ(x, y) = nᵀ K_i⁻¹ (x, y, 1)ᵀ / v. So a slanted plane is kept as (ρ, ∂ρ/∂x, ∂ρ/∂y) at its pixel, and Eq. 1 becomes
+Inverse depth is affine over the picture of a plane: ρ(x, y) = nᵀ K_i⁻¹ (x, y, 1)ᵀ / v. So a slanted plane is kept as (ρ, ∂ρ/∂x, ∂ρ/∂y) at its pixel, and Eq. 1
+becomes
 
     H (x, y, 1)ᵀ = A (x, y, 1)ᵀ + b ρ(x, y)        A = K_j R_j R_i⁻¹ K_i⁻¹        b = K_j R_j (C_i − C_j)
 

@@ -1,9 +1,10 @@
-"""Which of two suggestions does every pixel take, when neighbours would rather be at like depths? A fusion move (Lempitsky et al. 2010): the best of all mixtures of two depth maps, by one cut.
+"""Which of two suggestions does every pixel take, when neighbours would rather be at like depths? A fusion move (Lempitsky et al. 2010): the best of all mixtures
+of two depth maps, by one cut.
 
     E(β) = Σ_p U_p(β_p) + Σ_pq w_pq V(ρ_p(β_p), ρ_q(β_q))        V = min(|Δdisparity|, τ)
 
-Pairs for which V(0,1) + V(1,0) < V(0,0) + V(1,1) can't be told by a cut; their V(0,0) is lowered until it can (Rother et al. 2005), and a move that then does not lower the energy as it is is not taken. The cut is a
-greatest flow (OR-tools), with energies in thousandths.
+Pairs for which V(0,1) + V(1,0) < V(0,0) + V(1,1) can't be told by a cut; their V(0,0) is lowered until it can (Rother et al. 2005), and a move that then does
+not lower the energy as it is is not taken. The cut is a greatest flow (OR-tools), with energies in thousandths.
 """
 
 import numpy as np

@@ -6,8 +6,8 @@ Guo et al. 2018, Eq. 2:   E₁(d, n) = τ ∫ m(p, (d, n)) dp + λ ∫ |d_Ω(p) 
     d_Ω    depth of the plane of p's segment (`segments`), in inverse depth, as a share of the range sought, 1 % of it or more counting alike (ours)
     λ      `PRIOR`; where a segment has no plane there is no second term
 
-A pixel tries the planes of eight neighbours at odd distances, that of its segment, its own with a little changed, and new ones. Pixels of one colour of a chessboard only look at the other colour's, so that
-all of them may be worked on at once. Numbers by chance follow from the seed, the pixel and the round alone.
+A pixel tries the planes of eight neighbours at odd distances, that of its segment, its own with a little changed, and new ones. Pixels of one colour of a
+chessboard only look at the other colour's, so that all of them may be worked on at once. Numbers by chance follow from the seed, the pixel and the round alone.
 """
 
 import numpy as np
@@ -47,7 +47,10 @@ def energy_of(x, y, rho, across, down, low, high, focal, prior, transfers, other
 
 @compiled
 def sweep(colour, first, last, grey, used, plane, energy, prior, low, high, focal, transfers, others, sizes, step, best, spread, fresh, seed):
-    """Improve the planes of the used pixels of one colour of the chessboard in rows `first` to `last`. `spread`: how much of the range is tried round what is there; `fresh`: how many new planes are tried."""
+    """Improve the planes of the used pixels of one colour of the chessboard in rows `first` to `last`.
+
+    `spread`: how much of the range is tried round what is there; `fresh`: how many new planes are tried.
+    """
     height, width = grey.shape
     weight, value, costs = np.empty(SIDE * SIDE, np.float32), np.empty(SIDE * SIDE, np.float32), np.empty(len(others))
     for y in range(first, last):

@@ -1,6 +1,7 @@
 """Which photos are in a folder, which of them are of use, and what does each show? Files → Views.
 
-Black bars that a camera or a program put at the borders are unseen, since their edges stand still when the camera moves. A photo is sharp if its Laplacian is not much weaker than that of the others: variance of the Laplacian over variance of the picture, both at 800 px, under a fifth of the median is blurred (ours).
+Black bars that a camera or a program put at the borders are unseen, since their edges stand still when the camera moves. A photo is sharp if its Laplacian is
+not much weaker than that of the others: variance of the Laplacian over variance of the picture, both at 800 px, under a fifth of the median is blurred (ours).
 """
 
 import os

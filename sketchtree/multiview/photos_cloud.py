@@ -27,7 +27,7 @@ QUALITIES = ("preview", "full")
 class PhotosCloud:
     """The cloud, and what was learnt on the way."""
 
-    cloud: PointCloud  # metres where the poses are or a height was given, else the cameras' mean distance is 1; y up
+    cloud: PointCloud  # in the unit of given poses, or metres if a height was given, else the cameras' mean distance is 1; y up
     metric: bool
     placed: tuple[str, ...]  # photos whose cameras are known
     left_out: tuple[str, ...]  # photos that could not be placed
@@ -43,8 +43,8 @@ def photos_cloud(
 ) -> PhotosCloud:
     """The cloud of the plant that the photos in a folder show.
 
-    `poses`: a file or folder of them (`read_poses`), else they are found; `height`: of the plant, metres; `up`: in the frame of the poses. Raises ViewsError for photos and poses that can't be used, OptionError
-    for an unknown quality or a height that is none.
+    `poses`: a file or folder of them (`read_poses`), else they are found; `height`: of the plant, metres; `up`: in the frame of the poses.
+    Raises ViewsError for photos and poses that can't be used, OptionError for an unknown quality or a height that is none.
     """
     from sketchtree.multiview.depths import FULL, PREVIEW
 
@@ -56,7 +56,8 @@ def photos_cloud(
     with watch("cameras"):
         placed, left_out, notices = _placed(folder, poses, quality, key, watch, pulse)
     with watch("photos"):
-        cameras, points, _ = moved_upright([photo.camera for photo in placed.photos], placed.points, placed.up if up is None else np.array(up), poses is not None)
+        upwards = placed.up if up is None else np.array(up)
+        cameras, points, _ = moved_upright([photo.camera for photo in placed.photos], placed.points, upwards, poses is not None)
         views = _views(folder, placed, cameras, wanted.longest)
     cloud, size = _dense(views, points, placed, wanted, key, watch, pulse)
     if not keep_ground:

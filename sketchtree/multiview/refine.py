@@ -10,8 +10,8 @@ As printed it has no term between neighbours, so that a cut would have nothing t
 
 Δ is taken between the planes of the two pixels where these meet, halfway, so that a slanted limb costs nothing.
 
-Suggested are, one after the other, what the partners' depth maps say when carried over, the planes of segments, the likeliest plane within two pixels, and a running median; each is mixed in by a fusion move. So the
-energy falls from move to move.
+Suggested are, one after the other, what the partners' depth maps say when carried over, the planes of segments, the likeliest plane within two pixels, and a
+running median; each is mixed in by a fusion move. So the energy falls from move to move.
 """
 
 from typing import NamedTuple

@@ -1,7 +1,8 @@
 """Which pixels probably show one surface, and on which plane does it lie? The segments of Guo et al. 2018, Eq. 2, and their planes d_Ω.
 
-Segments are the modes of colour and place that mean shift climbs to. They are found by quick shift (Vedaldi & Soatto 2008), which climbs the same density from pixel to pixel. A segment's plane is fitted to the
-inverse depths of its pixels, counted by how well they match, three times, those far off counting less each time. A segment of few pixels that match has none.
+Segments are the modes of colour and place that mean shift climbs to. They are found by quick shift (Vedaldi & Soatto 2008), which climbs the same density from
+pixel to pixel. A segment's plane is fitted to the inverse depths of its pixels, counted by how well they match, three times, those far off counting less each
+time. A segment of few pixels that match has none.
 """
 
 import numpy as np

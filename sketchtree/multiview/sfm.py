@@ -1,7 +1,8 @@
 """Where were the photos taken from, if nobody says? Structure from motion with COLMAP (Schönberger & Frahm 2016, incremental), on the CPU → Poses.
 
-Photos of other sizes, other cameras and without EXIF may be mixed: photos of one size and, by their EXIF, of one camera and focal length share a camera (if each had its own, small sets would bend), and a focal
-length that is not told is taken as 1.2 times the longer side and found with the rest. Its threads add numbers in no fixed order, so that two runs agree to about a thousandth of a pixel, not to the last bit.
+Photos of other sizes, other cameras and without EXIF may be mixed: photos of one size and, by their EXIF, of one camera and focal length share a camera (if
+each had its own, small sets would bend), and a focal length that is not told is taken as 1.2 times the longer side and found with the rest. Its threads add
+numbers in no fixed order, so that two runs agree to about a thousandth of a pixel, not to the last bit.
 """
 
 import tempfile

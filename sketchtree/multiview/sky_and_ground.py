@@ -1,10 +1,11 @@
 """What in the photos is not the plant? Rules for sky, ground and what stands far behind, stated and simple (ours).
 
-Sky, of a photo: what is reached from its upper border over pixels that are even (brightness changes by less than `EVEN` to the next) and either bright (above 0.75 in all channels) or blue (b > r + 0.03,
-b ≥ g, above 0.35); and within `MIXED` pixels of it what has such a colour, though it is not even, and within `HOLES` of the picture what has such a
-colour and that of the nearest sky (to 0.08 in every channel), since sky shines past and between twigs. Behind, of a cloud: what is no nearer to the place looked at than the nearest camera is. Ground, of a cloud with y up: the level plane (tilted by 15° at most) that most points of the lower third
-lie on, if at least a tenth of all do and they reach as far across as 0.4 of the cloud's width, both ways (the outermost 2 % left out); all points under it, or less than 1.2 % of the cloud's height above it, are ground. A trunk's foot
-goes with it.
+Sky, of a photo: what is reached from its upper border over pixels that are even (brightness changes by less than `EVEN` to the next) and either bright (above
+0.75 in all channels) or blue (b > r + 0.03, b ≥ g, above 0.35); and within `MIXED` pixels of it what has such a colour, though it is not even, and within
+`HOLES` of the picture what has such a colour and that of the nearest sky (to 0.08 in every channel), since sky shines past and between twigs. Behind, of a
+cloud: what is no nearer to the place looked at than the nearest camera is. Ground, of a cloud with y up: the level plane (tilted by 15° at most) that most
+points of the lower third lie on, if at least a tenth of all do and they reach as far across as 0.4 of the cloud's width, both ways (the outermost 2 % left
+out); all points under it, or less than 1.2 % of the cloud's height above it, are ground. A trunk's foot goes with it.
 """
 
 import numpy as np

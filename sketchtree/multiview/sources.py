@@ -1,7 +1,8 @@
 """Which other photos tell the depth of one, and between which depths is it to be sought?
 
-Ours. The best partner stands about 10° further round the place that both look at: nearer ones tell depth badly, farther ones show another side. Depths run from the nearest matched point to the farthest, with a
-margin; without points, from 0.35 to 1.9 of the distance of the place at which the cameras look (that nearest to all their axes).
+Ours. The best partner stands about 10° further round the place that both look at: nearer ones tell depth badly, farther ones show another side. Depths run from
+the nearest matched point to the farthest, with a margin; without points, from 0.35 to 1.9 of the distance of the place at which the cameras look (that nearest
+to all their axes).
 """
 
 from dataclasses import dataclass

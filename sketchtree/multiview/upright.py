@@ -1,7 +1,8 @@
 """Which way is up, and how large is the world, when the cameras alone are known?
 
-Ours. Who takes photos holds the camera more or less level, so up is near the mean of the pictures' tops; who walks round a plant stays at a height, so where the cameras lie in a plane (thickness under a fifth of its
-width) that is not farther than 35° from there, up is square to it. The origin is the place looked at. Structure from motion knows no unit; then the cameras' mean distance from that place is 1 until a height is given.
+Ours. Who takes photos holds the camera more or less level, so up is near the mean of the pictures' tops; who walks round a plant stays at a height, so where
+the cameras lie in a plane (thickness under a fifth of its width) that is not farther than 35° from there, up is square to it. The origin is the place looked
+at. Structure from motion knows no unit; then the cameras' mean distance from that place is 1 until a height is given.
 """
 
 import numpy as np

@@ -1,7 +1,8 @@
 """What do the compiled loops need of a view and its partners? One level of the pyramid, in arrays.
 
-A patch on the even ground beside a twig holds the twig's edge, and would take its depth. So a pixel that looks like an even place (within `ALIKE`) no farther than `NEAR` pixels away belongs to that place, and is not used
-(ours). Pictures of unlike sizes are put into one block, each in its upper left; `sizes` says how far each reaches.
+A patch on the even ground beside a twig holds the twig's edge, and would take its depth. So a pixel that looks like an even place (within `ALIKE`) no farther
+than `NEAR` pixels away belongs to that place, and is not used (ours). Pictures of unlike sizes are put into one block, each in its upper left; `sizes` says how
+far each reaches.
 """
 
 from dataclasses import dataclass, field
@@ -92,8 +93,7 @@ def partners(level: Level, levels: list[Level]) -> Partners:
 
 
 def block(pictures: list[np.ndarray]) -> np.ndarray:
-    """A patch on the even ground beside a twig holds the twig's edge, and would take its depth. So a pixel that looks like an even place (within `ALIKE`) no farther than `NEAR` pixels away belongs to that place, and is not used
-(ours). Pictures of unlike sizes in one array."""
+    """Pictures of unlike sizes in one array."""
     shape = np.max([picture.shape for picture in pictures], axis=0)
     found = np.zeros((len(pictures), *shape), pictures[0].dtype)
     for k, picture in enumerate(pictures):

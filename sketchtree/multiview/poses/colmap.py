@@ -1,6 +1,7 @@
 """What does a COLMAP model say? A folder with cameras, images and points3D, as text or binary → Poses.
 
-Both kinds are read into the same rows: a camera is (model, width, height, numbers), an image (quaternion, translation, camera, name, ids of its points), and x_camera = R X + t.
+Both kinds are read into the same rows: a camera is (model, width, height, numbers), an image (quaternion, translation, camera, name, ids of its points), and
+x_camera = R X + t.
 """
 
 import struct

@@ -1,7 +1,7 @@
 """What does a transforms.json say (NeRF, instant-ngp, nerfstudio)?
 
-Frames hold camera → world matrices whose camera looks along −z with y up (OpenGL); the world is z up. Intrinsics stand once for all or in each frame: `fl_x`, `fl_y`, or the angle of view
-`camera_angle_x`; `cx`, `cy`; `w`, `h`; a lens `k1 k2 k3 k4 p1 p2`, a fisheye's where `camera_model` is OPENCV_FISHEYE.
+Frames hold camera → world matrices whose camera looks along −z with y up (OpenGL); the world is z up. Intrinsics stand once for all or in each frame: `fl_x`,
+`fl_y`, or the angle of view `camera_angle_x`; `cx`, `cy`; `w`, `h`; a lens `k1 k2 k3 k4 p1 p2`, a fisheye's where `camera_model` is OPENCV_FISHEYE.
 """
 
 import json
