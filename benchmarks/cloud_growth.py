@@ -141,9 +141,11 @@ def table(name: str, xyz: np.ndarray, ways: list[str], seeds: int) -> dict[str, 
             seconds = time.process_time() - began
             trees.setdefault(way, tree)
             there, back, triangles = distances(xyz, tree)
-            rows.append((there.mean(), np.quantile(there, 0.95), there.mean() / height, (there < 0.015 * height).mean(), back.mean(), tree.length.sum(), windings(tree, height), triangles, seconds))
+            near = (there < 0.015 * height).mean()
+            rows.append((there.mean(), np.quantile(there, 0.95), there.mean() / height, near, back.mean(), tree.length.sum(), windings(tree, height), triangles, seconds))
         mean, most, share, within, back, length, winds, triangles, seconds = np.mean(rows, axis=0)
-        print(f"  {way:22}mean {mean:.4f}  95 % {most:.3f}   {share:6.2%}   {within:6.1%}          {back:.4f}               {length:8.1f}   {winds:.3f}   {triangles:9,.0f}  {seconds:6.1f}", flush=True)
+        there = f"mean {mean:.4f}  95 % {most:.3f}   {share:6.2%}   {within:6.1%}"
+        print(f"  {way:22}{there}          {back:.4f}               {length:8.1f}   {winds:.3f}   {triangles:9,.0f}  {seconds:6.1f}", flush=True)
     return trees
 
 

@@ -10,6 +10,7 @@ from sketchtree.clouds.growing.heading import ALPHA, BETA, decided, headed, opti
 from sketchtree.clouds.growing.hermite import curve, smoothed
 from sketchtree.clouds.growing.logistic import Constant, Logistic, growth_units, length_at
 from sketchtree.clouds.growing.metamer import Buds, branched, carried, rolled, seeds
+from sketchtree.clouds.growing.patience import Patience
 from sketchtree.clouds.growing.perception import Detour, perceived, taken
 from sketchtree.clouds.growing.rules import Seen, one_each, shoots
 from sketchtree.clouds.growing.species import species
@@ -180,6 +181,41 @@ def test_of_buds_that_would_grow_to_the_same_place_one_does():
     buds, left = one_each(np.arange(3), seen, place, 0.5)
     assert list(buds) == [1, 2]
     assert list(left.bud) == [0, 0, 1]
+
+
+# patience
+
+
+def lost(patience, cycle=50):
+    """All that buds try, one after the other, as long as none grows: (internodes that they look, τ)."""
+    tried = [(patience.look(cycle), patience.detour)]
+    while patience.lost(cycle):
+        tried.append((patience.look(cycle), patience.detour))
+    return tried
+
+
+def test_buds_that_see_nothing_look_farther_then_round_more_and_at_last_over_gaps():
+    tried = lost(Patience(Constant(4.0), Growing()))
+    assert tried[:5] == [(4.0, 1.15), (6.0, 1.15), (9.0, 1.15), (12.0, 1.15), (4.0, 1.3)]
+    assert [detour for _, detour in tried] == sorted(detour for _, detour in tried)
+    assert tried[-1] == (60.0, np.inf)
+
+
+def test_plain_growth_ends_where_no_bud_sees_a_point():
+    assert lost(Patience(Constant(5.0), plain(5.0))) == [(5.0, np.inf)]
+
+
+def test_as_soon_as_a_bud_grows_all_look_as_far_as_before():
+    patience = Patience(Constant(4.0), Growing())
+    patience.lost(50)
+    patience.grew()
+    assert patience.look(50) == 4.0
+
+
+def test_while_buds_will_look_farther_anyhow_nothing_is_given_up():
+    patience = Patience(Logistic(200.0), Growing())
+    assert patience.lost(3)
+    assert (patience.look(3), patience.detour) == (4.0, 1.15)
 
 
 # collapse and Hermite

@@ -12,9 +12,10 @@ from jaxtyping import Float, Int
 from scipy.spatial import cKDTree
 
 from sketchtree.axes import NULL
-from sketchtree.clouds.growing.logistic import MOST, Influence
+from sketchtree.clouds.growing.logistic import Influence
 from sketchtree.clouds.growing.markers import Markers
 from sketchtree.clouds.growing.metamer import Buds
+from sketchtree.clouds.growing.patience import Patience
 from sketchtree.clouds.growing.perception import Detour, perceived, taken, workers
 from sketchtree.clouds.growing.rules import one_each, pairs, shoots
 from sketchtree.clouds.growing.shedding import buried
@@ -28,11 +29,6 @@ _LOOKS, _TAKES = 5.0, 1.3  # radii of thick wood that its bud looks at least, an
 _BARK = 1.3  # radii within which points are bark
 _TIDIES, _HOPES = 4, 12  # cycles between two looks for what can't be, and for buds that will never grow
 _CYCLES = 1000
-_DETOURS = (1.15, 1.3, 1.5, 2.0, 3.0, np.inf)  # τ, one after the other
-_WIDER, _WIDEST = 1.5, 60.0  # how much farther buds look in each cycle in which none grew, and how many internodes at most
-_APART = 1.0  # kill distances between what buds grow for in one cycle
-_LEAST = 2  # points that a bud grows for, as long as others have them
-_LAST = 2.0  # τ from which one is enough
 
 
 @dataclass(frozen=True, eq=False)
@@ -58,40 +54,30 @@ def colonise(
     """Wood grown on until no bud sees a point. `root`: radius at the bases of `wood`, anything elsewhere; `word`: of a key (`keys.draw_key`)."""
     points, alive, begun = cKDTree(markers.xyz), np.ones(len(markers.xyz), bool), len(wood)
     taper = float(buds.thick.max(initial=0.0)) / max(float(np.ptp(markers.xyz[:, 1])), 1e-9)
-    l, wider, cycle, last, tau = species.internode, 1.0, 0, 0, 0 if wanted.direct else len(_DETOURS) - 1  # noqa: E741 (the paper's letter)
+    l, cycle, last, patience = species.internode, 0, 0, Patience(influence, wanted)  # noqa: E741 (the paper's letter)
     while cycle < _CYCLES and len(buds) and alive.any():
         pulse()
-        units = influence(cycle)
-        widest = _WIDEST if _DETOURS[tau] == np.inf else MOST
-        look = min(units * wider, max(widest, units)) * l
-        rows = np.flatnonzero(alive)
-        holder = perceived(markers.xyz[rows], buds.place, buds.heading, np.maximum(look, _LOOKS * buds.thick), wanted.theta, Detour(buds.length, wood.place[buds.root], _DETOURS[tau]))
-        grow, seen = pairs(holder, markers.xyz[rows], markers.weight[rows], _LEAST if not wanted.direct or _DETOURS[tau] < _LAST else 1)
+        look, known, rows = patience.look(cycle) * l, wanted.kill * influence(cycle) * l, np.flatnonzero(alive)
+        detour = Detour(buds.length, wood.place[buds.root], patience.detour)
+        holder = perceived(markers.xyz[rows], buds.place, buds.heading, np.maximum(look, _LOOKS * buds.thick), wanted.theta, detour)
+        grow, seen = pairs(holder, markers.xyz[rows], markers.weight[rows], patience.least)
         cycle += 1
         if not len(grow):
-            if influence.falling(cycle):
-                if wanted.persists and look < widest * l:
-                    wider *= _WIDER
-                elif tau < len(_DETOURS) - 1:
-                    tau, wider = tau + 1, 1.0
-                else:
-                    break
+            if not patience.lost(cycle - 1):
+                break
             continue
         if wanted.dominant:
-            grow, seen = one_each(grow, seen, buds.place, max(_APART * wanted.kill * units * l, 0.5 * look if wider > 1.0 else 0.0))
-        wider = 1.0
-        new = shoots(buds.select(grow), seen, max(units, look / l), len(wood), species, wanted, taper, word)
-        kill = np.maximum(wanted.kill * units * l, _TAKES * new.thick)
-        alive[taken(points, new.place, kill)] = False
-        waits = np.ones(len(buds), bool)
-        waits[grow] = False
+            grow, seen = one_each(grow, seen, buds.place, max(known, 0.5 * look if patience.wider > 1.0 else 0.0))
+        patience.grew()
+        new = shoots(buds.select(grow), seen, look / l, len(wood), species, wanted, taper, word)
+        alive[taken(points, new.place, np.maximum(known, _TAKES * new.thick))] = False
+        buds = Buds.joined([buds.select(~np.isin(np.arange(len(buds)), grow)), new.buds])
         wood, last = wood.with_nodes(new.parent, new.place, cycle), cycle
-        buds = Buds.joined([buds.select(waits), new.buds])
         if cycle % _TIDIES == 0:
-            alive[_in_wood(points, wood, root, species.gamma, wanted.kill * units * l)] = False
+            alive[_in_wood(points, wood, root, species.gamma, known)] = False
             wood, buds = _tidied(wood, buds, root, species, wanted, cycle, begun)
-            if influence.falling(cycle) and cycle % _HOPES == 0:
-                buds = _hopeful(buds, markers.xyz[alive], (_WIDEST if wanted.persists else MOST) * l)
+        if cycle % _HOPES == 0 and influence.falling(cycle):
+            buds = _hopeful(buds, markers.xyz[alive], patience.farthest * l)
     if wanted.sheds:
         wood, _ = _tidied(wood, buds, root, species, wanted, cycle + _TIDIES, begun)
     return Colonised(wood, last, int(alive.sum()))
