@@ -49,10 +49,10 @@ def structure_from_motion(
     with tempfile.TemporaryDirectory(prefix="sketchtree-views-") as place:
         place = Path(place)
         unsharp = blurred(files)
-        shrunk, groups = _copied(files, place / "photos", longest, shared(part, 0.0, 0.1), pulse)
+        shrunk, groups, silent = _copied(files, place / "photos", longest, shared(part, 0.0, 0.1), pulse)
         _matched(colmap, place, groups, seed, part, pulse)
         poses = _mapped(colmap, place, len(files), seed, shared(part, 0.5, 1.0), pulse)
-    return _found(poses, files, shrunk, unsharp)
+    return _found(poses, files, shrunk, unsharp, silent)
 
 
 def _colmap():
@@ -64,10 +64,10 @@ def _colmap():
     return pycolmap
 
 
-def _copied(files: list[Path], place: Path, longest: int, part, pulse: Pulse) -> tuple[dict[str, float], list[list[str]]]:
-    """Upright copies of at most so many pixels a side; (by how much each is smaller, the copies that share a camera)."""
+def _copied(files: list[Path], place: Path, longest: int, part, pulse: Pulse) -> tuple[dict[str, float], list[list[str]], int]:
+    """Upright copies of at most so many pixels a side; (by how much each is smaller, the copies that share a camera, how many tell no focal length)."""
     place.mkdir()
-    by, groups = {}, {}
+    by, groups, silent = {}, {}, 0
     for k, file in enumerate(files):
         pulse()
         stored = read_photo(file)
@@ -81,8 +81,9 @@ def _copied(files: list[Path], place: Path, longest: int, part, pulse: Pulse) ->
         picture.save(place / copy, quality=95, subsampling=0, exif=exif)
         own = (size, told.get(_MODEL), *(told.get_ifd(_PHOTO).get(tag) for tag in _FOCAL))
         groups.setdefault(own, []).append(copy)
+        silent += not any(own[2:])
         part((k + 1) / len(files))
-    return by, list(groups.values())
+    return by, list(groups.values()), silent
 
 
 def _focal_only(told: Image.Exif) -> Image.Exif:
@@ -135,7 +136,7 @@ def _mapped(colmap, place: Path, count: int, seed: int, part, pulse: Pulse) -> P
         raise ViewsError(f"None of the {count} photos could be placed: the cameras found make no sense.", remedy=ADVICE) from None
 
 
-def _found(poses: Poses, files: list[Path], shrunk: dict[str, float], unsharp: list[str]) -> Found:
+def _found(poses: Poses, files: list[Path], shrunk: dict[str, float], unsharp: list[str], silent: int) -> Found:
     photos = []
     for photo in poses.photos:
         name = photo.name.removesuffix(".jpg")
@@ -149,6 +150,8 @@ def _found(poses: Poses, files: list[Path], shrunk: dict[str, float], unsharp: l
             remedy=f"Leave out photos of other things. {ADVICE}",
         )
     notices = [f"{len(photos)} of {len(files)} photos were placed, {len(poses.points):,} points, {poses.error:.2f} px."]
+    if silent:
+        notices.append(f"{silent} photos don't tell their focal length (EXIF); it was found with the rest.")
     if left_out:
         notices.append(f"Left out, since too little in them was found again: {', '.join(left_out)}.")
     if unsharp:

@@ -119,3 +119,7 @@ def test_a_photo_of_something_else_is_left_out_and_that_is_said(placed):
     assert placed[1].left_out == ("stranger.png",)
     assert "Left out, since too little in them was found again: stranger.png." in placed[1].notices
     assert placed[1].notices[0].startswith("6 of 7 photos were placed, ")
+
+
+def test_photos_without_exif_are_told(placed):
+    assert "7 photos don't tell their focal length (EXIF); it was found with the rest." in placed[1].notices
