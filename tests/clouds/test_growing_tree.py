@@ -242,6 +242,11 @@ def test_a_crown_of_leaves_hides_its_inside_and_a_bare_tree_does_not(points):
     assert crown_of(lollipop())[:, 1].min() > 1.8
 
 
+def test_what_encloses_nothing_has_no_inside():
+    flat = np.c_[np.random.default_rng(0).uniform(size=(200, 2)), np.zeros(200)]
+    assert not unseen_inside(flat)
+
+
 def inner(tree) -> float:
     """Metres of wood well within the ball."""
     return tree.length[np.linalg.norm(tree.tip - [0, 3, 0], axis=1) < 0.7].sum()

@@ -34,9 +34,12 @@ def crown_of(xyz: Float[np.ndarray, "point 3"]) -> Float[np.ndarray, "kept 3"]:
 
 
 def unseen_inside(xyz: Float[np.ndarray, "point 3"]) -> bool:
-    """Whether the crown's inside has hardly a point."""
+    """Whether the crown's inside has hardly a point. False where points enclose nothing."""
     crown = crown_of(xyz)
-    hull = _hull(crown)
+    try:
+        hull = _hull(crown)
+    except SketchError:
+        return False
     middle = hull.points.mean(axis=0)
     return float((hull.find_simplex(middle + 2.0 * (crown - middle)) >= 0).mean()) < HOLLOW
 
