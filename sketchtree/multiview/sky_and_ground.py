@@ -3,9 +3,11 @@
 Sky, of a photo: what is reached from its upper border over pixels that are even (brightness changes by less than `EVEN` to the next) and either bright (above
 0.75 in all channels) or blue (b > r + 0.03, b ≥ g, above 0.35); and within `MIXED` pixels of it what has such a colour, though it is not even, and within
 `HOLES` of the picture what has such a colour and that of the nearest sky (to 0.08 in every channel), since sky shines past and between twigs. Behind, of a
-cloud: what is no nearer to the place looked at than the nearest camera is. Ground, of a cloud with y up: the level plane (tilted by 15° at most) that most
-points of the lower third lie on, if at least a tenth of all do and they reach as far across as 0.4 of the cloud's width, both ways (the outermost 2 % left
-out); all points under it, or less than 1.2 % of the cloud's height above it, are ground. A trunk's foot goes with it.
+cloud: what is no nearer to the place looked at than the nearest camera is.
+
+Ground, of a cloud with y up: the level plane (tilted by 15° at most) that most points of the lower third lie on, if at least 3 % of all do, they reach as far across
+as 0.4 of the cloud's width, both ways (the outermost 2 % left out), and hardly anything lies under it (no trunk: farther below than 2.4 % of the height, less than a
+twentieth of the points on it); all points under it, or less than 1.2 % of the height above it, are ground. A trunk's foot goes with it.
 """
 
 import numpy as np
@@ -21,8 +23,8 @@ EVEN = 0.04
 MIXED, HOLES = 3, 0.15
 LEVEL = np.cos(np.radians(15.0))
 ABOVE = 0.012  # of the cloud's height
-SHARE, ACROSS = 0.1, 0.4
-_TRIES = 300
+SHARE, ACROSS, UNDER = 0.03, 0.4, 0.05
+_TRIES, _COUNTED = 500, 20_000
 
 
 def sky(rgb: Float[np.ndarray, "row column 3"]) -> Bool[np.ndarray, "row column"]:
@@ -48,27 +50,38 @@ def within(xyz: Float[np.ndarray, "point 3"], cameras: list[Camera]) -> Bool[np.
 def ground(cloud: PointCloud, *, key: Key) -> Bool[np.ndarray, " point"]:
     """Which points of a cloud with y up are ground."""
     xyz, height = cloud.xyz, max(cloud.height, 1e-12)
-    generator = numpy_generator(stage_key(key, "ground"))
-    low = np.flatnonzero(xyz[:, 1] < xyz[:, 1].min() + height / 3)
-    best, plane = 0, None
     near = ABOVE / 2 * height
+    plane = _level_plane(xyz, height, near, numpy_generator(stage_key(key, "ground")))
+    if plane is None:
+        return np.zeros(len(xyz), bool)
+    above = xyz @ plane[0] - plane[1]
+    flat = xyz[np.abs(above) < near][:, [0, 2]]
+    few = len(flat) < SHARE * len(xyz) or (_width(flat) < ACROSS * _width(xyz[:, [0, 2]])).any()
+    if few or (above < -2 * ABOVE * height).sum() > UNDER * len(flat):
+        return np.zeros(len(xyz), bool)
+    return above < ABOVE * height
+
+
+def _level_plane(xyz, height: float, near: float, generator: np.random.Generator) -> tuple[np.ndarray, float] | None:
+    """(upward normal, offset) of the level plane with most points of the lower third: through three of about one height, the best of many."""
+    low = xyz[xyz[:, 1] < xyz[:, 1].min() + height / 3]
+    if len(low) > _COUNTED:
+        low = low[generator.choice(len(low), _COUNTED, replace=False)]
+    low = low[np.argsort(low[:, 1], kind="stable")]
+    first, last = (np.searchsorted(low[:, 1], low[:, 1] + by * height / 10) for by in (-1, 1))
+    best, plane = 0, None
     for _ in range(_TRIES if len(low) >= 3 else 0):
-        a, b, c = xyz[generator.choice(low, 3, replace=False)]
+        row = int(generator.integers(len(low)))
+        a, (b, c) = low[row], low[generator.integers(first[row], last[row], 2)]
         normal = np.cross(b - a, c - a)
         length = np.linalg.norm(normal)
         if length < 1e-12 or abs(normal[1]) / length < LEVEL:
             continue
         normal = normal * np.sign(normal[1]) / length
-        count = int((np.abs((xyz[low] - a) @ normal) < near).sum())
+        count = int((np.abs((low - a) @ normal) < near).sum())
         if count > best:
-            best, plane = count, (normal, normal @ a)
-    if plane is None or best < SHARE * len(xyz):
-        return np.zeros(len(xyz), bool)
-    above = xyz @ plane[0] - plane[1]
-    flat = xyz[np.abs(above) < near][:, [0, 2]]
-    if (_width(flat) < ACROSS * _width(xyz[:, [0, 2]])).any():
-        return np.zeros(len(xyz), bool)
-    return above < ABOVE * height
+            best, plane = count, (normal, float(normal @ a))
+    return plane
 
 
 def _width(xz: Float[np.ndarray, "point 2"]) -> Float[np.ndarray, " 2"]:

@@ -54,6 +54,16 @@ def test_a_tree_without_ground_loses_nothing():
     assert not ground(PointCloud(TREE), key=root_key(0)).any()
 
 
+def test_a_low_tier_of_branches_stays():
+    tier = np.column_stack([CHANCE.uniform(-1, 1, 900), CHANCE.normal(0.6, 0.006, 900), CHANCE.uniform(-1, 1, 900)])
+    assert not ground(PointCloud(np.concatenate([TREE, tier])), key=root_key(0)).any()
+
+
+def test_sparse_ground_under_a_dense_tree_goes():
+    dense = np.repeat(TREE, 6, axis=0) + CHANCE.normal(0, 0.02, (4800, 3))
+    assert ground(PointCloud(np.concatenate([dense, MEADOW[::3]])), key=root_key(0))[4800:].mean() > 0.95
+
+
 def test_a_pot_that_is_no_wider_than_a_part_of_the_plant_stays():
     crown = np.column_stack([CHANCE.uniform(-1, 1, 900), CHANCE.uniform(2, 3, 900), CHANCE.uniform(-1, 1, 900)])
     pot = MEADOW * [0.1, 1, 0.1]
