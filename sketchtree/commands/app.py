@@ -9,8 +9,6 @@ from collections.abc import Sequence
 
 import click
 
-from sketchtree.commands.planned import COMMANDS as PLANNED
-from sketchtree.commands.planned import planned_command
 from sketchtree.errors import SketchTreeError
 from sketchtree.version import __version__
 
@@ -20,6 +18,7 @@ COMMANDS = {
     "photo": "One photo and a few strokes in, a complete textured 3D tree out.",
     "grow": "A picture with scribbles, a drawing, or any tree in, a tree that grows out.",
     "cloud": "A point cloud in, the tree that stands in it out.",
+    "views": "Many photos of one plant in, the plant out.",
     "forest": "Several sketches in, a forest out: the trees compete for space and light.",
     "batch": "Many drawings in, a tree and a report of each out.",
     "infer": "Only the drawn branches, in 3D.",
@@ -38,15 +37,11 @@ class _Program(click.Group):
         return list(COMMANDS)
 
     def get_command(self, context, name):
-        if name in COMMANDS:
-            return getattr(importlib.import_module(f"sketchtree.commands.{name}"), name)
-        return planned_command(name) if name in PLANNED else None
+        return getattr(importlib.import_module(f"sketchtree.commands.{name}"), name) if name in COMMANDS else None
 
     def format_commands(self, context, formatter):
         with formatter.section("Commands"):
             formatter.write_dl(list(COMMANDS.items()))
-        with formatter.section("Planned (docs/roadmap.md)"):
-            formatter.write_text(", ".join(PLANNED))
 
 
 @click.group(cls=_Program, context_settings={"help_option_names": ["-h", "--help"]})

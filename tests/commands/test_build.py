@@ -160,12 +160,6 @@ def test_the_sketch_itself_is_never_overwritten(tmp_path, capfd):
     assert "would overwrite the sketch itself" in capfd.readouterr().err
 
 
-@pytest.mark.parametrize("command", ["views"])
-def test_a_planned_command_says_where_it_is_described(command, capfd):
-    assert run([command, "anything", "--at", "all"]) == 2
-    assert "docs/roadmap.md" in capfd.readouterr().err
-
-
 def test_the_installed_program_answers_version_and_help():
     for argument in ("--version", "--help"):
         done = subprocess.run([sys.executable, "-m", "sketchtree", argument], capture_output=True, text=True)

@@ -1,0 +1,62 @@
+"""`sketchtree views` from the shell."""
+
+import json
+import sys
+from pathlib import Path
+
+import jsonschema
+import numpy as np
+import pytest
+from PIL import Image
+
+sys.path.insert(0, str(Path(__file__).parents[1] / "multiview"))
+import written_poses
+from ring import camera_at, rendered
+
+from sketchtree.clouds.files.read_cloud import read_cloud
+from sketchtree.commands.app import run
+
+
+@pytest.fixture(scope="module")
+def masks(tmp_path_factory):
+    """Silhouettes of a trunk and a limb from thirteen sides, and where they were seen from."""
+    place = tmp_path_factory.mktemp("views")
+    cameras = [camera_at(27.7 * k, size=(120, 120)) for k in range(13)]
+    (place / "masks").mkdir()
+    for k, camera in enumerate(cameras, 1):
+        there = rendered(camera)[1] > 0
+        Image.fromarray(np.repeat(np.uint8(255 * there)[..., None], 3, axis=2)).save(place / "masks" / f"photo {k}.png")
+    written_poses.transforms(place / "transforms.json", cameras)
+    return place
+
+
+def test_photos_become_a_tree_with_their_points_and_a_report(masks, tmp_path):
+    out, cloud, report = tmp_path / "t.glb", tmp_path / "c.ply", tmp_path / "r.json"
+    asked = ["views", str(masks / "masks"), "--poses", str(masks / "transforms.json"), "-o", str(out), "--cloud", str(cloud), "--report", str(report), "--height", "5", "--quiet"]
+    assert run(asked) == 0
+    told = json.loads(report.read_text(encoding="utf-8"))
+    jsonschema.validate(told, json.loads((Path(__file__).parents[2] / "sketchtree" / "report.schema.json").read_text(encoding="utf-8")))
+    assert told["command"] == "views" and len(told["views"]["placed"]) == 13 and "carve" in told["views"]["seconds"]
+    assert read_cloud(cloud).height == pytest.approx(5.0, abs=0.01)
+    assert told["height"] == pytest.approx(5.0, abs=0.4)
+    assert out.stat().st_size > 5_000
+
+
+@pytest.mark.parametrize(
+    ("more", "message"),
+    [
+        (["--poses", "nowhere.json"], "nowhere.json"),
+        (["--height", "-1"], "A height of -1 m is none. Give metres above 0, or leave it out."),
+        (["--cloud", "points.xyz"], "points.xyz"),
+    ],
+)
+def test_bad_choices_are_one_paragraph(masks, tmp_path, capfd, more, message):
+    assert run(["views", str(masks / "masks"), "-o", str(tmp_path / "t.glb"), *more]) == 2
+    told = capfd.readouterr().err
+    assert message in told and "Traceback" not in told
+    assert not (tmp_path / "t.glb").exists()
+
+
+def test_a_folder_that_is_none_is_named(tmp_path, capfd):
+    assert run(["views", str(tmp_path / "nothing"), "-o", str(tmp_path / "t.glb")]) == 2
+    assert "nothing" in capfd.readouterr().err
