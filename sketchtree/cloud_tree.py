@@ -20,7 +20,6 @@ from sketchtree.clouds.growing.filled import filled
 from sketchtree.clouds.growing.grown import grown
 from sketchtree.clouds.growing.hull_fill import unseen_inside
 from sketchtree.clouds.growing.species import Species, species
-from sketchtree.clouds.growing.wanted import Growing
 from sketchtree.clouds.prepared.prepare import POINTS, Prepared, prepare
 from sketchtree.clouds.standing.feet import Feet, feet
 from sketchtree.clouds.standing.stems import breast_height
@@ -135,7 +134,7 @@ def _whole(found: _Wood, prepared: Prepared, wanted: CloudOptions, key) -> tuple
     xyz = prepared.cloud.xyz
     if wanted.inside is False or (wanted.inside is None and not unseen_inside(xyz)):
         return tree, len(tree)
-    return filled(tree, xyz, found.species, key=stage_key(key, "inside"), wanted=Growing()), len(tree)
+    return filled(tree, xyz, found.species, key=stage_key(key, "inside")), len(tree)
 
 
 def _refined(tree: TreeSkeleton) -> TreeSkeleton:

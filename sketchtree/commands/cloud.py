@@ -18,13 +18,7 @@ _FILE = click.Path(path_type=Path)
 @click.option("--tree", type=click.IntRange(1), metavar="K", help="Which of several trees, 1 the largest.")
 @click.option("--unit", type=float, default=1.0, show_default=True, metavar="METRES", help="What 1 in the file means: 0.001 for millimetres.")
 @click.option("--points", type=int, default=300_000, show_default=True, metavar="N", help="Points of the tree at most; the rest is thinned, spread evenly.")
-@click.option("--method", type=click.Choice(["traced", "grown"]), default="traced", show_default=True, help="Wood where the points are; or a tree of the species, grown toward them (Guo et al. 2018).")
-@click.option("--species", default="auto", show_default=True, metavar="auto|NAME", help="How the tree grows where it was not seen, or all of it if it is `grown`.")
-@click.option("--roots", type=click.IntRange(1), metavar="K", help="How many stems come out of the ground (default: as many as are found).")
-@click.option("--inside/--no-inside", default=None, help="Fill the inside of a crown (default: where the points leave it out).")
-@click.option("--template", metavar="NAME", help="Exemplar whose leaves and bark it wears (default: bare, unless `--leaf` names some).")
-@options.wear
-@options.lod
+@options.standing
 @options.common
 def cloud(points_file: Path, output: Path, seed: int, quiet: bool, json_log: bool, report: Path | None, db: Path | None, **wanted) -> None:
     """Make the tree that stands in a point cloud.

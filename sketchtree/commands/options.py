@@ -46,6 +46,13 @@ _TREE = (
     click.option("--wood", type=click.Choice(["one-piece", "tubes"]), help="Limbs joined into one closed surface, or a light tube each (default: one-piece up to 2,000 limbs)."),
     click.option("--solid", is_flag=True, help="Unite the wood into one solid for printing (needs sketchtree[solid])."),
 )  # fmt: skip
+_POINTS = (
+    click.option("--method", type=click.Choice(["traced", "grown"]), default="traced", show_default=True, help="Wood where the points are; or a tree of the species, grown toward them (Guo et al. 2018)."),
+    click.option("--species", default="auto", show_default=True, metavar="auto|NAME", help="How the plant grows where it was not seen, or all of it if it is `grown`."),
+    click.option("--roots", type=click.IntRange(1), metavar="K", help="How many stems come out of the ground (default: as many as are found)."),
+    click.option("--inside/--no-inside", default=None, help="Fill the inside of a crown (default: where the points leave it out)."),
+    click.option("--template", metavar="NAME", help="Exemplar whose leaves and bark it wears (default: bare, unless `--leaf` names some)."),
+)  # fmt: skip
 _BESIDE = (
     click.option("--skeleton", type=click.Path(path_type=Path), metavar="T.swc", help="Write the complete skeleton too."),
     click.option("--preview", type=click.Path(path_type=Path), metavar="P.png", help="Write a picture of the result too."),
@@ -71,9 +78,10 @@ def dress(command):
     return _apply((*chosen, *_BESIDE), command)
 
 
-def wear(command):
-    """What a tree wears, how it is pruned and what is written beside it, of commands all of whose wood was seen."""
-    return _apply((*(option for option in _TREE if _named(option, "prune", "leaf", "season", "bark", "wood", "solid")), *_BESIDE), command)
+def standing(command):
+    """How a plant is made of points, what it wears, and what is written beside it, of commands that begin with points."""
+    worn = (option for option in _TREE if _named(option, "prune", "leaf", "season", "bark", "wood", "solid"))
+    return _apply((*_POINTS, *worn, *_BESIDE), lod(command))
 
 
 def leaves(command):

@@ -20,13 +20,7 @@ _STAGES = ("read", "infer", "propagate", "foliage", "mesh", "export")
 @click.option("--height", type=float, metavar="METRES", help="How high the plant is: photos don't know (default: as the poses say, else 10).")
 @click.option("--cloud", "cloud_file", type=_FILE, metavar="C.ply", help="Write the points too.")
 @click.option("--keep-ground", is_flag=True, help="Don't look for ground among the points.")
-@click.option("--method", type=click.Choice(["traced", "grown"]), default="traced", show_default=True, help="Wood where the points are; or a tree of the species, grown toward them (Guo et al. 2018).")
-@click.option("--species", default="auto", show_default=True, metavar="auto|NAME", help="How the plant grows where it was not seen, or all of it if it is `grown`.")
-@click.option("--roots", type=click.IntRange(1), metavar="K", help="How many stems come out of the ground (default: as many as are found).")
-@click.option("--inside/--no-inside", default=None, help="Fill the inside of a crown (default: where the points leave it out).")
-@click.option("--template", metavar="NAME", help="Exemplar whose leaves and bark it wears (default: bare, unless `--leaf` names some).")
-@options.wear
-@options.lod
+@options.standing
 @options.common
 def views(folder: Path, output: Path, seed: int, quiet: bool, json_log: bool, report: Path | None, db: Path | None, **wanted) -> None:
     """Make the plant that many photos show (Guo et al. 2018).

@@ -223,7 +223,6 @@ class Crew:
         self._tracer.cancel()
         self._grower.stop()
         self._trunker.stop()
-        self._trunker.stop()
 
     async def grown(self, document: Document, name: str, options: dict, tell: Tell = untold) -> dict[str, bytes]:
         """As `Engine.grown`."""

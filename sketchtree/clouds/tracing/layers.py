@@ -23,7 +23,6 @@ class Nodes:
 
     parent: Int[np.ndarray, " node"]
     centre: Float[np.ndarray, "node 3"]  # mean of its points, metres
-    foot: Int[np.ndarray, " node"]  # which foot it grows from
     of_point: Int[np.ndarray, " point"]  # the node that each point belongs to
     size: Int[np.ndarray, " node"]  # points
     width: Float[np.ndarray, " node"]  # of its layer, metres
@@ -46,9 +45,7 @@ def layers(xyz: Float[np.ndarray, "point 3"], graph: Joined, way: Ways, width: F
     of_point = place[piece]
     size = np.bincount(of_point, minlength=count)
     centre = np.stack([np.bincount(of_point, axis, count) / size for axis in xyz.T], axis=1)
-    foot = np.zeros(count, np.int64)
-    foot[of_point] = way.foot
-    return Nodes(parent, centre, foot, of_point, size, np.bincount(of_point, width, count) / size, xyz[_last(of_point, way.length)])
+    return Nodes(parent, centre, of_point, size, np.bincount(of_point, width, count) / size, xyz[_last(of_point, way.length)])
 
 
 def _parents(before, piece, count: int):
