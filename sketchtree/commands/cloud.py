@@ -26,35 +26,18 @@ def cloud(points_file: Path, output: Path, seed: int, quiet: bool, json_log: boo
     POINTS is a scan of one plant, or of several (`--tree`): .ply .las .laz .xyz .txt .csv .npz .npy, with its ground or without.
     """
     began = time.perf_counter()
-    from sketchtree import options as choices
     from sketchtree.commands import writing
-    from sketchtree.export.files import MESHES, SKELETONS, check_extension
 
-    check_extension(output, MESHES + SKELETONS + writing.PICTURES)
-    writing.check_outputs(points_file, output, report, wanted["skeleton"], wanted["preview"])
-    from sketchtree import pipeline
-    from sketchtree.cloud_report import cloud_report
-    from sketchtree.cloud_tree import CloudOptions, cloud_to_tree
-    from sketchtree.growth_tree import check_tree
-    from sketchtree.keys import root_key
-    from sketchtree.templates.store.database import Database
+    writing.check_outputs(points_file, output, report, wanted["skeleton"], wanted["preview"], source="the cloud itself")
+    from sketchtree.commands import of_points
+    from sketchtree.pipeline import STAGES
     from sketchtree.watch import Watch
 
     imported = time.perf_counter() - began
-    which = wanted.pop("tree")
-    tree, files = writing.split_options(wanted, choices.TreeOptions, choices.FileOptions)
-    how = CloudOptions(tree=which, **{name: wanted[name] for name in ("up", "unit", "points", "method", "species", "roots", "inside")})
-    progress = Progress(pipeline.STAGES, quiet=quiet, json_log=json_log)
+    progress = Progress(STAGES, quiet=quiet, json_log=json_log)
     watch = Watch(progress, progress.part)
     with progress.running():
-        templates = Database.open(db)
-        check_tree(tree, templates)
-        if wanted["template"] is not None:
-            templates.exemplar(wanted["template"])
-        made = cloud_to_tree(points_file, templates, key=root_key(seed), wanted=how, tree=tree, template=wanted["template"], watch=watch)
-        run = writing.Run("cloud", seed, imported, began, watch, choices.options_as_dict(how, tree, files) | {"template": wanted["template"]})
-        with watch("export"):
-            unseen = writing.write_tree(made.model, output, run, skeleton=wanted["skeleton"], preview=wanted["preview"], files=files, sketches=(points_file,))
-        record = cloud_report(made, **writing.of_run(run), warnings=unseen)
-        writing.write_report(report, record)
+        asked = of_points.asked(wanted, output=output, report=report, seed=seed, db=db, up=wanted["up"], tree=wanted["tree"], unit=wanted["unit"], points=wanted["points"])
+        tree = of_points.made(points_file, asked, watch)
+        record = of_points.written(tree, asked, "cloud", watch, began=began, imported=imported, given=(points_file,))
     writing.conclude(record, output, progress)

@@ -28,49 +28,40 @@ def views(folder: Path, output: Path, seed: int, quiet: bool, json_log: bool, re
     FOLDER holds 4 photos or more, taken all round it; needs sketchtree[multiview].
     """
     began = time.perf_counter()
-    from sketchtree import options as choices
     from sketchtree.commands import writing
-    from sketchtree.export.files import MESHES, SKELETONS, check_extension
 
-    check_extension(output, MESHES + SKELETONS + writing.PICTURES)
-    writing.check_outputs(folder, output, report, wanted["skeleton"], wanted["preview"], more={"--cloud": wanted["cloud_file"]})
+    given = _given(folder, wanted["poses"])
+    writing.check_outputs(given, output, report, wanted["skeleton"], wanted["preview"], more={"--cloud": wanted["cloud_file"]}, source="what the plant is made of")
     if wanted["cloud_file"] is not None:
-        check_extension(wanted["cloud_file"], (".ply",))
-    from sketchtree.cloud_report import cloud_report
-    from sketchtree.cloud_tree import CloudOptions, cloud_to_tree
+        writing.check_extension(wanted["cloud_file"], (".ply",))
     from sketchtree.clouds.files.write_cloud import write_cloud
-    from sketchtree.growth_tree import check_tree
+    from sketchtree.commands import of_points
     from sketchtree.keys import root_key, stage_key
     from sketchtree.multiview.photos_cloud import photos_cloud
-    from sketchtree.templates.store.database import Database
     from sketchtree.watch import Watch
 
     imported = time.perf_counter() - began
-    tree, files = writing.split_options(wanted, choices.TreeOptions, choices.FileOptions)
-    how = CloudOptions(up="y", **{name: wanted[name] for name in ("method", "species", "roots", "inside")})
     progress = Progress(_STAGES, quiet=quiet, json_log=json_log)
     watch = Watch(progress, progress.part)
     with progress.running():
-        templates = Database.open(db)
-        check_tree(tree, templates)
-        if wanted["template"] is not None:
-            templates.exemplar(wanted["template"])
-        key = root_key(seed)
+        asked = of_points.asked(wanted, output=output, report=report, seed=seed, db=db, up="y")
+        how = {name: wanted[name] for name in ("poses", "quality", "height", "keep_ground")}
         with watch("read"):
-            found = photos_cloud(
-                folder, key=stage_key(key, "photos"), poses=wanted["poses"], quality=wanted["quality"], height=wanted["height"], keep_ground=wanted["keep_ground"], watch=Watch(progress, progress.part)
-            )
+            found = photos_cloud(folder, key=stage_key(root_key(seed), "photos"), watch=Watch(progress, progress.part), **how)
             points, told = _sized(found)
-        made = cloud_to_tree(points, templates, key=key, wanted=how, tree=tree, template=wanted["template"], watch=watch)
-        asked = {name: wanted[name] for name in ("quality", "height", "keep_ground", "template")} | {"poses": None if wanted["poses"] is None else str(wanted["poses"])}
-        run = writing.Run("views", seed, imported, began, watch, choices.options_as_dict(how, tree, files) | asked)
-        with watch("export"):
-            if wanted["cloud_file"] is not None:
-                write_cloud(points, wanted["cloud_file"])
-            unseen = writing.write_tree(made.model, output, run, skeleton=wanted["skeleton"], preview=wanted["preview"], files=files)
-        record = cloud_report(made, **writing.of_run(run), warnings=(*found.notices, *told, *unseen)) | {"views": _told(found)}
-        writing.write_report(report, record)
+        tree = of_points.made(points, asked, watch)
+        record = of_points.written(
+            tree, asked, "views", watch, began=began, imported=imported, given=given, options=how | {"poses": None if how["poses"] is None else str(how["poses"])},
+            beside=lambda: None if wanted["cloud_file"] is None else write_cloud(points, wanted["cloud_file"]),
+            told=(*found.notices, *told), blocks={"views": _told(found)},
+        )  # fmt: skip
     writing.conclude(record, output, progress)
+
+
+def _given(folder: Path, poses: Path | None) -> tuple[Path, ...]:
+    """Every file that may be read: none of them is written over."""
+    inside = [file for place in (folder, folder / "images") if place.is_dir() for file in sorted(place.iterdir()) if file.is_file()]
+    return (folder, *inside, *([] if poses is None else [poses]))
 
 
 _HIGH = 10.0  # metres, where nothing says how large the plant is

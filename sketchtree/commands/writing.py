@@ -35,10 +35,10 @@ class Run:
 
 def check_outputs(
     sketch: Path | tuple[Path, ...], output: Path, report: Path | None = None, skeleton: Path | None = None, preview: Path | None = None,
-    *, posterior: Path | None = None, others: tuple[Path, ...] = (), more: dict[str, Path | None] | None = None, files=None, kinds: tuple[str, ...] = MESHES + SKELETONS + PICTURES,
+    *, posterior: Path | None = None, others: tuple[Path, ...] = (), more: dict[str, Path | None] | None = None, files=None, kinds: tuple[str, ...] = MESHES + SKELETONS + PICTURES, source: str = "the sketch itself",
 ) -> None:
-    """Refuse, before any work, an output that can't be written, and two that are one. `files` is a `FileOptions`: what `-o` becomes. Raises ExportError."""
-    taken = {path.resolve(): "the sketch itself" for path in ((sketch,) if isinstance(sketch, Path) else sketch)}
+    """Refuse, before any work, an output that can't be written, and two that are one. `files` is a `FileOptions`: what `-o` becomes; `source`: what it is made of. Raises ExportError."""
+    taken = {path.resolve(): source for path in ((sketch,) if isinstance(sketch, Path) else sketch)}
     wanted = (("-o", output, kinds), ("--report", report, None), ("--skeleton", skeleton, SKELETONS), ("--preview", preview, PICTURES),
               ("--posterior", posterior, POSTERIORS), *(("--alternatives", other, None) for other in others),
               *((option, path, None) for option, path in (more or {}).items()))  # fmt: skip

@@ -1,0 +1,64 @@
+"""What `cloud` and `views` do alike: what was asked of a tree that stands in points, and its files and report."""
+
+from collections.abc import Callable
+from dataclasses import dataclass
+from pathlib import Path
+
+from sketchtree.cloud_report import cloud_report
+from sketchtree.cloud_tree import CloudOptions, CloudTree, cloud_to_tree
+from sketchtree.commands import writing
+from sketchtree.growth_tree import check_tree
+from sketchtree.keys import root_key
+from sketchtree.options import FileOptions, TreeOptions, options_as_dict
+from sketchtree.templates.store.database import Database
+from sketchtree.watch import Watch
+
+_HOW = ("method", "species", "roots", "inside")
+
+
+@dataclass(frozen=True)
+class Asked:
+    """What was asked for, checked as far as it can be before any work."""
+
+    how: CloudOptions
+    tree: TreeOptions
+    files: FileOptions
+    template: str | None
+    templates: Database
+    seed: int
+    output: Path
+    skeleton: Path | None
+    preview: Path | None
+    report: Path | None
+
+
+def asked(wanted: dict, *, output: Path, report: Path | None, seed: int, db: Path | None, **how) -> Asked:
+    """What the command line said. `how`: options of the points that only one of the commands has. Raises OptionError and TemplateError for what there is not."""
+    tree, files = writing.split_options(wanted, TreeOptions, FileOptions)
+    writing.check_files(output, files)
+    points = CloudOptions(**{name: wanted[name] for name in _HOW}, **how)
+    templates = Database.open(db)
+    check_tree(tree, templates)
+    if wanted["template"] is not None:
+        templates.exemplar(wanted["template"])
+    return Asked(points, tree, files, wanted["template"], templates, seed, output, wanted["skeleton"], wanted["preview"], report)
+
+
+def made(points, wanted: Asked, watch: Watch) -> CloudTree:
+    """The tree that stands in a file of points, or in points."""
+    return cloud_to_tree(points, wanted.templates, key=root_key(wanted.seed), wanted=wanted.how, tree=wanted.tree, template=wanted.template, watch=watch)
+
+
+def written(
+    tree: CloudTree, wanted: Asked, command: str, watch: Watch, *, began: float, imported: float, given: tuple[Path, ...],
+    options: dict | None = None, beside: Callable[[], None] = lambda: None, told: tuple[str, ...] = (), blocks: dict | None = None,
+) -> dict:  # fmt: skip
+    """Write every file that was asked for; the report. `given`: files that it was made of; `beside` writes what only one command has; `options`, `told`, `blocks`: what only its
+    report says: choices, warnings, blocks."""
+    run = writing.Run(command, wanted.seed, imported, began, watch, options_as_dict(wanted.how, wanted.tree, wanted.files) | {"template": wanted.template} | (options or {}))
+    with watch("export"):
+        beside()
+        unseen = writing.write_tree(tree.model, wanted.output, run, skeleton=wanted.skeleton, preview=wanted.preview, files=wanted.files, sketches=given)
+    record = cloud_report(tree, **writing.of_run(run), warnings=(*told, *unseen)) | (blocks or {})
+    writing.write_report(wanted.report, record)
+    return record
