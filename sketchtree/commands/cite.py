@@ -13,7 +13,8 @@ def cite(report: Path | None, bibtex: bool) -> None:
     """How to cite this program and the methods it uses; with a REPORT of a run, those that it used."""
     from sketchtree import citations
 
-    works = citations.works_for(*((None, None) if report is None else _run(report)))
+    run = None if report is None else _run(report)
+    works = citations.works_for(None) if run is None else citations.works_for(str(run.get("command", "build")), citations.marks_of(run))
     if bibtex:
         click.echo("\n\n".join([citations.program_bibtex(), *(work.bibtex for work in works)]))
         return
@@ -22,8 +23,8 @@ def cite(report: Path | None, bibtex: bool) -> None:
         click.echo(f"\n{work.line}\n  for {work.serves}")
 
 
-def _run(report: Path) -> tuple[str, str | None]:
-    """(the command, the method) that a report names."""
+def _run(report: Path) -> dict:
+    """A report as it stands in its file."""
     from sketchtree.errors import OptionError
 
     try:
@@ -34,5 +35,4 @@ def _run(report: Path) -> tuple[str, str | None]:
         raise OptionError(f"{report} is no report.", remedy="Give the file that `--report` wrote.") from error
     if not isinstance(content, dict) or "schema" not in content:
         raise OptionError(f"{report} is no report.", remedy="Give the file that `--report` wrote.")
-    infer = content.get("infer")
-    return str(content.get("command", "build")), infer.get("method") if isinstance(infer, dict) else None
+    return content

@@ -2,6 +2,7 @@
 
 import json
 import re
+from pathlib import Path
 
 import pytest
 
@@ -79,6 +80,30 @@ def test_only_a_report_of_a_photo_cites_the_paper_on_photos(tmp_path, capsys, co
     (tmp_path / "r.json").write_text(json.dumps({"schema": 1, "command": command, "infer": {"method": "elevation"}}))
     assert app.run(["cite", str(tmp_path / "r.json")]) == 0
     assert ("Single Image Tree Modeling" in capsys.readouterr().out) == tan
+
+
+@pytest.mark.parametrize(("method", "used", "unused"), [("traced", "Skeletal Curves", "Space Colonization"), ("grown", "Space Colonization", "Skeletal Curves")])
+def test_a_report_of_a_cloud_cites_its_method(method, used, unused):
+    works = citations.works_for("cloud", citations.marks_of({"options": {"method": method}}))
+    titles = " ".join(work.title for work in works)
+    assert "Realistic Procedural Plant Modeling" in titles and used in titles and unused not in titles and "Sketch-Based" not in titles
+
+
+def test_a_report_of_masks_with_poses_cites_the_visual_hull_and_no_stereo():
+    carved = {"options": {"method": "traced", "poses": "p.json"}, "views": {"seconds": {"cameras": 0.1, "carve": 2.0}}}
+    titles = " ".join(work.title for work in citations.works_for("views", citations.marks_of(carved)))
+    assert "Visual Hull" in titles and "PatchMatch" not in titles and "Structure-from-Motion" not in titles
+
+
+def test_a_report_of_photos_cites_how_their_cameras_and_depths_were_found():
+    found = {"options": {"method": "traced", "poses": None}, "views": {"seconds": dict.fromkeys(("cameras", "patchmatch", "coherence", "filter"), 1.0)}}
+    titles = " ".join(work.title for work in citations.works_for("views", citations.marks_of(found)))
+    assert all(part in titles for part in ("Structure-from-Motion", "PatchMatch", "Fusion Moves", "Guided")) and "Visual Hull" not in titles
+
+
+def test_the_credits_name_every_work():
+    credits = " ".join((Path(__file__).parents[2] / "docs" / "credits.md").read_text(encoding="utf-8").split())
+    assert [work.title for work in citations.WORKS if work.title not in credits] == []
 
 
 def test_both_packages_that_photos_need_are_looked_for(quick, capsys, monkeypatch):
