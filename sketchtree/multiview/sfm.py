@@ -2,17 +2,21 @@
 
 Photos of other sizes, other cameras and without EXIF may be mixed: photos of one size and, by their EXIF, of one camera and focal length share a camera (if
 each had its own, small sets would bend), and a focal length that is not told is taken as 1.2 times the longer side and found with the rest. Its threads add
-numbers in no fixed order, so that two runs agree to about a thousandth of a pixel, not to the last bit.
+numbers in no fixed order, so that two runs agree to about a thousandth of a pixel, not to the last bit. What COLMAP finds is held against what every two photos
+say by themselves (`agreement`).
 """
 
 import tempfile
 from collections.abc import Callable
+from contextlib import closing
 from dataclasses import dataclass, replace
 from pathlib import Path
 
+import numpy as np
 from PIL import Image, ImageOps
 
 from sketchtree.errors import ViewsError
+from sketchtree.multiview.agreement import Pair, agreeing, contradictions
 from sketchtree.multiview.photos import blurred, photo_files, read_photo
 from sketchtree.multiview.poses.colmap import read_colmap
 from sketchtree.multiview.poses.posed import Poses
@@ -35,6 +39,7 @@ class Found:
     poses: Poses
     left_out: tuple[str, ...]  # photos that could not be placed
     notices: tuple[str, ...]  # sentences for the user
+    contradicted: float  # share of pairs of photos that did not fit the cameras
 
 
 def structure_from_motion(
@@ -51,8 +56,8 @@ def structure_from_motion(
         unsharp = blurred(files)
         shrunk, groups, silent = _copied(files, place / "photos", longest, shared(part, 0.0, 0.1), pulse)
         _matched(colmap, place, groups, seed, part, pulse)
-        poses = _mapped(colmap, place, len(files), seed, shared(part, 0.5, 1.0), pulse)
-    return _found(poses, files, shrunk, unsharp, silent)
+        poses, pairs = _mapped(colmap, place, len(files), seed, shared(part, 0.5, 1.0), pulse)
+    return _found(poses, pairs, files, shrunk, unsharp, silent)
 
 
 def _colmap():
@@ -113,8 +118,8 @@ def _matched(colmap, place: Path, groups: list[list[str]], seed: int, part, puls
     pulse()
 
 
-def _mapped(colmap, place: Path, count: int, seed: int, part, pulse: Pulse) -> Poses:
-    """The largest model."""
+def _mapped(colmap, place: Path, count: int, seed: int, part, pulse: Pulse) -> tuple[Poses, list[Pair]]:
+    """The largest model, and what every two of its photos share."""
     placed = [0]
 
     def one_more() -> None:
@@ -131,19 +136,42 @@ def _mapped(colmap, place: Path, count: int, seed: int, part, pulse: Pulse) -> P
     best = max(models, key=lambda number: models[number].num_reg_images())
     models[best].write_binary(place / "model")
     try:
-        return read_colmap(place / "model")
+        poses = read_colmap(place / "model")
     except ViewsError:  # a focal length below 0: what was found is no picture of a world
         raise ViewsError(f"None of the {count} photos could be placed: the cameras found make no sense.", remedy=ADVICE) from None
+    return poses, pairs_of(colmap, place / "points.db", models[best], poses)
 
 
-def _found(poses: Poses, files: list[Path], shrunk: dict[str, float], unsharp: list[str], silent: int) -> Found:
-    photos = []
-    for photo in poses.photos:
+def pairs_of(colmap, database: Path, model, poses: Poses) -> list[Pair]:
+    """What every two photos share that COLMAP has verified by the two alone."""
+    row_of, shared_by = {photo.name: row for row, photo in enumerate(poses.photos)}, []
+    with closing(colmap.Database.open(database)) as told:
+        xy = {
+            image.image_id: model.cameras[model.images[image.image_id].camera_id].cam_from_img(told.read_keypoints(image.image_id)[:, :2].astype(np.float64))
+            for image in told.read_all_images() if image.name in row_of
+        }
+        row_of = {number: row_of[model.images[number].name] for number in xy}
+        for number, geometry in zip(*told.read_two_view_geometries(), strict=True):
+            one, other = colmap.pair_id_to_image_pair(number)
+            if one in xy and other in xy and len(geometry.inlier_matches):
+                first, second = geometry.inlier_matches.T
+                shared_by.append(Pair((row_of[one], row_of[other]), xy[one][first], xy[other][second]))
+    return shared_by
+
+
+def _found(poses: Poses, pairs: list[Pair], files: list[Path], shrunk: dict[str, float], unsharp: list[str], silent: int) -> Found:
+    left, doubtful = agreeing(len(poses), *contradictions([photo.camera for photo in poses.photos], pairs))
+    if len(left) < max(LEAST, len(poses) / 2):
+        raise ViewsError(
+            f"The cameras that were found can't be true: {doubtful:.0%} of the pairs of photos that share details tell other places than all of them together.",
+            remedy=f"Alike parts of the plant were taken for one another. {ADVICE} Or give the poses, if something else knows them.",
+        )
+    photos, against = [], [photo.name.removesuffix(".jpg") for k, photo in enumerate(poses.photos) if k not in set(left)]
+    for photo in (poses.photos[row] for row in left):
         name = photo.name.removesuffix(".jpg")
         size = tuple(round(side * shrunk[name]) for side in photo.camera.size)
         photos.append(replace(photo, name=name, camera=photo.camera.resized(size)))
     names = {photo.name for photo in photos}
-    left_out = tuple(file.name for file in files if file.name not in names)
     if len(photos) < LEAST or len(photos) < len(files) / 3:
         raise ViewsError(
             f"Only {len(photos)} of {len(files)} photos belong together: {', '.join(sorted(names)[:6])}{' …' if len(names) > 6 else ''}.",
@@ -152,8 +180,11 @@ def _found(poses: Poses, files: list[Path], shrunk: dict[str, float], unsharp: l
     notices = [f"{len(photos)} of {len(files)} photos were placed, {len(poses.points):,} points, {poses.error:.2f} px."]
     if silent:
         notices.append(f"{silent} photos don't tell their focal length (EXIF); it was found with the rest.")
-    if left_out:
-        notices.append(f"Left out, since too little in them was found again: {', '.join(left_out)}.")
+    left_out = tuple(file.name for file in files if file.name not in names)
+    if nothing := [name for name in left_out if name not in against]:
+        notices.append(f"Left out, since too little in them was found again: {', '.join(nothing)}.")
+    if against:
+        notices.append(f"Left out, since what they share with other photos contradicts where they were placed: {', '.join(against)}.")
     if unsharp:
         notices.append(f"Less sharp than the others: {', '.join(unsharp)}.")
-    return Found(replace(poses, photos=tuple(photos)), left_out, tuple(notices))
+    return Found(replace(poses, photos=tuple(photos)), left_out, tuple(notices), doubtful)
