@@ -9,8 +9,9 @@ from typing import BinaryIO
 
 import numpy as np
 
-from sketchtree.clouds.files.limits import UNPACKED, no_points
+from sketchtree.clouds.files.limits import UNPACKED
 from sketchtree.clouds.files.pieces import PIECE, Piece, Source
+from sketchtree.clouds.files.refused import CUT_OFF, no_points
 from sketchtree.errors import SketchError
 
 _PLACE = ("xyz", "points", "point", "positions", "position", "pos", "coords", "coordinates", "vertices")
@@ -37,7 +38,7 @@ def read_npy(file: BinaryIO, name: str) -> Source:
 def read_npz(file: BinaryIO, name: str) -> Source:
     """The points of an NPZ file: `xyz` or `points`, with `rgb` or `colours` and `normals`."""
     if not zipfile.is_zipfile(file):
-        raise SketchError(f"{name} is an archive that was cut off.", remedy="Copy or export it again.")
+        raise SketchError(f"{name} is an archive that was cut off.", remedy=CUT_OFF)
     held = _loaded(lambda: {entry.filename: entry.file_size for entry in zipfile.ZipFile(file).infolist()}, name)
     if not held or any(not entry.endswith(".npy") for entry in held):
         raise SketchError(f"{name} is an archive, not a point cloud.", remedy="Unpack it, and give the cloud inside.")

@@ -9,8 +9,9 @@ from typing import BinaryIO
 import numpy as np
 
 from sketchtree.clouds.files.las_header import LasHeader, las_header
-from sketchtree.clouds.files.limits import no_points, truncated
 from sketchtree.clouds.files.pieces import PIECE, Piece, Source
+from sketchtree.clouds.files.records import left, records
+from sketchtree.clouds.files.refused import CUT_OFF, no_points
 from sketchtree.errors import SketchError
 
 
@@ -19,15 +20,15 @@ def read_las(file: BinaryIO, name: str) -> Source:
     header = las_header(file, name)
     if not header.count:
         raise no_points(name)
-    records = _plain(file, header, name) if header.packed is None else _unpacked(file, header, name)
+    found = _plain(file, header, name) if header.packed is None else _unpacked(file, header, name)
     source = Source("LAS" if header.packed is None else "LAZ", iter(()), header.count, None, "z")
-    source.pieces = _pieces(records, header, source, name)
+    source.pieces = _pieces(found, header, source, name)
     return source
 
 
-def _pieces(records: Iterator[np.ndarray], header: LasHeader, source: Source, name: str) -> Iterator[Piece]:
+def _pieces(found: Iterator[np.ndarray], header: LasHeader, source: Source, name: str) -> Iterator[Piece]:
     noise = 0
-    for some in records:
+    for some in found:
         kept = header.meant(some)
         noise += int((~kept).sum())
         some = some[kept]
@@ -37,14 +38,8 @@ def _pieces(records: Iterator[np.ndarray], header: LasHeader, source: Source, na
 
 
 def _plain(file: BinaryIO, header: LasHeader, name: str) -> Iterator[np.ndarray]:
-    done = 0
-    while done < header.count:
-        wanted = min(PIECE, header.count - done)
-        data = file.read(wanted * header.size)
-        if len(data) < wanted * header.size:
-            raise truncated(name, done + len(data) // header.size, header.count)
-        done += wanted
-        yield np.frombuffer(data, np.uint8).reshape(wanted, header.size)
+    for data in records(file, header.size, header.count, name):
+        yield np.frombuffer(data, np.uint8).reshape(-1, header.size)
 
 
 def _unpacked(file: BinaryIO, header: LasHeader, name: str) -> Iterator[np.ndarray]:
@@ -53,7 +48,7 @@ def _unpacked(file: BinaryIO, header: LasHeader, name: str) -> Iterator[np.ndarr
     except ImportError:
         raise SketchError(f"{name} is a LAZ file, which needs the package `lazrs`.", remedy="Install it: pip install 'sketchtree[multiview]'.") from None
     if not _has_table(file, header):
-        raise SketchError(f"{name} is a LAZ file whose table of chunks makes no sense.", remedy="Copy or export it again.")
+        raise SketchError(f"{name} is a LAZ file whose table of chunks makes no sense.", remedy=CUT_OFF)
     done = 0
     try:
         unpacker = lazrs.LasZipDecompressor(file, header.packed)
@@ -66,13 +61,13 @@ def _unpacked(file: BinaryIO, header: LasHeader, name: str) -> Iterator[np.ndarr
     except BaseException as error:  # lazrs panics at some damage, which is no Exception
         if not isinstance(error, lazrs.LazrsError) and type(error).__name__ != "PanicException":
             raise
-        raise SketchError(f"{name} can't be unpacked after {done:,} of its {header.count:,} points ({str(error)[:80]}).", remedy="Copy or export it again.") from None
+        raise SketchError(f"{name} can't be unpacked after {done:,} of its {header.count:,} points ({str(error)[:80]}).", remedy=CUT_OFF) from None
 
 
 def _has_table(file: BinaryIO, header: LasHeader) -> bool:
     """Whether the table of chunks is in the file, and no longer than the file could hold: lazrs makes room for it unasked."""
-    end = file.seek(0, 2)
     file.seek(header.begins)
+    end = header.begins + left(file)
     at = int.from_bytes(file.read(8), "little", signed=True)
     if at == -1:  # written at the very end, by those who write without going back
         file.seek(max(end - 8, 0))

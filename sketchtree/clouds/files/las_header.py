@@ -7,13 +7,13 @@ from typing import BinaryIO
 import numpy as np
 from jaxtyping import Float, Shaped
 
+from sketchtree.clouds.files.refused import AGAIN
 from sketchtree.errors import SketchError
 
 _LEAST = (20, 28, 26, 34, 57, 63, 30, 36, 38, 59, 67)  # bytes of a record, by its format
 _RGB = {2: 20, 3: 28, 5: 28, 7: 30, 8: 30, 10: 30}  # where three words of colour begin
 _NOISE = (7, 18)  # classes: low and high noise
 _LASZIP = (b"laszip encoded", 22204)  # the record in which a LAZ file says how it was packed
-_AGAIN = "Export the cloud again."
 
 
 @dataclass(frozen=True, eq=False)
@@ -65,7 +65,7 @@ def las_header(file: BinaryIO, name: str) -> LasHeader:
         count = struct.unpack_from("<Q", head, 247)[0] or count
     form, packed = kind & 63, bool(kind & 128)
     if version[0] != 1 or form >= len(_LEAST) or size < _LEAST[form] or not np.isfinite([scale, offset]).all() or (scale == 0).any() or begins < length:
-        raise SketchError(f"{name} is a LAS file (version {version[0]}.{version[1]}, point format {form}) whose header makes no sense.", remedy=_AGAIN)
+        raise SketchError(f"{name} is a LAS file (version {version[0]}.{version[1]}, point format {form}) whose header makes no sense.", remedy=AGAIN)
     how = _packing(file, length, notes, name) if packed else None
     file.seek(begins)
     return LasHeader(f"{version[0]}.{version[1]}", form, size, count, begins, scale, offset, how)
@@ -82,4 +82,4 @@ def _packing(file: BinaryIO, length: int, notes: int, name: str) -> bytes:
         held = file.read(size)
         if (user.rstrip(b"\x00"), number) == _LASZIP:
             return held
-    raise SketchError(f"{name} is a LAZ file that doesn't say how it was packed.", remedy=_AGAIN)
+    raise SketchError(f"{name} is a LAZ file that doesn't say how it was packed.", remedy=AGAIN)

@@ -32,13 +32,3 @@ def opened(path: Path) -> BinaryIO:
         raise SketchError(f"There is no file {path}.", remedy="Check the path.") from None
     except (OSError, ValueError) as error:
         raise SketchError(f"{path} can't be read ({getattr(error, 'strerror', None) or error}).", remedy="Check the file's name and its permissions.") from None
-
-
-def truncated(name: str, there: int, said: int) -> SketchError:
-    """The error for a file that ends before its last point."""
-    return SketchError(f"{name} ends after {there:,} of its {said:,} points.", remedy="The file was cut off: copy or export it again.")
-
-
-def no_points(name: str) -> SketchError:
-    """The error for a file without a point."""
-    return SketchError(f"{name} holds no points.", remedy="Export the cloud again, with its points.")

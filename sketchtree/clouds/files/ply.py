@@ -6,10 +6,11 @@ from typing import BinaryIO
 
 import numpy as np
 
-from sketchtree.clouds.files.limits import no_points, truncated
 from sketchtree.clouds.files.numbers import numbers
 from sketchtree.clouds.files.pieces import PIECE, Piece, Source
 from sketchtree.clouds.files.ply_header import Element, ply_header
+from sketchtree.clouds.files.records import left, records
+from sketchtree.clouds.files.refused import CUT_OFF, no_points, truncated
 from sketchtree.errors import SketchError
 
 _COLOUR = (("red", "diffuse_red", "r"), ("green", "diffuse_green", "g"), ("blue", "diffuse_blue", "b"))
@@ -84,13 +85,7 @@ def _binary(file: BinaryIO, name: str, vertex: Element) -> Iterator[dict]:
         yield _walked(file, name, vertex)
         return
     record = np.dtype([(f"p{k}", one.type) for k, one in enumerate(vertex.properties)])
-    done = 0
-    while done < vertex.count:
-        wanted = min(PIECE, vertex.count - done)
-        data = file.read(wanted * record.itemsize)
-        if len(data) < wanted * record.itemsize:
-            raise truncated(name, done + len(data) // record.itemsize, vertex.count)
-        done += wanted
+    for data in records(file, record.itemsize, vertex.count, name):
         rows = np.frombuffer(data, record)
         yield {k: rows[f"p{k}"] for k in range(len(vertex.properties))}
 
@@ -98,7 +93,7 @@ def _binary(file: BinaryIO, name: str, vertex: Element) -> Iterator[dict]:
 def _walked(file: BinaryIO, name: str, vertex: Element) -> dict:
     """Columns of records that differ in length: one by one."""
     least = sum((one.type if one.length is None else one.length).itemsize for one in vertex.properties)
-    there = _left(file) // least
+    there = left(file) // least
     if there < vertex.count:
         raise truncated(name, there, vertex.count)
     columns = {k: np.empty(vertex.count) for k, one in enumerate(vertex.properties) if one.length is None}
@@ -121,15 +116,7 @@ def _pass_over(file: BinaryIO, element: Element, name: str) -> None:
         for one in element.properties:
             value = _number(file, one.type if one.length is None else one.length)
             if value is None or (one.length is not None and not _skip(file, int(value) * one.type.itemsize)):
-                raise SketchError(f"{name} ends in its {element.name}s, after {row:,} of {element.count:,}.", remedy="Copy or export it again.")
-
-
-def _left(file: BinaryIO) -> int:
-    """Bytes from here to the end."""
-    here = file.tell()
-    end = file.seek(0, 2)
-    file.seek(here)
-    return end - here
+                raise SketchError(f"{name} ends in its {element.name}s, after {row:,} of {element.count:,}.", remedy=CUT_OFF)
 
 
 def _number(file: BinaryIO, kind: np.dtype):

@@ -8,6 +8,7 @@ import numpy as np
 
 from sketchtree.clouds.files.limits import HEADER
 from sketchtree.clouds.files.pieces import Axis
+from sketchtree.clouds.files.refused import AGAIN
 from sketchtree.errors import SketchError
 
 _TYPES = {
@@ -16,7 +17,6 @@ _TYPES = {
 }
 _ORDERS = {"ascii": "", "binary_little_endian": "<", "binary_big_endian": ">"}
 _UP = re.compile(r"\b(?:up|vertical)(?: axis)?\s*[:=]\s*\+?([yz])\b", re.IGNORECASE)
-_AGAIN = "Export the cloud again."
 
 
 @dataclass(frozen=True)
@@ -65,7 +65,7 @@ def ply_header(file: BinaryIO, name: str) -> PlyHeader:
         line = raw.decode("latin-1").strip()
         words = line.split()
         if not raw or size > HEADER:
-            raise SketchError(f"{name} is a PLY file whose header has no end.", remedy=_AGAIN)
+            raise SketchError(f"{name} is a PLY file whose header has no end.", remedy=AGAIN)
         if words[:1] == ["comment"] or words[:1] == ["obj_info"]:
             said = _UP.search(line)
             up = said.group(1).lower() if said else up
@@ -78,9 +78,9 @@ def ply_header(file: BinaryIO, name: str) -> PlyHeader:
         elif words == ["end_header"]:
             break
         elif words and (number > 1 or words != ["ply"]):
-            raise SketchError(f"Line {number} of {name} is `{line[:60]}`, which no PLY header has.", remedy=_AGAIN)
+            raise SketchError(f"Line {number} of {name} is `{line[:60]}`, which no PLY header has.", remedy=AGAIN)
     if order is None:
-        raise SketchError(f"{name} is a PLY file that doesn't say how its numbers are written (`format`).", remedy=_AGAIN)
+        raise SketchError(f"{name} is a PLY file that doesn't say how its numbers are written (`format`).", remedy=AGAIN)
     return PlyHeader(order == "", tuple(Element(what, count, tuple(held)) for what, count, held in elements), up, number)
 
 
@@ -90,4 +90,4 @@ def _property(words: list[str], order: str, name: str, number: int) -> Property:
             return Property(words[4], np.dtype(order + _TYPES[words[3]]), np.dtype(order + _TYPES[words[2]]))
         return Property(words[2], np.dtype(order + _TYPES[words[1]]))
     except (KeyError, IndexError):
-        raise SketchError(f"Line {number} of {name} is `{' '.join(words)[:60]}`, which no PLY header has.", remedy=_AGAIN) from None
+        raise SketchError(f"Line {number} of {name} is `{' '.join(words)[:60]}`, which no PLY header has.", remedy=AGAIN) from None

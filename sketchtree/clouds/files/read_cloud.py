@@ -10,11 +10,12 @@ from sketchtree.clouds.cloud import PointCloud
 from sketchtree.clouds.files.arrays import read_npy, read_npz
 from sketchtree.clouds.files.gathering import Columns, Gathering
 from sketchtree.clouds.files.las import read_las
-from sketchtree.clouds.files.limits import MAX_POINTS, check_limit, no_points, opened
+from sketchtree.clouds.files.limits import MAX_POINTS, check_limit, opened
 from sketchtree.clouds.files.pieces import Source
 from sketchtree.clouds.files.placed import Placed, Placement
 from sketchtree.clouds.files.ply import read_ply
 from sketchtree.clouds.files.recognise import HEAD, LAS, NPY, NPZ, PLY, TEXT, recognise
+from sketchtree.clouds.files.refused import no_points
 from sketchtree.clouds.files.text import read_text
 from sketchtree.errors import OptionError, SketchError
 from sketchtree.similarity import Similarity

@@ -10,6 +10,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from sketchtree.clouds.files.numbers import COMMENTS
+from sketchtree.clouds.files.refused import CONVERT
 from sketchtree.errors import SketchError
 
 _NAMES = (
@@ -37,7 +38,7 @@ def layout(lines: Sequence[str], name: str) -> Layout:
     if at is None:
         raise SketchError(f"{name} is text without points.", remedy="Give lines of x y z, with or without colours.")
     if _is_ptx(lines, at):
-        raise SketchError(f"{name} is a PTX scan, which is not read.", remedy="Convert it to LAZ or PLY (CloudCompare and PDAL do).")
+        raise SketchError(f"{name} is a PTX scan, which is not read.", remedy=CONVERT)
     separator, comma = _separator(lines[at])
     body = [words for words in (_words(line, separator, comma) for line in lines[at:]) if len(words) >= 3]
     header = next((words for words in (_header(line) for line in reversed(lines[:at])) if words), None)
