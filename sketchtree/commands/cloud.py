@@ -28,7 +28,7 @@ def cloud(points_file: Path, output: Path, seed: int, quiet: bool, json_log: boo
     began = time.perf_counter()
     from sketchtree.commands import writing
 
-    writing.check_outputs(points_file, output, report, wanted["skeleton"], wanted["preview"], source="the cloud itself")
+    writing.check_outputs(points_file, output, report, wanted["skeleton"], wanted["preview"], more={"--distances": wanted["distances"]}, source="the cloud itself")
     from sketchtree.commands import of_points
     from sketchtree.pipeline import STAGES
     from sketchtree.watch import Watch

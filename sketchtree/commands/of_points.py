@@ -29,6 +29,7 @@ class Asked:
     output: Path
     skeleton: Path | None
     preview: Path | None
+    distances: Path | None
     report: Path | None
 
 
@@ -36,12 +37,14 @@ def asked(wanted: dict, *, output: Path, report: Path | None, seed: int, db: Pat
     """What the command line said. `how`: options of the points that only one of the commands has. Raises OptionError and TemplateError for what there is not."""
     tree, files = writing.split_options(wanted, TreeOptions, FileOptions)
     writing.check_files(output, files)
+    if wanted["distances"] is not None:
+        writing.check_extension(wanted["distances"], (".ply",))
     points = CloudOptions(**{name: wanted[name] for name in _HOW}, **how)
     templates = Database.open(db)
     check_tree(tree, templates)
     if wanted["template"] is not None:
         templates.exemplar(wanted["template"])
-    return Asked(points, tree, files, wanted["template"], templates, seed, output, wanted["skeleton"], wanted["preview"], report)
+    return Asked(points, tree, files, wanted["template"], templates, seed, output, wanted["skeleton"], wanted["preview"], wanted["distances"], report)
 
 
 def made(points, wanted: Asked, watch: Watch) -> CloudTree:
@@ -58,7 +61,19 @@ def written(
     run = writing.Run(command, wanted.seed, imported, began, watch, options_as_dict(wanted.how, wanted.tree, wanted.files) | {"template": wanted.template} | (options or {}))
     with watch("export"):
         beside()
+        measured = _measured(tree, wanted.distances)
         unseen = writing.write_tree(tree.model, wanted.output, run, skeleton=wanted.skeleton, preview=wanted.preview, files=wanted.files, sketches=given)
-    record = cloud_report(tree, **writing.of_run(run), warnings=(*told, *unseen)) | (blocks or {})
+    record = cloud_report(tree, **writing.of_run(run), warnings=(*told, *unseen)) | (blocks or {}) | measured
     writing.write_report(wanted.report, record)
     return record
+
+
+def _measured(tree: CloudTree, path: Path | None) -> dict:
+    """The report's block about distances, if they were asked for and written."""
+    if path is None:
+        return {}
+    from sketchtree.fidelity.distance_file import write_distances
+
+    found = write_distances(tree.prepared.cloud, tree.model.meshes, path)
+    figures = {"mean": found.mean, "sd": found.sd, "share": found.share, "within": found.within(0.015)}
+    return {"distances": {name: round(value, 6) for name, value in figures.items()}}

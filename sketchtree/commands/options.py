@@ -52,6 +52,7 @@ _POINTS = (
     click.option("--roots", type=click.IntRange(1), metavar="K", help="How many stems come out of the ground (default: as many as are found)."),
     click.option("--inside/--no-inside", default=None, help="Fill the inside of a crown (default: where the points leave it out)."),
     click.option("--template", metavar="NAME", help="Exemplar whose leaves and bark it wears (default: bare, unless `--leaf` names some)."),
+    click.option("--distances", type=click.Path(path_type=Path), metavar="D.ply", help="Write the points too, each with its distance from the tree as a colour and a number."),
 )  # fmt: skip
 _BESIDE = (
     click.option("--skeleton", type=click.Path(path_type=Path), metavar="T.swc", help="Write the complete skeleton too."),

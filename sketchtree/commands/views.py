@@ -31,7 +31,8 @@ def views(folder: Path, output: Path, seed: int, quiet: bool, json_log: bool, re
     from sketchtree.commands import writing
 
     given = _given(folder, wanted["poses"])
-    writing.check_outputs(given, output, report, wanted["skeleton"], wanted["preview"], more={"--cloud": wanted["cloud_file"]}, source="what the plant is made of")
+    more = {"--cloud": wanted["cloud_file"], "--distances": wanted["distances"]}
+    writing.check_outputs(given, output, report, wanted["skeleton"], wanted["preview"], more=more, source="what the plant is made of")
     if wanted["cloud_file"] is not None:
         writing.check_extension(wanted["cloud_file"], (".ply",))
     from sketchtree.clouds.files.write_cloud import write_cloud

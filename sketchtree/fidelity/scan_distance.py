@@ -14,11 +14,11 @@ import numpy as np
 from jaxtyping import Array, Float, Int, Key
 from scipy.spatial import cKDTree
 
+from sketchtree.fidelity.distance_colours import ramp
 from sketchtree.fidelity.sampled import joined_triangles, over
 from sketchtree.geometry.mesh import Mesh
 
 PLACES = 200_000
-_LOW, _MIDDLE, _HIGH = np.array([0.16, 0.33, 0.62]), np.array([0.93, 0.85, 0.35]), np.array([0.70, 0.09, 0.12])  # sRGB: near, between, far
 
 
 @dataclass(frozen=True, eq=False)
@@ -70,7 +70,5 @@ def vertices_to_scan(meshes: Sequence[Mesh], scan: Float[np.ndarray, "point 3"])
 
 
 def coloured(distance: Float[np.ndarray, " place"], most: float) -> Int[np.ndarray, "place 3"]:
-    """sRGB colours, 0-255, from blue (0) through yellow to red (`most` metres and more)."""
-    share = np.clip(np.asarray(distance) / most, 0.0, 1.0)[:, None]
-    colour = np.where(share < 0.5, _LOW + 2 * share * (_MIDDLE - _LOW), _MIDDLE + (2 * share - 1) * (_HIGH - _MIDDLE))
-    return np.round(255 * colour).astype(np.int64)
+    """sRGB colours, 0-255, from blue (0) through yellow to red (`most` metres and more), even steps for the eye."""
+    return np.round(255 * ramp(np.asarray(distance) / most)).astype(np.int64)

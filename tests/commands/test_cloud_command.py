@@ -4,12 +4,14 @@ import json
 import sys
 from pathlib import Path
 
+import jsonschema
 import pytest
 
 sys.path.insert(0, str(Path(__file__).parents[1] / "clouds"))
 from scanned import bark
 
 from sketchtree.clouds.cloud import PointCloud
+from sketchtree.clouds.files.read_cloud import read_cloud
 from sketchtree.clouds.files.write_cloud import write_cloud
 from sketchtree.commands.app import run
 
@@ -28,6 +30,23 @@ def test_a_cloud_becomes_a_tree_with_its_skeleton_and_report(scan, tmp_path, cap
     assert told["command"] == "cloud" and told["cloud"]["trees"] == 1 and told["leaves"] > 0
     assert skeleton.read_text(encoding="utf-8").count("\n") > 20
     assert out.stat().st_size > 10_000
+
+
+def test_the_points_can_be_written_with_their_distances_from_the_tree(scan, tmp_path):
+    out, distances, report = tmp_path / "t.glb", tmp_path / "d.ply", tmp_path / "t.json"
+    assert run(["cloud", str(scan), "-o", str(out), "--distances", str(distances), "--report", str(report), "--quiet"]) == 0
+    told = json.loads(report.read_text(encoding="utf-8"))
+    schema = json.loads((Path(__file__).parents[2] / "sketchtree" / "report.schema.json").read_text(encoding="utf-8"))
+    jsonschema.validate(told, schema)
+    assert told["distances"]["share"] < 0.01 and told["distances"]["within"] > 0.95
+    assert len(read_cloud(distances)) == told["cloud"]["points"]
+
+
+def test_distances_are_a_ply_file_of_their_own(scan, tmp_path, capfd):
+    assert run(["cloud", str(scan), "-o", str(tmp_path / "t.glb"), "--distances", str(scan)]) == 2
+    assert f"`--distances {scan}` would overwrite the cloud itself. Give it another name." in capfd.readouterr().err
+    assert run(["cloud", str(scan), "-o", str(tmp_path / "t.glb"), "--distances", str(tmp_path / "d.las")]) == 2
+    assert "d.las" in capfd.readouterr().err
 
 
 def test_the_same_cloud_and_seed_give_the_same_bytes(scan, tmp_path):

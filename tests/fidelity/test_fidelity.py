@@ -6,7 +6,10 @@ import numpy as np
 import pytest
 
 from sketchtree.axes import NULL
+from sketchtree.clouds.cloud import PointCloud
 from sketchtree.errors import SkeletonError
+from sketchtree.fidelity.distance_colours import oklab, ramp, srgb
+from sketchtree.fidelity.distance_file import write_distances
 from sketchtree.fidelity.edit_distance import edit_distance
 from sketchtree.fidelity.limb_tree import LimbTree, limb_tree
 from sketchtree.fidelity.recall import recall
@@ -177,6 +180,25 @@ def test_places_along_a_tree_are_evenly_spread():
     place, row = along(forked(), 0.1)
     assert len(place) == 10 + 10 + 7 + 7
     assert np.bincount(row).tolist() == [0, 10, 10, 7, 7]
+
+
+def test_colours_of_distances_differ_by_even_steps():
+    shown = ramp(np.linspace(0, 1, 41))
+    step = np.linalg.norm(np.diff(oklab(shown), axis=0), axis=1)
+    assert step == pytest.approx(step.mean(), rel=0.02)
+    assert srgb(oklab(shown)) == pytest.approx(shown, abs=1e-6)
+
+
+def test_a_file_of_distances_says_in_plain_text_what_its_colours_mean(tmp_path):
+    path = tmp_path / "d.ply"
+    found = write_distances(PointCloud([[0.5, 0.5, 0.006], [0.2, 1.0, 0.5], [0.2, 0.0, 0.0]]), [square()], path)
+    assert found.metres == pytest.approx([0.006, 0.5, 0])
+    head, rows = path.read_bytes().split(b"end_header\n")
+    assert b"comment distance: metres from the tree; blue 0, yellow 0.0075, red 0.015 and more; mean 0.1687, 16.867% of the height" in head
+    assert b"property float distance" in head
+    held = np.frombuffer(rows, [("xyz", "<f4", 3), ("colour", "u1", 3), ("distance", "<f4")])
+    assert held["distance"] == pytest.approx([0.006, 0.5, 0])
+    assert held["colour"][1].tolist() == coloured(np.array([1.0]), 1.0)[0].tolist()
 
 
 def test_far_is_red_and_near_is_blue():
