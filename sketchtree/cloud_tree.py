@@ -6,6 +6,7 @@
 """
 
 from dataclasses import dataclass
+from functools import reduce
 from pathlib import Path
 
 import numpy as np
@@ -16,8 +17,9 @@ from sketchtree.clouds.files.placed import Placed
 from sketchtree.clouds.files.read_cloud import read_placed
 from sketchtree.clouds.growing.collapse import collapsed, kept
 from sketchtree.clouds.growing.estimated import estimated
+from sketchtree.clouds.growing.figures import changes
 from sketchtree.clouds.growing.filled import filled
-from sketchtree.clouds.growing.grown import grown
+from sketchtree.clouds.growing.grown import Grown, grown
 from sketchtree.clouds.growing.hull_fill import unseen_inside
 from sketchtree.clouds.growing.species import Species, species
 from sketchtree.clouds.prepared.prepare import POINTS, Prepared, prepare
@@ -47,7 +49,8 @@ class CloudOptions:
     unit: float = 1.0  # metres that 1 in the file means
     points: int = POINTS  # of the tree, at most
     method: str = "traced"  # of METHODS
-    species: str = "auto"  # of `clouds.growing.species.names()`; auto: estimated from the points
+    species: str = "auto"  # of `clouds.growing.species.names()`, or a recipe of one's own, a .toml file; auto: estimated from the points
+    figures: tuple[str, ...] = ()  # of the species and its growth that are to be others: NAME=VALUE (`clouds.growing.figures`)
     roots: int | None = None  # feet; None: as many as there are stems
     inside: bool | None = None  # branches inside a crown that was seen from outside only; None: where the points leave it out
 
@@ -58,6 +61,27 @@ class CloudOptions:
             raise OptionError(f"`--points {self.points}` is out of range.", remedy="Give 100 to 10,000,000.")
         if self.species != "auto":
             species(self.species)
+        if self.figures and self.method != "grown":
+            raise OptionError(f"`--set {self.figures[0]}` says how a tree grows, and one that is {self.method} is where its points are.", remedy="Add `--method grown`, or leave it out.")
+        for said in self.figures:
+            if len(changes(said)) > 1:
+                raise OptionError(f"`--set {said}` gives several values.", remedy="Give one; `--vary` makes a tree of each of several.")
+
+
+@dataclass(frozen=True, eq=False)
+class Finish:
+    """How wood that was found is pruned, put in leaf and made into meshes."""
+
+    key: Key[Array, ""]
+    tree: TreeOptions = TreeOptions()  # noqa: RUF009 (frozen)
+    templates: Database | None = None
+    template: str | None = None  # the exemplar whose leaves and bark it wears
+
+    def __call__(self, wood: TreeSkeleton, watch: Watch | None = None) -> tuple[Worn, tuple[str, ...]]:
+        """(the finished tree, what a person should know about it)."""
+        begun = of_skeleton(wood, self.tree, self.templates, key=self.key, template=self.template)
+        model = grown_tree(begun, GrowthOptions(levels=0), self.tree, watch=watch).model
+        return model, (*begun.warnings, *model.warnings)
 
 
 @dataclass(frozen=True, eq=False)
@@ -69,8 +93,10 @@ class CloudTree:
     trunks: tuple[Trunk | None, ...]  # of each foot; None where its thickness can't be told
     species: Species
     pieces: int | None  # that the points fell into; None of one that was grown
+    grows: Grown | None  # how it came to be; None of one that was traced
     seen: int  # rows that were seen, the first ones; the others fill the inside
     model: Worn
+    finish: Finish
     warnings: tuple[str, ...]
 
     @property
@@ -80,7 +106,7 @@ class CloudTree:
 
 
 def cloud_to_tree(
-    given: str | Path | Placed | PointCloud,
+    given: str | Path | Placed | PointCloud | Prepared,
     templates: Database | None = None,
     *,
     key: Key[Array, ""],
@@ -92,17 +118,21 @@ def cloud_to_tree(
     """The tree in a cloud. `template`: the exemplar whose leaves and bark it wears. Raises SketchError for a cloud that can't be read or holds no tree, or several; OptionError."""
     watch = watch or Watch()
     with watch("read"):
-        placed = read_placed(given, unit=wanted.unit) if isinstance(given, str | Path) else given
-        prepared = prepare(placed, up=wanted.up, tree=wanted.tree, points=wanted.points)
+        prepared = given if isinstance(given, Prepared) else _prepared(given, wanted)
         stands = feet(prepared.cloud.xyz, prepared.above, count="auto" if wanted.roots is None else wanted.roots)
     with watch("infer"):
         found = _wood(prepared, stands, wanted, key)
     with watch("propagate"):
         wood, seen = _whole(found, prepared, wanted, key)
-    begun = of_skeleton(wood, tree, templates, key=key, template=template)
-    model = grown_tree(begun, GrowthOptions(levels=0), tree, watch=watch).model
-    told = (*prepared.remarks, *_remarks(found, stands), *begun.warnings, *model.warnings)
-    return CloudTree(prepared, stands, found.trunks, found.species, found.pieces, seen, model, tuple(dict.fromkeys(told)))
+    finish = Finish(key, tree, templates, template)
+    model, told = finish(wood, watch)
+    told = (*prepared.remarks, *_remarks(found, stands), *told)
+    return CloudTree(prepared, stands, found.trunks, found.species, found.pieces, found.grows, seen, model, finish, tuple(dict.fromkeys(told)))
+
+
+def _prepared(given: str | Path | Placed | PointCloud, wanted: CloudOptions) -> Prepared:
+    placed = read_placed(given, unit=wanted.unit) if isinstance(given, str | Path) else given
+    return prepare(placed, up=wanted.up, tree=wanted.tree, points=wanted.points)
 
 
 @dataclass(frozen=True, eq=False)
@@ -111,27 +141,32 @@ class _Wood:
     trunks: tuple[Trunk | None, ...]
     species: Species
     pieces: int | None
+    grows: Grown | None = None
 
 
 def _wood(prepared: Prepared, stands: Feet, wanted: CloudOptions, key) -> _Wood:
     """What was seen, as a skeleton."""
     xyz = prepared.cloud.xyz
     trunks = tuple(trunk(xyz[rows], breast_height(prepared.cloud.height)) for rows in stands.stems)
-    known = None if trunks[0] is None else trunks[0].root / 2
+    known = trunks[0].root / 2 if len(trunks) == 1 and trunks[0] is not None else None
+    found = traced(xyz, stands.rows, foot_radius=known) if wanted.method == "traced" or wanted.species == "auto" else None
+    kind = estimated(xyz, species(GENERAL), found.skeleton, found.gamma) if wanted.species == "auto" else species(wanted.species)
     if wanted.method == "traced":
-        found = traced(xyz, stands.rows, foot_radius=known if len(trunks) == 1 else None)
-        base = species(GENERAL if wanted.species == "auto" else wanted.species)
-        kind = estimated(xyz, base, found.skeleton, found.gamma) if wanted.species == "auto" else base
-        return _Wood(found.skeleton, trunks, kind, found.pieces)
-    kind = estimated(xyz, species(GENERAL)) if wanted.species == "auto" else species(wanted.species)
+        return _Wood(_refined(found.skeleton), trunks, kind, found.pieces)
+    kind = reduce(lambda kind, said: changes(said)[0].of(kind), wanted.figures, kind)
+    grows = growth(prepared, stands, trunks, kind, key)
+    return _Wood(grows.skeleton, trunks, kind, None, grows)
+
+
+def growth(prepared: Prepared, stands: Feet, trunks: tuple[Trunk | None, ...], kind: Species, key: Key[Array, ""]) -> Grown:
+    """The tree of a species that grows toward the points, as thick at its feet as was measured."""
     thick = None if None in trunks else np.array([one.root / 2 for one in trunks])
-    return _Wood(grown(xyz, stands.rows, kind, key=stage_key(key, "toward points"), radius=thick).skeleton, trunks, kind, None)
+    return grown(prepared.cloud.xyz, stands.rows, kind, key=stage_key(key, "toward points"), radius=thick)
 
 
 def _whole(found: _Wood, prepared: Prepared, wanted: CloudOptions, key) -> tuple[TreeSkeleton, int]:
     """(the tree with what nobody saw, how many of its rows were seen)."""
-    tree = _refined(found.tree) if wanted.method == "traced" else found.tree
-    xyz = prepared.cloud.xyz
+    tree, xyz = found.tree, prepared.cloud.xyz
     if wanted.inside is False or (wanted.inside is None and not unseen_inside(xyz)):
         return tree, len(tree)
     return filled(tree, xyz, found.species, key=stage_key(key, "inside")), len(tree)

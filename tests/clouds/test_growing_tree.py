@@ -287,13 +287,13 @@ def test_an_unknown_species_is_refused_by_name():
     with pytest.raises(OptionError) as refused:
         species("oak_of_mars")
     known = "broadleaf, cercis, laurel, maple, peach, pentagon_maple, prunus_triloba"
-    assert str(refused.value) == f"No species 'oak_of_mars' is known for growth toward points. Choose one of: {known}."
+    assert str(refused.value) == f"No species 'oak_of_mars' is known for growth toward points. Choose one of: {known}; or give a recipe of your own, a .toml file."
 
 
 @pytest.mark.parametrize(
     ("change", "message"),
     [
-        (("roll = 97", "rolls = 97"), "Recipe mine.toml: `rolls` is not known. Leave it out; known are: name, title, source, internode, roll, branching, gamma."),
+        (("roll = 97", "rolls = 97"), "Recipe mine.toml: `rolls` is not known. Leave it out; known are: name, title, source, internode, roll, branching, gamma, growing."),
         (("roll = 97", "roll = 970"), "Recipe mine.toml: `roll` is 970. Give a number from 0 to 360."),
         (('title = "Peach"', "title = 3"), "Recipe mine.toml: `title` is 3. Give a text."),
         (('title = "Peach"\n', ""), "Recipe mine.toml: `title` is missing. Add it."),

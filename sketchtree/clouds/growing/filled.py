@@ -14,10 +14,9 @@ from sketchtree import keys
 from sketchtree.axes import NULL
 from sketchtree.clouds.growing.box import SIDE, boxed
 from sketchtree.clouds.growing.colonise import colonise
-from sketchtree.clouds.growing.grown import APART, THINNEST
+from sketchtree.clouds.growing.grown import APART, THINNEST, influence_of
 from sketchtree.clouds.growing.heading import unit
 from sketchtree.clouds.growing.hull_fill import crown_of, hull_fill
-from sketchtree.clouds.growing.logistic import Logistic
 from sketchtree.clouds.growing.markers import Markers
 from sketchtree.clouds.growing.metamer import Buds, branched, carried, rolled
 from sketchtree.clouds.growing.species import Species
@@ -30,9 +29,9 @@ from sketchtree.watch import Pulse, no_pulse
 
 
 def filled(
-    tree: TreeSkeleton, xyz: Float[np.ndarray, "point 3"], species: Species, *, key: Key[Array, ""], wanted: Growing = Growing(), pulse: Pulse = no_pulse  # noqa: B008 (frozen)
+    tree: TreeSkeleton, xyz: Float[np.ndarray, "point 3"], species: Species, *, key: Key[Array, ""], wanted: Growing | None = None, pulse: Pulse = no_pulse
 ) -> TreeSkeleton:
-    """The tree and, after its own rows, those that fill its inside (kind GROWN). `xyz`: the cloud that it was made of, metres."""
+    """The tree and, after its own rows, those that fill its inside (kind GROWN). `xyz`: the cloud that it was made of, metres; `wanted`: how, if not as the species says."""
     box = boxed(xyz)
     inside, place, apart = box.to_sketch(xyz), box.to_sketch(tree.tip), APART * species.internode
     more = hull_fill(crown_of(inside), apart, key=keys.stage_key(key, "fill"), clear=apart)
@@ -40,8 +39,8 @@ def filled(
     if not len(more):
         return tree
     word = keys.draw_key(keys.stage_key(key, "grow"))
-    influence = Logistic(float(np.ptp(inside[:, 1])) / species.internode)
-    wanted = dataclasses.replace(wanted, sheds=False)  # what stands stays
+    wanted = dataclasses.replace(wanted or species.growing, sheds=False)  # what stands stays
+    influence = influence_of(wanted, float(np.ptp(inside[:, 1])) / species.internode)
     begun, radius = Wood.of(tree.parent, place), tree.radius / box.scale
     result = colonise(Markers(more, np.ones(len(more))), begun, _buds(tree, place, species, word), influence, species, wanted, radius, word, pulse)
     return _appended(tree, result.wood, species.gamma, box)

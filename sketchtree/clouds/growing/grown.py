@@ -19,7 +19,7 @@ from sketchtree.clouds.growing.collapse import collapsed, kept
 from sketchtree.clouds.growing.colonise import colonise
 from sketchtree.clouds.growing.hermite import smoothed
 from sketchtree.clouds.growing.hull_fill import crown_of, hull_fill, unseen_inside
-from sketchtree.clouds.growing.logistic import Constant, Logistic
+from sketchtree.clouds.growing.logistic import Constant, Influence, Logistic
 from sketchtree.clouds.growing.markers import Markers, gathered
 from sketchtree.clouds.growing.metamer import seeds
 from sketchtree.clouds.growing.roots import Roots, roots_of
@@ -78,16 +78,17 @@ def grown(
     species: Species,
     *,
     key: Key[Array, ""],
-    wanted: Growing = Growing(),  # noqa: B008 (frozen)
+    wanted: Growing | None = None,
     radius: Float[np.ndarray, " root"] | None = None,
     pulse: Pulse = no_pulse,
 ) -> Grown:
-    """The tree on feet, each of which is some of the points (metres, y up). `radius`: of the stems at their feet, metres, where it was measured."""
-    box = boxed(xyz)
+    """The tree on feet, each of which is some of the points (metres, y up). `radius`: of the stems at their feet, metres, where it was measured;
+    `wanted`: how, if not as the species says."""
+    box, wanted = boxed(xyz), species.growing if wanted is None else wanted
     inside = box.to_sketch(xyz)
     roots = roots_of(inside, feet, None if radius is None else np.asarray(radius, float) / box.scale)
     markers = _markers(inside, species, wanted, keys.stage_key(key, "fill"))
-    influence = Logistic(float(np.ptp(inside[:, 1])) / species.internode) if wanted.influence is None else Constant(wanted.influence)
+    influence = influence_of(wanted, float(np.ptp(inside[:, 1])) / species.internode)
     word = keys.draw_key(keys.stage_key(key, "grow"))
     begun = Wood.of(np.full(len(feet), NULL), roots.place)
     buds = seeds(roots.place, roots.radius, 2.0 * np.pi * keys.uniform(word, np.arange(len(feet)), 7))
@@ -95,9 +96,16 @@ def grown(
     return Grown(result.wood, result.cycles, result.left, box, inside, roots, species, wanted)
 
 
+def influence_of(wanted: Growing, internodes: float) -> Influence:
+    """How far buds look in every cycle, in a plant that is so many internodes high."""
+    if wanted.influence is not None:
+        return Constant(wanted.influence)
+    return Logistic(internodes, wanted.start, wanted.rate, (wanted.least, wanted.most))
+
+
 def _markers(inside, species: Species, wanted: Growing, key) -> Markers:
     """The cloud's points, and those of its unseen inside if they are wanted."""
-    cloud = gathered(inside, point_weights(inside) if wanted.weighted else np.ones(len(inside)), _CELL * species.internode)
+    cloud = gathered(inside, point_weights(inside, eps_d=wanted.eps_d, eps_a=wanted.eps_a) if wanted.weighted else np.ones(len(inside)), _CELL * species.internode)
     if wanted.fill is False or (wanted.fill is None and not unseen_inside(inside)):
         return cloud
     apart = APART * species.internode

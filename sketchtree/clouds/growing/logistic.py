@@ -4,7 +4,7 @@ Guo et al. 2018, §5.2, Eq. 6-7: growth is fast where a plant is young and has r
 
     H_t = H_max / (1 + (H_max / H_0 − 1) e^(−ρ_0 t))
     ρ_t = dH/dt = H_max ρ_0 (H_max / H_0 − 1) e^(−ρ_0 t) / (1 + (H_max / H_0 − 1) e^(−ρ_0 t))²
-    d_i = ρ_t l,    kept within [4 l, 12 l]
+    d_i = ρ_t l,    kept within [4 l, 12 l]  (`least`, `most` of `wanted`)
 
     t     cycles of growth            H_max  K, the most internodes from the root to a leaf; the plant's height is K l
     H_0   2       ρ_0   0.3           l      internode, metres
@@ -48,12 +48,15 @@ class Logistic:
     """d_i by Eq. 7, for a plant that is so many internodes high."""
 
     most: float  # K
+    start: float = START  # H_0
+    rate: float = RATE  # ρ_0
+    between: tuple[float, float] = (LEAST, MOST)  # internodes that a bud may look
 
     def __call__(self, t: int) -> float:
-        return float(np.clip(growth_units(t, self.most), LEAST, MOST))
+        return float(np.clip(growth_units(t, self.most, self.start, self.rate), *self.between))
 
     def falling(self, t: int) -> bool:
-        return self.most <= 2 * START or t >= np.log(self.most / START - 1.0) / RATE
+        return self.most <= 2 * self.start or t >= np.log(self.most / self.start - 1.0) / self.rate
 
 
 @dataclass(frozen=True)

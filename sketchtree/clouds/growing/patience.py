@@ -1,14 +1,14 @@
 """How far, and over which detours, do buds look where nothing nearer is left?
 
-In every cycle buds look as far as the influence says (`logistic`). Where none grew, all look farther, up to 12 l; then ways may be a longer detour; and in the end buds look over gaps, up to
-60 l (ours). As soon as one grows, they look as far as before.
+In every cycle buds look as far as the influence says (`logistic`). Where none grew, all look farther, up to d_i's most, 12 l; then ways may be a longer detour; and in the end buds look over
+gaps, up to 60 l (ours). As soon as one grows, they look as far as before.
 """
 
 from dataclasses import dataclass
 
 import numpy as np
 
-from sketchtree.clouds.growing.logistic import MOST, Influence
+from sketchtree.clouds.growing.logistic import Influence
 from sketchtree.clouds.growing.wanted import Growing
 
 _WIDER, _WIDEST = 1.5, 60.0  # how much farther in each cycle in which none grew, and how many internodes at most
@@ -41,7 +41,7 @@ class Patience:
     @property
     def farthest(self) -> float:
         """Internodes that buds will ever look."""
-        return _WIDEST if self.wanted.persists else MOST
+        return _WIDEST if self.wanted.persists else self.wanted.most
 
     def look(self, cycle: int) -> float:
         """Internodes that buds look in a cycle."""
@@ -65,4 +65,4 @@ class Patience:
         return True
 
     def _most(self) -> float:
-        return _WIDEST if self.detour == np.inf else MOST
+        return _WIDEST if self.detour == np.inf else self.wanted.most

@@ -1,10 +1,30 @@
-"""Every choice of one growth toward points."""
+"""Every choice of one growth toward points. A species' recipe may make its own (`species`), and the command line any (`figures`)."""
 
 from dataclasses import dataclass
 
 from sketchtree.clouds.growing.heading import ALPHA, BETA
+from sketchtree.clouds.growing.logistic import LEAST, MOST, RATE, START
 from sketchtree.clouds.growing.perception import KILL, THETA
+from sketchtree.clouds.growing.weights import EPS_A, EPS_D
 from sketchtree.errors import OptionError
+
+RANGES = {
+    "theta": (1.0, 180.0),
+    "kill": (0.05, 1.0),
+    "alpha": (0.0, 100.0),
+    "beta": (0.0, 100.0),
+    "least": (1.0, 1000.0),
+    "most": (1.0, 1000.0),
+    "start": (0.1, 1000.0),
+    "rate": (0.01, 10.0),
+    "eps_d": (0.001, 10.0),
+    "eps_a": (0.0, 1.0),
+    "spread": (0.0, 90.0),
+}
+"""Within which each of the figures may lie."""
+
+INFLUENCE = (1.0, 1000.0)
+"""Internodes."""
 
 
 @dataclass(frozen=True)
@@ -17,7 +37,13 @@ class Growing:
     beta: float = BETA  # of V_tropism
     tropism: tuple[float, float, float] = (0.0, -1.0, 0.0)  # as printed, downward; (0, 1, 0) upward
     influence: float | None = None  # internodes, constant; None: logistic (Eq. 6-7)
+    least: float = LEAST  # internodes, of a logistic d_i
+    most: float = MOST  # internodes, of a logistic d_i
+    start: float = START  # H_0, internodes
+    rate: float = RATE  # ρ_0
     weighted: bool = True  # points count by Eq. 8, or all alike
+    eps_d: float = EPS_D  # ε_D, metres in the box
+    eps_a: float = EPS_A  # ε_A
     fill: bool | None = False  # branches for the inside that nobody saw (Fig. 8); None: where the points leave it out
     spread: float = 6.0  # degrees, standard deviation of φ and ψ from bud to bud
     steered: bool = True  # a shoot turns at every internode, not only where it begins
@@ -29,11 +55,13 @@ class Growing:
     persists: bool = True  # where growth has ended, buds look farther once more, up to 12 l
 
     def __post_init__(self):
-        for name, low, high in (("theta", 1.0, 180.0), ("kill", 0.05, 1.0), ("alpha", 0.0, 100.0), ("beta", 0.0, 100.0), ("spread", 0.0, 90.0)):
+        for name, (low, high) in RANGES.items():
             if not low <= getattr(self, name) <= high:
                 raise OptionError(f"`{name}` is {getattr(self, name)!r}.", remedy=f"Give a number from {low:g} to {high:g}.")
-        if self.influence is not None and not 1.0 <= self.influence <= 1000.0:
+        if self.influence is not None and not INFLUENCE[0] <= self.influence <= INFLUENCE[1]:
             raise OptionError(f"`influence` is {self.influence!r}.", remedy="Give internodes, 1 to 1000, or None for the logistic model.")
+        if self.least > self.most:
+            raise OptionError(f"Buds would look at least {self.least:g} internodes and at most {self.most:g}.", remedy="Make `most` the larger one.")
 
 
 def plain(internodes: float) -> Growing:

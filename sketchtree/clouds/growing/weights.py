@@ -31,11 +31,11 @@ def axes(xyz: Float[np.ndarray, "point 3"], tree: cKDTree, around: int = AROUND)
 
 
 def point_weights(
-    xyz: Float[np.ndarray, "point 3"], *, eps_d: float | None = None, eps_a: float = EPS_A, around: int = AROUND
+    xyz: Float[np.ndarray, "point 3"], *, eps_d: float = EPS_D, eps_a: float = EPS_A, around: int = AROUND
 ) -> Float[np.ndarray, " point"]:
-    """w_i of every point, itself counted, so that none is 0. `eps_d` in the cloud's units; by default 3 cm or more."""
+    """w_i of every point, itself counted, so that none is 0. `eps_d` in the cloud's units, more where points lie far apart."""
     tree = cKDTree(xyz)
-    eps_d = max(EPS_D, _SPACINGS * spacing(xyz, tree)) if eps_d is None else eps_d
+    eps_d = max(eps_d, _SPACINGS * spacing(xyz, tree))
     while tree.count_neighbors(tree, eps_d) > 2 * _PAIRS:
         eps_d *= 0.7
     pair = tree.query_pairs(eps_d * (1.0 - 1e-12), output_type="ndarray")
