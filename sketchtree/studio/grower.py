@@ -9,7 +9,6 @@ A tree that is shown stays while the next one grows, and goes when there is noth
 import asyncio
 from collections.abc import Callable, Coroutine, Mapping
 from dataclasses import dataclass
-from functools import partial
 
 from sketchtree.editing.document import Document
 from sketchtree.errors import SketchError, SketchTreeError
@@ -19,6 +18,7 @@ from sketchtree.studio.growth import Held, Whose
 from sketchtree.studio.hand import Ended, Hand
 from sketchtree.studio.laid_photo import LaidPhoto
 from sketchtree.studio.making.photo_asked import Asked, Wish
+from sketchtree.studio.one_job import OneJob
 
 _REST = 1.0  # seconds without a change before it grows
 _PATIENCE = 1.5  # seconds in which what is stopped ends by itself, before its process is ended
@@ -44,9 +44,8 @@ class Grower:
         self._now: tuple[int, Wish] | None = None  # the newest drawing
         self._seen: Seen | None = None
         self._shown: Wish | None = None  # as pages have it
-        self._works: tuple[Wish, int] | None = None  # what grows, and the number of its job
+        self._job = OneJob(hand, self._begin, _PATIENCE)
         self._given_up: tuple[Wish, str, str] | None = None  # not to be grown again: its state, and why
-        self._soon: asyncio.TimerHandle | None = None
         self._told: messages.Growing | None = None
         self.textures: Mapping[tuple[str, str], bytes] = {}  # by material and map: those that only the tree that is shown has
         self._told_at = 0.0
@@ -73,14 +72,14 @@ class Grower:
 
     def stop(self) -> None:
         """What grows, or is to, is not wanted."""
-        waits = self._works is not None or self._soon is not None or self._told is not None and self._told.state == "waits"
+        waits = self._job.goes_on or self._told is not None and self._told.state == "waits"
         if self._now is not None and waits:
             self._given_up = self._now[1], "stopped", ""
             self._go_on(0.0)
 
     def end(self) -> None:
         """End the process."""
-        self._clear()
+        self._job.clear()
         self._hand.end()
 
     async def files(self, document: Document, name: str, options: dict, tell: Tell = untold) -> dict[str, bytes]:
@@ -108,7 +107,7 @@ class Grower:
 
     def heard(self, number: int, value: tuple) -> None:
         """The process tells how far it is."""
-        if self._works is None or self._works[1] != number or self._now is None:
+        if not self._job.is_of(number) or self._now is None:
             return
         _, stage, done = value
         if self._loop.time() - self._told_at >= _PAUSE:
@@ -117,10 +116,10 @@ class Grower:
     def _go_on(self, pause: float) -> None:
         """Whatever is to be done for the newest drawing."""
         _, wish = self._now
-        if self._works is not None and self._works[0].key == wish.key and self._given_up is None:
-            self._works = wish, self._works[1]
+        if self._job.made is not None and self._job.made[0].key == wish.key and self._given_up is None:
+            self._job.works(wish, self._job.made[1])
             return
-        self._halt()
+        self._job.halt()
         if self._shown is not None and self._shown.key == wish.key:
             self._given_up = None
             self._tell("ready", done=1.0)
@@ -133,14 +132,13 @@ class Grower:
         else:
             self._given_up = None
             self._tell("waits")
-            self._soon = self._loop.call_later(pause, self._begin)
+            self._job.later(pause)
 
     def _begin(self) -> None:
-        self._soon = None
         revision, wish = self._now
         self._laid.show(self._hand, wish.asked)
         number, answer = self._hand.ask("grow", revision, wish, dict(self._seen.foliages))
-        self._works = wish, number
+        self._job.works(wish, number)
         self._tell("grows")
         self._run(self._grown(revision, number, answer))
 
@@ -151,9 +149,9 @@ class Grower:
             found, why = None, "The process that grows it ended. Grow it again."
         except SketchTreeError as error:
             found, why = None, f"{error.message} {error.remedy}"
-        if self._works is None or self._works[1] != number or not (found or why):
+        if not self._job.is_of(number) or not (found or why):
             return
-        (wish, _), self._works = self._works, None
+        wish = self._job.done()
         if why:
             self._given_up = wish, "failed", why
             self._tell("failed", remark=why)
@@ -165,31 +163,10 @@ class Grower:
 
     def _nothing(self, revision: int) -> None:
         """There is no tree to grow."""
-        self._halt()
+        self._job.halt()
         self._shown = self._given_up = None
         if self._told is not None and self._told.state != "none":
             self._say(messages.Growing(revision=revision, state="none"))
-
-    def _halt(self) -> None:
-        """Nothing grows from now on."""
-        self._clear()
-        if self._works is not None:
-            (_, number), self._works = self._works, None
-            self._hand.stop()
-            self._loop.call_later(_PATIENCE, partial(self._make_sure, number))
-
-    def _make_sure(self, number: int) -> None:
-        """A job that does not end when it should is ended with its process; what was asked since is asked again."""
-        if self._hand.waits_for(number):
-            again, self._works = self._works is not None, None
-            self._hand.begin()
-            if again:
-                self._begin()
-
-    def _clear(self) -> None:
-        if self._soon is not None:
-            self._soon.cancel()
-            self._soon = None
 
     def _tell(self, state: str, **more) -> None:
         self._say(messages.Growing(revision=self._now[0], state=state, **more))

@@ -7,7 +7,6 @@ What is shown stays until the next is there, and goes when the tree is not taken
 
 import asyncio
 from collections.abc import Callable, Coroutine, Mapping
-from functools import partial
 
 import msgspec
 
@@ -20,6 +19,7 @@ from sketchtree.studio.hand import Ended, Hand
 from sketchtree.studio.laid_photo import LaidPhoto
 from sketchtree.studio.making.photo_asked import Asked
 from sketchtree.studio.making.trunk_asked import TrunkWish
+from sketchtree.studio.one_job import OneJob
 
 _REST = 0.6  # seconds without a change before it is made
 _PAUSE = 0.2  # seconds between two tellings of how far it is
@@ -35,9 +35,8 @@ class Trunker:
         self._loop = asyncio.get_running_loop()
         self._now: tuple[int, TrunkWish] | None = None  # the newest drawing
         self._asked: Asked | None = None  # the photo that it lies on
-        self._works: tuple[TrunkWish, int] | None = None  # what is made, and the number of its job
+        self._job = OneJob(hand, self._begin, _PATIENCE)
         self._done: tuple[TrunkWish, str, str] | None = None  # what is not to be made again: its state, and why
-        self._soon: asyncio.TimerHandle | None = None
         self._is_on, self._told_at = False, 0.0
         self._over: dict[type, messages.Event] = {}  # what is laid over the photo: of the tree that is made, or was last
         self._shown: dict[type, messages.Event] = {}  # and of the tree that is shown
@@ -54,10 +53,10 @@ class Trunker:
         self._laid.show(self._hand, asked)
         if at_once:
             self._done = None
-        if self._works is not None and self._works[0].key == wish.key:
-            self._works = wish, self._works[1]
+        if self._job.made is not None and self._job.made[0].key == wish.key:
+            self._job.works(wish, self._job.made[1])
             return
-        self._halt()
+        self._job.halt()
         if self._done is not None and self._done[0].key == wish.key:
             self._tell(*self._done[1:])
             if self._done[1] == "ready":
@@ -65,18 +64,18 @@ class Trunker:
                     self._outcome(Outcome(revision, msgspec.structs.replace(event, revision=revision)))
             return
         self._tell("waits")
-        self._soon = self._loop.call_later(0.0 if at_once else _REST, self._begin)
+        self._job.later(0.0 if at_once else _REST)
 
     def stop(self) -> None:
         """What is made, or is to be, is not wanted."""
-        if self._now is not None and (self._works is not None or self._soon is not None):
-            self._halt()
+        if self._now is not None and self._job.goes_on:
+            self._job.halt()
             self._done = self._now[1], "stopped", ""
             self._tell("stopped")
 
     def end(self) -> None:
         """End the process."""
-        self._clear()
+        self._job.clear()
         self._hand.end()
 
     async def files(self, document: Document, name: str, options: dict, tell: Tell = untold) -> dict[str, bytes]:
@@ -103,7 +102,7 @@ class Trunker:
 
     def heard(self, number: int, value: tuple) -> None:
         """The process tells what it found, and how far it is."""
-        if self._works is None or self._works[1] != number or self._now is None:
+        if not self._job.is_of(number) or self._now is None:
             return
         if value[0] == "event":
             self._over[type(value[1])] = value[1]
@@ -113,11 +112,10 @@ class Trunker:
             self._say(state="grows", stage=value[1], done=min(max(float(value[2]), 0.0), 1.0))
 
     def _begin(self) -> None:
-        self._soon = None
         revision, wish = self._now
         self._laid.show(self._hand, self._asked)
         number, answer = self._hand.ask("trunk", revision, wish)
-        self._works = wish, number
+        self._job.works(wish, number)
         self._tell("grows")
         self._run(self._made(revision, number, answer))
 
@@ -129,9 +127,9 @@ class Trunker:
             why = "The process that makes it ended. Make it again."
         except SketchTreeError as error:
             why = f"{error.message} {error.remedy}"
-        if self._works is None or self._works[1] != number or not (found or why):
+        if not self._job.is_of(number) or not (found or why):
             return
-        (wish, _), self._works = self._works, None
+        wish = self._job.done()
         self._done = wish, "failed" if why else "ready", why
         if found:
             (frame, self.textures), self._shown = found, dict(self._over)
@@ -140,34 +138,13 @@ class Trunker:
 
     def _nothing(self, revision: int) -> None:
         """The tree is not taken from scribbles."""
-        self._halt()
+        self._job.halt()
         self._now = self._done = None
         self._over, self._shown = {}, {}
         if self._is_on:
             self._is_on = False
             for event in (messages.Matte(revision=revision, png=""), messages.Trunks(revision=revision, state="none"), messages.Growing(revision=revision, state="none")):
                 self._outcome(Outcome(revision, event))
-
-    def _halt(self) -> None:
-        """Nothing is made from now on."""
-        self._clear()
-        if self._works is not None:
-            (_, number), self._works = self._works, None
-            self._hand.stop()
-            self._loop.call_later(_PATIENCE, partial(self._make_sure, number))
-
-    def _make_sure(self, number: int) -> None:
-        """A job that does not end when it should is ended with its process; what was asked since is asked again."""
-        if self._hand.waits_for(number):
-            again, self._works = self._works is not None, None
-            self._hand.begin()
-            if again:
-                self._begin()
-
-    def _clear(self) -> None:
-        if self._soon is not None:
-            self._soon.cancel()
-            self._soon = None
 
     def _tell(self, state: str, remark: str = "") -> None:
         """How far it is: `Trunks` for what is laid over the photo, unless that is there; `Growing` for the tree."""
