@@ -11,6 +11,9 @@ from sketchtree.commands.progress import Progress
 from sketchtree.errors import OptionError
 
 SCORES = ("calibrated", "chen")
+SCANS = (".ply", ".las", ".laz", ".xyz", ".pts", ".asc", ".npy")
+"""Files that are point clouds and nothing else."""
+
 GROWTH_HABITS = ("decurrent", "fastigiate", "weeping", "excurrent", "umbrella", "palm", "shrub", "irregular")
 
 
@@ -165,7 +168,8 @@ def cores() -> int:
 @click.option("--name", help="Name of the exemplar (default: the file's). One file only.")
 @click.option("--title", help="Name for people (default: the name). One file only.")
 @click.option("--unit", type=click.Choice(["m", "cm", "mm"]), default="m", show_default=True, help="What the file's lengths are in.")
-@click.option("--up", type=click.Choice(["y", "z"]), help="Which axis points up (default: z in MTG and cylinder tables, else y).")
+@click.option("--up", type=click.Choice(["y", "z"]), help="Which axis points up (default: z in MTG and cylinder tables, as it lies in clouds, else y).")
+@click.option("--tree", "which", type=click.IntRange(1), metavar="K", help="Which tree of a point cloud of several, 1 the largest.")
 @click.option("--species", default="", help="Botanical name.")
 @click.option("--growth-habit", type=click.Choice(GROWTH_HABITS), help="What it looks like before any species.")
 @click.option("--source", default="", help="Who measured it, where; kept with it.")
@@ -176,9 +180,9 @@ def cores() -> int:
 @common
 def import_command(
     files: tuple[Path, ...], into: Path, name: str | None, title: str | None, like: str | None, leaf: str | None, bark: str | None,
-    growth_habit: str | None, replace: bool, quiet: bool, json_log: bool, db: Path | None, report: Path | None, seed: int, **said,
+    growth_habit: str | None, which: int | None, replace: bool, quiet: bool, json_log: bool, db: Path | None, report: Path | None, seed: int, **said,
 ) -> None:  # fmt: skip
-    """Add digitised trees as exemplars: .mtg, .swc, .csv or .txt (cylinders), .npz, .json, .h5."""
+    """Add real trees as exemplars: digitised (.mtg, .swc, .csv or .txt of cylinders, .npz, .json, .h5), or scanned (.ply, .las, .laz, .xyz)."""
     from sketchtree.templates.importing.add import add, blocks_of, check_free
     from sketchtree.templates.importing.read import Described, check_name, imported, name_of
 
@@ -194,11 +198,22 @@ def import_command(
     with progress.running():
         blocks = []
         for file in files:
-            blocks += blocks_of(file) if _is_database(file) else [imported(file, described)]
+            blocks += blocks_of(file) if _is_database(file) else [imported(file, described, _traced(file, described, which, seed))]
             progress(str(file))
         database = add(into, blocks, replace=replace)
         progress.say(f"wrote {into}: {len(database)} exemplars, {len(blocks)} of them new, {into.stat().st_size / 1e6:.2f} MB", event="written")
     _write_report(report, {"exemplars": list(database.names), "imported": [b["exemplar/name"][0].decode() for b in blocks], "out": str(into)})
+
+
+def _traced(file: Path, described, which: int | None, seed: int):
+    """The tree that stands in a point cloud; None of a file that holds a skeleton."""
+    if file.suffix.lower() not in SCANS:
+        return None
+    from sketchtree.cloud_tree import CloudOptions, CloudSource
+    from sketchtree.keys import root_key
+    from sketchtree.templates.importing.frame import METRES
+
+    return CloudSource(CloudOptions(up=described.up or "auto", tree=which, unit=METRES[described.unit], inside=False))(file, key=root_key(seed))
 
 
 def _is_database(file: Path) -> bool:

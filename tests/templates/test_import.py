@@ -178,6 +178,24 @@ def test_show_tells_where_it_comes_from_and_how_sure_its_theta_is(typed, tree, t
     assert "Θ, s.e. of means" in said and "Θ, order 2+, s.e." in said and "?" in said, "no pair of order 2 tells anything of γ"
 
 
+def test_a_scanned_tree_becomes_an_exemplar(typed, tree, tmp_path):
+    """Its points in centimetres, z up: the tree is traced, with its fourteen laterals, and what leads on at the top, and their angle."""
+    random, long = np.random.default_rng(0), np.where(tree.parent < 0, 0.0, tree.length)
+    row = random.choice(len(tree), 12_000, p=long / long.sum())
+    share = random.random((len(row), 1))
+    around = random.normal(size=(len(row), 3))
+    around /= np.linalg.norm(around, axis=1, keepdims=True)
+    points = tree.tip[tree.parent[row]] * (1 - share) + tree.tip[row] * share + tree.radius[row, None] * around
+    np.savetxt(tmp_path / "Old Oak.xyz", 100 * points[:, [0, 2, 1]] * (1, -1, 1), fmt="%.3f")
+    assert typed(tmp_path / "Old Oak.xyz", "--into", tmp_path / "a.h5", "--unit", "cm", "--quiet") == (0, "", "")
+    oak = Database(tmp_path / "a.h5").exemplar("old_oak")
+    assert "traced in the point cloud Old Oak.xyz (sha256 " in oak.source and np.ptp(oak.skeleton.tip[:, 1]) == pytest.approx(np.ptp(tree.tip[:, 1]), rel=0.03)
+    rows = [np.flatnonzero(oak.skeleton.limb == limb) for limb in np.unique(oak.skeleton.limb[oak.skeleton.order == 1])]
+    rise = [oak.skeleton.tip[row[-1]] - oak.skeleton.tip[row[0]] for row in rows if oak.skeleton.length[row].sum() > 0.5]
+    assert len(rise) == 14 and np.degrees(np.median([np.arccos(one[1] / np.linalg.norm(one)) for one in rise])) == pytest.approx(60, abs=2)
+
+
+
 def test_the_same_import_gives_the_same_bytes(typed, tree, tmp_path):
     write_swc(tmp_path / "t.swc", tree, header={})
     for name in ("a.h5", "b.h5"):

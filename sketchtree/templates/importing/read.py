@@ -7,6 +7,7 @@ from pathlib import Path
 
 from sketchtree.errors import SketchTreeError, TemplateError
 from sketchtree.parameters import Habit
+from sketchtree.skeleton import TreeSkeleton
 from sketchtree.skeleton_files import read_skeleton
 from sketchtree.templates.store.columns import to_columns
 from sketchtree.templates.exemplar import measure
@@ -33,17 +34,18 @@ class Described:
     like: Habit | None = None  # whose other fields it borrows
 
 
-def imported(file: Path, said: Described) -> Block:
-    """The columns of the exemplar in `file`. Raises a `SketchTreeError` that names the file."""
+def imported(file: Path, said: Described, traced: TreeSkeleton | None = None) -> Block:
+    """The columns of the exemplar in `file`. `traced`: the tree that stands in it, metres, y up, where the file is a point cloud. Raises a `SketchTreeError` that names the file."""
     file = Path(file)
     up = said.up or UP.get(file.suffix.lower(), "y")
-    tree = stood(read_skeleton(file), file=str(file), unit=said.unit, up=up)
+    tree = stood(read_skeleton(file), file=str(file), unit=said.unit, up=up) if traced is None else stood(traced, file=str(file))
     like = said.like or Habit()
     habit = habit_from_tree(tree, like=like)
     habit = Habit(**{**vars(habit), "leaf": said.leaf or like.leaf, "bark": said.bark or like.bark})
     name = said.name or name_of(file)
     hashed = hashlib.sha256(file.read_bytes()).hexdigest()[:12]
-    origin = f"digitised tree, imported from {file.name} (sha256 {hashed}, {said.unit}, {up} up)"
+    what, frame = ("digitised tree, imported from", f", {up} up") if traced is None else ("traced in the point cloud", "")
+    origin = f"{what} {file.name} (sha256 {hashed}, {said.unit}{frame})"
     try:
         exemplar, views = measure(
             tree, name=name, title=said.title or name.replace("_", " "), habit=habit, recipe="",
