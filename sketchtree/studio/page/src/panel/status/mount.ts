@@ -30,7 +30,7 @@ function mark(root: HTMLElement, store: Store): void {
   root.dataset["segments"] = String(there ? tree.segments : 0);
   root.dataset["triangles"] = String(there ? tree.triangles.reduce((sum, one) => sum + one, 0) : 0);
   if (drawnTree?.phase === "full") root.dataset["revision"] = String(drawnTree.revision);
-  else if (!there) root.dataset["revision"] = String(revision);
+  else if (strokes.size === 0) root.dataset["revision"] = String(revision); // a drawing whose tree is still to come has none yet
 }
 
 function aloud(store: Store): HTMLElement {
