@@ -4,13 +4,15 @@ Each of the three things that the paper adds to plain PatchMatch can be left out
 """
 
 from collections.abc import Callable
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
+from functools import partial
 
 import numpy as np
 from jaxtyping import Key
 
 from sketchtree.errors import ViewsError
 from sketchtree.keys import numpy_generator, stage_key
+from sketchtree.multiview.accelerated.engine import engine_of
 from sketchtree.multiview.compiled import side_by_side
 from sketchtree.multiview.guided import smoothed
 from sketchtree.multiview.patchmatch import finer, starting, sweep
@@ -35,6 +37,7 @@ class Quality:
     segments: bool = True  # Eq. 2's second term
     coherence: bool = True  # Eq. 3-4 by fusion moves
     guided: int = 2  # radius of the guided filter, pixels; 0: none
+    engine: str = "auto"  # what works PatchMatch out: numba | jax; auto: jax where it has a GPU
 
 
 PREVIEW = Quality(longest=480, sources=4, shrinks=(2, 1), rounds=(4, 2))
@@ -47,6 +50,7 @@ def depth_maps(
     """A depth map for every view; one without partners has none. Raises ViewsError where no view has a partner."""
     if not any(len(one.rows) for one in sources):
         raise ViewsError("No two photos look at the same place from near enough.", remedy="Take photos every 10-15° round the plant, and check the poses.")
+    quality = replace(quality, engine=engine_of(quality.engine))
     watch = watch or Watch()
     tell = watch.on_part
     levels: list[Level] = []
@@ -82,19 +86,28 @@ def _swept(levels: list[Level], quality: Quality, rounds: int, number: int, key,
         level = levels[row]
         if not level.used.any():
             return
-        near = partners(level, levels)
+        sweep_once = _sweeps(level, partners(level, levels), quality)
         label = segments_of(level.rgb, level.used) if quality.segments else None
         prior = np.zeros_like(level.plane)
         for turn in range(rounds):
             if quality.segments and (turn or number):
                 prior = planes_of(label, level.plane, level.energy if turn else np.zeros_like(level.energy), level.sources.low, level.sources.high)
             for colour in (0, 1):
-                _sweep(level, near, colour, prior, quality, 0.05 * 0.5 ** (turn + 2 * number), 2 if number == 0 else 1, seeds[row, turn, colour])
+                sweep_once(colour, prior, 0.05 * 0.5 ** (turn + 2 * number), 2 if number == 0 else 1, seeds[row, turn, colour])
 
     side_by_side(one, range(len(levels)), pulse, part)
 
 
-def _sweep(level: Level, near: Partners, colour: int, prior, quality: Quality, spread: float, fresh: int, seed) -> None:
+def _sweeps(level: Level, near: Partners, quality: Quality) -> Callable:
+    """A function that sweeps one colour of a level once, by the engine wanted."""
+    if quality.engine == "jax":
+        from sketchtree.multiview.accelerated.sweep_jax import Sweeps
+
+        return Sweeps(level, near, quality.step, quality.best)
+    return partial(_sweep, level, near, quality)
+
+
+def _sweep(level: Level, near: Partners, quality: Quality, colour: int, prior, spread: float, fresh: int, seed) -> None:
     sweep(
         colour, 0, level.shape[0], level.grey, level.used, level.plane, level.energy, prior, level.sources.low, level.sources.high, float(level.camera.matrix[0, 0]),
         near.transfers, near.others, near.sizes, quality.step, quality.best, spread, fresh, np.uint64(seed),
