@@ -3,13 +3,14 @@
 import numpy as np
 
 from sketchtree.cloud_tree import CloudTree
+from sketchtree.clouds.growing.wanted import RANGES
 from sketchtree.reading_report import frame, plain
 
 
-def cloud_report(tree: CloudTree, *, command: str, seed: int, seconds: dict[str, float], options: dict, warnings: tuple[str, ...] = ()) -> dict:
-    """The report of one run, by `report.schema.json`."""
+def cloud_report(tree: CloudTree, others: dict | None = None, *, command: str, seed: int, seconds: dict[str, float], options: dict, warnings: tuple[str, ...] = ()) -> dict:
+    """The report of one run, by `report.schema.json`. `others`: `series` and `variations`, what was written beside a tree that grew."""
     run = frame(command, seed, seconds, options, (*tree.warnings, *warnings))
-    return plain(run | _found(tree) | {"cloud": _cloud(tree)})
+    return plain(run | _found(tree) | {"cloud": _cloud(tree) | {"growth": _growth(tree, others or {"series": [], "variations": []})}})
 
 
 def _found(tree: CloudTree) -> dict:
@@ -44,3 +45,12 @@ def _cloud(tree: CloudTree) -> dict:
         "feet": [{"place": place.tolist(), "diameter": thick} for place, thick in zip(feet.place, trunks, strict=True)],
         "species": {"name": tree.species.name, "internode": tree.species.internode, "roll": tree.species.roll, "branching": tree.species.branching, "gamma": tree.species.gamma},
     }
+
+
+def _growth(tree: CloudTree, others: dict) -> dict | None:
+    """How it came to be, and what was written beside it."""
+    if tree.grows is None:
+        return None
+    how = tree.grows.wanted
+    figures = {name: getattr(how, name) for name in (*RANGES, "influence", "weighted")} | {"tropism": list(how.tropism)}
+    return {"cycles": tree.grows.cycles, "left": tree.grows.left, "figures": figures} | others

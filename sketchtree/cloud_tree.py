@@ -96,6 +96,7 @@ class CloudTree:
     grows: Grown | None  # how it came to be; None of one that was traced
     seen: int  # rows that were seen, the first ones; the others fill the inside
     model: Worn
+    wanted: CloudOptions
     finish: Finish
     warnings: tuple[str, ...]
 
@@ -122,12 +123,16 @@ def cloud_to_tree(
         stands = feet(prepared.cloud.xyz, prepared.above, count="auto" if wanted.roots is None else wanted.roots)
     with watch("infer"):
         found = _wood(prepared, stands, wanted, key)
+    return whole_tree(found, prepared, stands, wanted, Finish(key, tree, templates, template), watch)
+
+
+def whole_tree(found: "Found", prepared: Prepared, stands: Feet, wanted: CloudOptions, finish: Finish, watch: Watch) -> CloudTree:
+    """What was found, with what nobody saw, and finished."""
     with watch("propagate"):
-        wood, seen = _whole(found, prepared, wanted, key)
-    finish = Finish(key, tree, templates, template)
+        wood, seen = _whole(found, prepared, wanted, finish.key)
     model, told = finish(wood, watch)
     told = (*prepared.remarks, *_remarks(found, stands), *told)
-    return CloudTree(prepared, stands, found.trunks, found.species, found.pieces, found.grows, seen, model, finish, tuple(dict.fromkeys(told)))
+    return CloudTree(prepared, stands, found.trunks, found.species, found.pieces, found.grows, seen, model, wanted, finish, tuple(dict.fromkeys(told)))
 
 
 def _prepared(given: str | Path | Placed | PointCloud, wanted: CloudOptions) -> Prepared:
@@ -136,7 +141,9 @@ def _prepared(given: str | Path | Placed | PointCloud, wanted: CloudOptions) -> 
 
 
 @dataclass(frozen=True, eq=False)
-class _Wood:
+class Found:
+    """What was seen, as a skeleton."""
+
     tree: TreeSkeleton
     trunks: tuple[Trunk | None, ...]
     species: Species
@@ -144,7 +151,7 @@ class _Wood:
     grows: Grown | None = None
 
 
-def _wood(prepared: Prepared, stands: Feet, wanted: CloudOptions, key) -> _Wood:
+def _wood(prepared: Prepared, stands: Feet, wanted: CloudOptions, key) -> Found:
     """What was seen, as a skeleton."""
     xyz = prepared.cloud.xyz
     trunks = tuple(trunk(xyz[rows], breast_height(prepared.cloud.height)) for rows in stands.stems)
@@ -152,10 +159,10 @@ def _wood(prepared: Prepared, stands: Feet, wanted: CloudOptions, key) -> _Wood:
     found = traced(xyz, stands.rows, foot_radius=known) if wanted.method == "traced" or wanted.species == "auto" else None
     kind = estimated(xyz, species(GENERAL), found.skeleton, found.gamma) if wanted.species == "auto" else species(wanted.species)
     if wanted.method == "traced":
-        return _Wood(_refined(found.skeleton), trunks, kind, found.pieces)
+        return Found(_refined(found.skeleton), trunks, kind, found.pieces)
     kind = reduce(lambda kind, said: changes(said)[0].of(kind), wanted.figures, kind)
     grows = growth(prepared, stands, trunks, kind, key)
-    return _Wood(grows.skeleton, trunks, kind, None, grows)
+    return Found(grows.skeleton, trunks, kind, None, grows)
 
 
 def growth(prepared: Prepared, stands: Feet, trunks: tuple[Trunk | None, ...], kind: Species, key: Key[Array, ""]) -> Grown:
@@ -164,7 +171,7 @@ def growth(prepared: Prepared, stands: Feet, trunks: tuple[Trunk | None, ...], k
     return grown(prepared.cloud.xyz, stands.rows, kind, key=stage_key(key, "toward points"), radius=thick)
 
 
-def _whole(found: _Wood, prepared: Prepared, wanted: CloudOptions, key) -> tuple[TreeSkeleton, int]:
+def _whole(found: Found, prepared: Prepared, wanted: CloudOptions, key) -> tuple[TreeSkeleton, int]:
     """(the tree with what nobody saw, how many of its rows were seen)."""
     tree, xyz = found.tree, prepared.cloud.xyz
     if wanted.inside is False or (wanted.inside is None and not unseen_inside(xyz)):
@@ -179,7 +186,7 @@ def _refined(tree: TreeSkeleton) -> TreeSkeleton:
     return TreeSkeleton.from_columns(parent, place, radius, limb=tree.limb[stays], order=tree.order[stays], tree=tree.tree[stays], kind=tree.kind[stays])
 
 
-def _remarks(found: _Wood, stands: Feet) -> list[str]:
+def _remarks(found: Found, stands: Feet) -> list[str]:
     told = []
     if found.pieces is not None and found.pieces > 1:
         told.append(f"The points fall into {found.pieces:,} pieces; gaps between them were bridged where they are narrow.")

@@ -37,7 +37,7 @@ def cloud(points_file: Path, output: Path, seed: int, quiet: bool, json_log: boo
     progress = Progress(STAGES, quiet=quiet, json_log=json_log)
     watch = Watch(progress, progress.part)
     with progress.running():
-        asked = of_points.asked(wanted, output=output, report=report, seed=seed, db=db, up=wanted["up"], tree=wanted["tree"], unit=wanted["unit"], points=wanted["points"])
+        asked = of_points.asked(wanted, given=(points_file,), output=output, report=report, seed=seed, db=db, up=wanted["up"], tree=wanted["tree"], unit=wanted["unit"], points=wanted["points"])
         tree = of_points.made(points_file, asked, watch)
         record = of_points.written(tree, asked, "cloud", watch, began=began, imported=imported, given=(points_file,))
     writing.conclude(record, output, progress)

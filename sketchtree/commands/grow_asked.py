@@ -7,6 +7,7 @@ import click
 from click.core import ParameterSource
 
 from sketchtree.animation.wanted import LEAST_JOINTS, LIMIT_JOINTS
+from sketchtree.commands.series import check_series
 from sketchtree.errors import ExportError, OptionError
 from sketchtree.export.files import MESHES, PROJECTS, SKELETONS
 from sketchtree.sketch.files.project import holds_scribbles
@@ -14,7 +15,6 @@ from sketchtree.sketch.files.project import holds_scribbles
 ANIMATED = (".glb", ".gltf", ".usd", ".usda", ".usdc", ".usdz")
 PICTURES = (".png", ".jpg", ".jpeg", ".tif", ".tiff", ".webp", ".bmp", ".gif", ".heic", ".avif")
 ROWS = (".swc", ".mtg", ".h5", ".npz", ".csv", ".txt")
-SERIES_FRAMES = 24
 _OF_PICTURE = ("scribbles", "use_matte", "matting", "edit_matte", "vertices", "gap", "root", "lift", "matte", "trunk")
 _OF_DRAWING = ("theta", "method", "planar", "crown", "max_strokes", "generations", "fill", "density", "light", "obstacle", "sag", "shed", "shed_twigs", "untangle")
 _OF_FILE = ("max_mb", "max_megapixels")
@@ -121,7 +121,7 @@ def check_outputs(source: Path, output: Path, report: Path | None, wanted: dict)
         if one["movie"] is not None:
             check_film(one["movie"])
     if wanted["series"] is not None:
-        _check_series(output, wanted)
+        check_series(wanted["series"], [of_crown(crown, output, wanted)["output"].stem for crown in range(wanted["variations"])], wanted["frames"])
 
 
 def of_crown(crown: int, output: Path, wanted: dict) -> dict:
@@ -130,28 +130,3 @@ def of_crown(crown: int, output: Path, wanted: dict) -> dict:
     if wanted["variations"] == 1:
         return paths
     return {name: None if path is None else path.with_name(f"{path.stem}_{crown + 1}{path.suffix}") for name, path in paths.items()}
-
-
-def series_files(output: Path, wanted: dict, stem: str) -> list[Path]:
-    """The files of a series, in order."""
-    return [wanted["series"] / f"{stem}_{k:04d}.glb" for k in range(wanted["frames"] or SERIES_FRAMES)]
-
-
-def _check_series(output: Path, wanted: dict) -> None:
-    folder = wanted["series"]
-    if folder.exists() and not folder.is_dir():
-        raise ExportError(f"`--series {folder}` is a file, not a folder.", remedy="Name a folder; it is made if it is missing.")
-    if not folder.parent.is_dir():
-        raise ExportError(f"Can't write {folder}: the folder {folder.parent} does not exist.", remedy="Create it, or choose another path.")
-    for crown in range(wanted["variations"]):
-        stem = of_crown(crown, output, wanted)["output"].stem
-        ours = {path.name for path in series_files(output, wanted, stem)}
-        others = sorted(path.name for path in folder.glob(f"{_literal(stem)}_[0-9][0-9][0-9][0-9].glb") if path.name not in ours) if folder.exists() else []
-        if others:
-            raise ExportError(f"{folder} holds {others[0]} of a longer series, which would stand among the new one.", remedy="Choose another folder, or clear this one.")
-
-
-def _literal(name: str) -> str:
-    import glob
-
-    return glob.escape(name)

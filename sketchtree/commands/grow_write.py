@@ -1,11 +1,11 @@
 """What does `sketchtree grow` write? Every crown whole or not at all: one that grows, one at a time, a series, a film; and the trunk that was found."""
 
 import dataclasses
-from collections.abc import Iterator, Mapping
 from pathlib import Path
 
 from sketchtree.animation.wanted import joints_of
-from sketchtree.commands.grow_asked import ANIMATED, of_crown, series_files
+from sketchtree.commands.grow_asked import ANIMATED, of_crown
+from sketchtree.commands.series import series_files
 from sketchtree.export.files import MESHES, SKELETONS
 
 MOVIE_FRAMES = 72
@@ -63,7 +63,7 @@ def _write(grown, paths: dict, run, wanted: dict, kept: tuple[Path, ...]):
     if paths["preview"] is not None:
         told += _picture(_meshes(grown, growing, 1.0 if moment is None else moment), paths["preview"])
     if wanted["series"] is not None:
-        _write_series(grown, growing, series_files(output, wanted, output.stem), run, wanted["compact"])
+        _write_series(grown, growing, series_files(wanted["series"], output.stem, wanted["frames"]), run, wanted["compact"])
     if paths["movie"] is not None:
         from sketchtree.view.growth_film import growth_film
 
@@ -115,41 +115,13 @@ def _picture(meshes, path: Path) -> tuple[str, ...]:
     return () if drawn else (f"{path} was not drawn: {reason}",)
 
 
-class _Frames(Mapping):
-    """Path → bytes, each made when it is asked for: a long series need not fit into memory."""
-
-    def __init__(self, paths: list[Path], make):
-        self._number, self._make = {path: k for k, path in enumerate(paths)}, make
-
-    def __getitem__(self, path: Path) -> bytes:
-        return self._make(path, self._number[path])
-
-    def __iter__(self) -> Iterator[Path]:
-        return iter(self._number)
-
-    def __len__(self) -> int:
-        return len(self._number)
-
-
 def _write_series(grown, growing, paths: list[Path], run, compact: bool) -> None:
-    """All of them, or none; the folder is made if it is missing."""
-    from sketchtree.export.files import write_set
+    """The tree at even times."""
+    from sketchtree.commands.series import write_series
     from sketchtree.export.write import asset_files
 
-    folder, last = paths[0].parent, len(paths) - 1
-
-    def frame(path: Path, number: int) -> bytes:
-        run.watch.on_part(number / last)
-        return asset_files(path, _still(grown, growing, number / last, run), compact=compact)[path]
-
-    made = not folder.exists()
-    folder.mkdir(exist_ok=True)
-    try:
-        write_set(_Frames(paths, frame))
-    except BaseException:
-        if made:
-            folder.rmdir()
-        raise
+    last = len(paths) - 1
+    write_series(paths, lambda path, number: asset_files(path, _still(grown, growing, number / last, run), compact=compact)[path], run.watch.on_part)
 
 
 def _write_trunk(trunk, run, wanted: dict) -> None:

@@ -6,14 +6,14 @@ from pathlib import Path
 
 from sketchtree.cloud_report import cloud_report
 from sketchtree.cloud_tree import CloudOptions, CloudTree, cloud_to_tree
-from sketchtree.commands import writing
+from sketchtree.commands import cloud_growth, writing
 from sketchtree.growth_tree import check_tree
 from sketchtree.keys import root_key
 from sketchtree.options import FileOptions, TreeOptions, options_as_dict
 from sketchtree.templates.store.database import Database
 from sketchtree.watch import Watch
 
-_HOW = ("method", "species", "roots", "inside")
+_HOW = ("method", "species", "figures", "roots", "inside")
 
 
 @dataclass(frozen=True)
@@ -31,10 +31,11 @@ class Asked:
     preview: Path | None
     distances: Path | None
     report: Path | None
+    beside: cloud_growth.Beside
 
 
-def asked(wanted: dict, *, output: Path, report: Path | None, seed: int, db: Path | None, **how) -> Asked:
-    """What the command line said. `how`: options of the points that only one of the commands has. Raises OptionError and TemplateError for what there is not."""
+def asked(wanted: dict, *, given: tuple[Path, ...], output: Path, report: Path | None, seed: int, db: Path | None, **how) -> Asked:
+    """What the command line said. `given`: files that are read; `how`: options of the points that only one of the commands has. Raises OptionError and TemplateError for what there is not."""
     tree, files = writing.split_options(wanted, TreeOptions, FileOptions)
     writing.check_files(output, files)
     if wanted["distances"] is not None:
@@ -44,7 +45,8 @@ def asked(wanted: dict, *, output: Path, report: Path | None, seed: int, db: Pat
     check_tree(tree, templates)
     if wanted["template"] is not None:
         templates.exemplar(wanted["template"])
-    return Asked(points, tree, files, wanted["template"], templates, seed, output, wanted["skeleton"], wanted["preview"], wanted["distances"], report)
+    beside = cloud_growth.asked(wanted, points.method, output, given)
+    return Asked(points, tree, files, wanted["template"], templates, seed, output, wanted["skeleton"], wanted["preview"], wanted["distances"], report, beside)
 
 
 def made(points, wanted: Asked, watch: Watch) -> CloudTree:
@@ -63,7 +65,8 @@ def written(
         beside()
         measured = _measured(tree, wanted.distances)
         unseen = writing.write_tree(tree.model, wanted.output, run, skeleton=wanted.skeleton, preview=wanted.preview, files=wanted.files, sketches=given)
-    record = cloud_report(tree, **writing.of_run(run), warnings=(*told, *unseen)) | (blocks or {}) | measured
+    others, more = cloud_growth.written(tree, wanted.beside, run, wanted.files, given)
+    record = cloud_report(tree, others, **writing.of_run(run), warnings=(*told, *unseen, *more)) | (blocks or {}) | measured
     writing.write_report(wanted.report, record)
     return record
 

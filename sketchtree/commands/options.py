@@ -48,10 +48,14 @@ _TREE = (
 )  # fmt: skip
 _POINTS = (
     click.option("--method", type=click.Choice(["traced", "grown"]), default="traced", show_default=True, help="Wood where the points are; or a tree of the species, grown toward them (Guo et al. 2018)."),
-    click.option("--species", default="auto", show_default=True, metavar="auto|NAME", help="How the plant grows where it was not seen, or all of it if it is `grown`."),
+    click.option("--species", default="auto", show_default=True, metavar="auto|NAME|R.toml", help="How the plant grows where it was not seen, or all of it if it is `grown`: a species, or a recipe of your own."),
     click.option("--roots", type=click.IntRange(1), metavar="K", help="How many stems come out of the ground (default: as many as are found)."),
     click.option("--inside/--no-inside", default=None, help="Fill the inside of a crown (default: where the points leave it out)."),
     click.option("--template", metavar="NAME", help="Exemplar whose leaves and bark it wears (default: bare, unless `--leaf` names some)."),
+    click.option("--set", "figures", multiple=True, metavar="NAME=VALUE", help="Another figure of what is `grown`: branching=55, internode=0.8x (so many times), tropism=up (docs/clouds.md). Repeatable."),
+    click.option("--vary", multiple=True, metavar="NAME=V1,V2", help="Write what is `grown` with each of these values too: TREE_NAME_V1.glb ... Repeatable."),
+    click.option("--series", type=click.Path(path_type=Path), metavar="DIR", help="Write what is `grown` at even cycles of its growth too: TREE_0000.glb ... in this folder."),
+    click.option("--frames", type=click.IntRange(2, 720), metavar="N", help="Trees of the series (default 24)."),
     click.option("--distances", type=click.Path(path_type=Path), metavar="D.ply", help="Write the points too, each with its distance from the tree as a colour and a number."),
 )  # fmt: skip
 _BESIDE = (

@@ -45,7 +45,7 @@ def views(folder: Path, output: Path, seed: int, quiet: bool, json_log: bool, re
     progress = Progress(_STAGES, quiet=quiet, json_log=json_log)
     watch = Watch(progress, progress.part)
     with progress.running():
-        asked = of_points.asked(wanted, output=output, report=report, seed=seed, db=db, up="y")
+        asked = of_points.asked(wanted, given=given, output=output, report=report, seed=seed, db=db, up="y")
         how = {name: wanted[name] for name in ("poses", "quality", "height", "keep_ground")}
         with watch("read"):
             found = photos_cloud(folder, key=stage_key(root_key(seed), "photos"), watch=Watch(progress, progress.part), **how)
