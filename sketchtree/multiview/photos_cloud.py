@@ -4,7 +4,7 @@ photos → cameras (structure from motion, or poses that are given) → depth ma
 """
 
 import os
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 
 import numpy as np
 from jaxtyping import Key
@@ -12,6 +12,7 @@ from jaxtyping import Key
 from sketchtree.clouds.cloud import PointCloud
 from sketchtree.errors import OptionError
 from sketchtree.keys import numpy_generator, stage_key
+from sketchtree.multiview.accelerated.engine import engine_of
 from sketchtree.multiview.carve import carved, silhouette
 from sketchtree.multiview.photos import View, photo_files, views_of
 from sketchtree.multiview.poses.posed import Poses
@@ -39,12 +40,13 @@ class PhotosCloud:
 
 def photos_cloud(
     folder: str | os.PathLike, *, key: Key, poses: str | os.PathLike | None = None, quality: str = "preview", height: float | None = None,
-    up: tuple[float, float, float] | None = None, keep_ground: bool = False, watch: Watch | None = None, pulse: Pulse = no_pulse,
+    up: tuple[float, float, float] | None = None, keep_ground: bool = False, engine: str = "auto", watch: Watch | None = None, pulse: Pulse = no_pulse,
 ) -> PhotosCloud:
     """The cloud of the plant that the photos in a folder show.
 
-    `poses`: a file or folder of them (`read_poses`), else they are found; `height`: of the plant, metres; `up`: in the frame of the poses.
-    Raises ViewsError for photos and poses that can't be used, OptionError for an unknown quality or a height that is none.
+    `poses`: a file or folder of them (`read_poses`), else they are found; `height`: of the plant, metres; `up`: in the frame of the poses;
+    `engine`: what works PatchMatch out (`accelerated.engine`). Raises ViewsError for photos and poses that can't be used, OptionError for an unknown quality or
+    engine, or a height that is none.
     """
     from sketchtree.multiview.depths import FULL, PREVIEW
 
@@ -52,7 +54,7 @@ def photos_cloud(
         raise OptionError(f"There is no quality called {quality!r}.", remedy=f"Choose one of: {', '.join(QUALITIES)}.")
     if height is not None and not 0 < height < np.inf:
         raise OptionError(f"A height of {height:g} m is none.", remedy="Give metres above 0, or leave it out.")
-    wanted, watch = PREVIEW if quality == "preview" else FULL, watch or Watch()
+    wanted, watch = replace(PREVIEW if quality == "preview" else FULL, engine=engine_of(engine)), watch or Watch()
     with watch("cameras"):
         placed, left_out, notices = _placed(folder, poses, quality, key, watch, pulse)
     with watch("photos"):

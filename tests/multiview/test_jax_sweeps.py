@@ -19,6 +19,7 @@ from sketchtree.multiview.accelerated.sweep_jax import IMPOSSIBLE, Sweeps, energ
 from sketchtree.multiview.cost import SIDE, UNSEEN, patch_of, source_cost
 from sketchtree.multiview.cost import mean_of_best as mean_by_numba
 from sketchtree.multiview.depths import Quality, depth_maps
+from sketchtree.multiview.photos_cloud import photos_cloud
 from sketchtree.multiview.sources import sources_of
 from sketchtree.multiview.workplace import level_of, partners
 
@@ -146,7 +147,11 @@ def test_jax_works_where_it_has_a_gpu_and_numba_elsewhere(monkeypatch):
         assert (engine_of("numba"), engine_of("jax")) == ("numba", "jax")
 
 
-def test_an_engine_that_there_is_not_is_named():
+@pytest.mark.parametrize("made", [
+    lambda: depth_maps(VIEWS, SOURCES, Quality(longest=64, sources=3, shrinks=(1,), rounds=(1,), engine="cuda"), key=root_key(0)),
+    lambda: photos_cloud("no photos yet", key=root_key(0), engine="cuda"),
+])  # fmt: skip
+def test_an_engine_that_there_is_not_is_named(made):
     with pytest.raises(OptionError) as error:
-        depth_maps(VIEWS, SOURCES, Quality(longest=64, sources=3, shrinks=(1,), rounds=(1,), engine="cuda"), key=root_key(0))
+        made()
     assert str(error.value) == "There is no engine called 'cuda'. Choose one of: auto, numba, jax."
