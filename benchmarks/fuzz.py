@@ -1,7 +1,7 @@
 """Does any file break a reader? `python -m benchmarks.fuzz --minutes N [--reader R]... [--seed S] [--keep DIR]`
 
-Mutants are read by `read_sketch`, written, read again, and made a graph. Each must give a sound sketch, the same once written,
-and a sound graph, or a SketchTreeError. Anything else (another exception, a warning of numpy, more than SLOW seconds or MEMORY) is
+Mutants of drawings are read by `read_sketch`, written, read again, and made a graph: each must give a sound sketch, the same once written,
+and a sound graph, or a SketchTreeError. Mutants of point clouds are read, prepared and traced: each must give sound points and a sound skeleton, or a SketchTreeError. Anything else (another exception, a warning of numpy, more than SLOW seconds or MEMORY) is
 a failure: it is counted, kept in DIR, and the command ends with status 1.
 """
 
@@ -15,12 +15,22 @@ import tempfile
 import time
 import traceback
 import warnings
+from collections.abc import Callable
 from dataclasses import dataclass, field
 from pathlib import Path
 
 import numpy as np
 
-from benchmarks.mutants import READERS, mutant
+from benchmarks import cloud_mutants, mutants
+from benchmarks.cloud_mutants import CLOUDS
+from benchmarks.mutants import READERS
+from sketchtree.clouds.cloud import PointCloud
+from sketchtree.clouds.files.read_cloud import read_placed
+from sketchtree.clouds.prepared.prepare import prepare
+from sketchtree.clouds.standing.feet import feet
+from sketchtree.clouds.standing.stems import breast_height
+from sketchtree.clouds.standing.trunk import trunk
+from sketchtree.clouds.tracing.traced import traced
 from sketchtree.errors import SketchTreeError
 from sketchtree.sketch.files.sketch_json import read_sketch_json, sketch_json
 from sketchtree.sketch.files.svg import read_svg
@@ -33,6 +43,7 @@ from sketchtree.sketch.strokes import Sketch, StrokeKind
 SLOW = 20  # seconds that one file may take
 MEMORY = 6 * 2**30  # bytes of address space
 STROKES = 2_000  # at most in one file
+POINTS = 3_000  # of a cloud that are kept
 
 
 @dataclass
@@ -62,6 +73,33 @@ def outcome(path: Path) -> str:
         return f"no tree: {_kind(error)}"
     check_graph(graph, sketch)
     return "read"
+
+
+def outcome_of_cloud(path: Path) -> str:
+    """The same of a point cloud: "read", or how its reader refused it, or why no tree stands in it."""
+    try:
+        placed = read_placed(path, max_points=POINTS)
+    except SketchTreeError as error:
+        return f"refused: {_kind(error)}"
+    check_cloud(placed.cloud)
+    assert len(placed.cloud) <= POINTS and all(len(remark) < 500 for remark in placed.remarks), "limits"
+    try:
+        found = prepare(placed, tree=1)
+        stands = feet(found.cloud.xyz, found.above)
+        [trunk(found.cloud.xyz[rows], breast_height(found.cloud.height)) for rows in stands.stems]
+        tree = traced(found.cloud.xyz, stands.rows).skeleton
+    except SketchTreeError as error:
+        return f"no tree: {_kind(error)}"
+    check_cloud(found.cloud)
+    assert len(tree) > 1 and np.isfinite(tree.tip).all() and (tree.radius > 0).all(), "a skeleton"
+    return "read"
+
+
+def check_cloud(cloud: PointCloud) -> None:
+    """A cloud that came out of a reader is sound."""
+    assert len(cloud) and np.isfinite(cloud.xyz).all(), "points"
+    assert cloud.colour is None or ((cloud.colour >= 0) & (cloud.colour <= 1)).all(), "colours"
+    assert cloud.normal is None or np.allclose(np.linalg.norm(cloud.normal, axis=1), 1.0, atol=1e-6), "normals"
 
 
 def check_sketch(sketch: Sketch) -> None:
@@ -118,15 +156,15 @@ def run(readers: tuple[str, ...], minutes: float, seed: int, keep: Path | None) 
     with tempfile.TemporaryDirectory() as folder:
         while time.monotonic() < end:
             reader = readers[turn % len(readers)]
-            data = mutant(reader, np.random.default_rng((seed, turn)))
+            data = (cloud_mutants if reader in CLOUDS else mutants).mutant(reader, np.random.default_rng((seed, turn)))
             path = Path(folder) / f"mutant.{'png' if reader == 'picture' else reader}"
             path.write_bytes(data)
-            _one(path, tallies[reader], keep and keep / f"{reader}-{seed}-{turn}{path.suffix}")
+            _one(path, outcome_of_cloud if reader in CLOUDS else outcome, tallies[reader], keep and keep / f"{reader}-{seed}-{turn}{path.suffix}")
             turn += 1
     return tallies
 
 
-def _one(path: Path, tally: Tally, kept: Path | None) -> None:
+def _one(path: Path, outcome: Callable[[Path], str], tally: Tally, kept: Path | None) -> None:
     began = time.perf_counter()
     signal.alarm(SLOW)
     try:
@@ -150,14 +188,14 @@ def main() -> int:
     """Run and print the counts."""
     parser = argparse.ArgumentParser(description=__doc__.splitlines()[0])
     parser.add_argument("--minutes", type=float, default=1.0)
-    parser.add_argument("--reader", action="append", choices=READERS)
+    parser.add_argument("--reader", action="append", choices=(*READERS, *CLOUDS))
     parser.add_argument("--seed", type=int, default=0)
     parser.add_argument("--keep", type=Path, help="folder for the files that failed")
     parser.add_argument("--reasons", type=int, default=0, help="print the N most frequent refusals of each reader")
     options = parser.parse_args()
     warnings.simplefilter("error")
     resource.setrlimit(resource.RLIMIT_AS, (MEMORY, MEMORY))
-    tallies = run(tuple(options.reader or READERS), options.minutes, options.seed, options.keep)
+    tallies = run(tuple(options.reader or (*READERS, *CLOUDS)), options.minutes, options.seed, options.keep)
     print(f"{'reader':<12}{'tried':>8}{'read':>8}{'refused':>9}{'no tree':>9}{'failed':>8}{'slowest':>10}")
     for reader, tally in tallies.items():
         print(f"{reader:<12}{tally.tried:>8}{tally.read:>8}{tally.refused:>9}{tally.no_tree:>9}{tally.failed:>8}{tally.slowest:>9.2f}s")

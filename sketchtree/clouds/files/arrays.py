@@ -78,4 +78,6 @@ def _source(xyz, colour, normal, name: str, what: str) -> Source:
 
 def _pieces(*columns) -> Iterator[Piece]:
     for first in range(0, len(columns[0]), PIECE):
-        yield Piece(*(None if column is None else column[first : first + PIECE].astype(np.float64) for column in columns))
+        with np.errstate(invalid="ignore"):  # numbers that are none are left out later
+            piece = Piece(*(None if column is None else column[first : first + PIECE].astype(np.float64) for column in columns))
+        yield piece

@@ -104,7 +104,7 @@ def _by_look(body: list[list[str]]) -> tuple:
     k = 3
     while k + 3 <= width:
         three = table[:, k : k + 3]
-        if normal is None and (np.abs((three**2).sum(axis=1) - 1.0) < 0.02).all():
+        if normal is None and (np.abs(three) < 2.0).all() and (np.abs((three**2).sum(axis=1) - 1.0) < 0.02).all():
             normal = [k, k + 1, k + 2]
         elif colour is None and (three == np.round(three)).all() and three.min() >= 0 and 2 <= three.max() <= 255:
             colour = [k, k + 1, k + 2]

@@ -23,6 +23,7 @@ from sketchtree.errors import SketchError
 
 POINTS = 300_000
 _FEWEST = 100  # points that may be a tree
+_FLAT = 0.001  # of the width: what is no higher lies
 _TALLEST, _LOWEST = 150.0, 0.05  # metres: a tree that isn't between them has other units
 
 
@@ -42,7 +43,7 @@ class Prepared:
 def prepare(given: Placed | PointCloud, *, up: Literal["auto", "y", "z"] = "auto", tree: int | None = None, points: int = POINTS) -> Prepared:
     """One tree of a cloud. `up`: the axis of the cloud that is up; `tree`: which of several, 1 the largest; `points`: how many are kept at most.
 
-    Raises SketchError where several trees stand and none was chosen, or too few points are left; OptionError for another axis, or a tree that isn't there.
+    Raises SketchError where several trees stand and none was chosen, too few points are left, or nothing stands there; OptionError for another axis, or a tree that isn't there.
     """
     placed = given if isinstance(given, Placed) else Placed(given, Placement(), "cloud", None, len(given), 0.0, ())
     remarks = list(placed.remarks)
@@ -52,6 +53,7 @@ def prepare(given: Placed | PointCloud, *, up: Literal["auto", "y", "z"] = "auto
     remarks += [stood.remark] if stood.remark else []
     cloud, above, floor = _cleared(stood.cloud, remarks)
     _check(len(cloud))
+    _check_height(cloud)
     found = plants(cloud.xyz, above)
     rows = one_tree(found, tree, [_in_file(placement, x, z) for x, z in found.place])
     remarks += _left_out(found)
@@ -65,6 +67,7 @@ def prepare(given: Placed | PointCloud, *, up: Literal["auto", "y", "z"] = "auto
         remarks.append(f"{lost.sum():,} points belong to nothing; they were left out.")
         cloud, above = cloud.select(~lost), above[~lost]
     _check(len(cloud))
+    _check_height(cloud)
     foot = _foot(cloud.xyz, above)
     cloud = PointCloud(cloud.xyz - foot, cloud.colour, cloud.normal)
     remarks += _units(cloud.height)
@@ -91,7 +94,15 @@ def _cleared(cloud: PointCloud, remarks: list[str]) -> tuple[PointCloud, np.ndar
 
 def _check(count: int) -> None:
     if count < _FEWEST:
-        raise SketchError(f"Only {count:,} points of the cloud may be a tree.", remedy="Give a cloud with more points, or one with a tree in it.")
+        few = "None of the points" if not count else "Only one point" if count == 1 else f"Only {count:,} points"
+        raise SketchError(f"{few} of the cloud may be a tree.", remedy="Give a cloud with more points, or one with a tree in it.")
+
+
+def _check_height(cloud: PointCloud) -> None:
+    """Nothing stands in points that all lie at one level."""
+    wide = float(np.ptp(cloud.xyz[:, [0, 2]], axis=0).max())
+    if cloud.height <= _FLAT * wide:
+        raise SketchError(f"The points lie {wide:.3g} m wide and {cloud.height:.2g} m high: nothing stands there.", remedy="Check which axis is up (`--up y` or `--up z`).")
 
 
 def _in_file(placement: Placement, x: float, z: float) -> str:

@@ -95,8 +95,17 @@ def test_a_laz_file_that_was_cut_off_is_named(tmp_path):
 
 
 def test_a_laz_file_that_is_damaged_inside_is_named(tmp_path):
+    data = bytearray(laz(XYZ, 0))
+    begins = int.from_bytes(data[96:100], "little") + 8  # past the table's place
+    data[begins + 200 : begins + 400] = b"\xff" * 200
+    with pytest.raises(SketchError, match=r"^cloud\.laz can't be unpacked after 0 of its 200 points \("):
+        read(tmp_path, bytes(data), "cloud.laz")
+
+
+def test_layers_of_a_laz_file_that_say_they_are_gigabytes_are_not_believed(tmp_path):
     data = bytearray(laz(XYZ, 6))
     begins = int.from_bytes(data[96:100], "little") + 8  # past the table's place
     data[begins + 30 : begins + 70] = b"\xff" * 40
-    with pytest.raises(SketchError, match=r"^cloud\.laz can't be unpacked after 0 of its 200 points \("):
+    with pytest.raises(SketchError) as error:
         read(tmp_path, bytes(data), "cloud.laz")
+    assert str(error.value) == "cloud.laz is a LAZ file whose layers make no sense. Copy or export it again."

@@ -221,4 +221,16 @@ def test_a_cloud_that_is_not_in_metres_is_told():
 def test_too_few_points_are_named():
     with pytest.raises(SketchError) as error:
         prepare(PointCloud(np.tile([[1.0, 2.0, 3.0]], (5000, 1))))
-    assert str(error.value) == "Only 1 points of the cloud may be a tree. Give a cloud with more points, or one with a tree in it."
+    assert str(error.value) == "Only one point of the cloud may be a tree. Give a cloud with more points, or one with a tree in it."
+
+
+def test_ground_alone_is_no_tree():
+    with pytest.raises(SketchError) as error:
+        prepare(PointCloud(tree() * [1.0, 0.0, 1.0]), up="y")
+    assert str(error.value) == "None of the points of the cloud may be a tree. Give a cloud with more points, or one with a tree in it."
+
+
+def test_points_that_all_lie_at_one_height_are_no_tree():
+    with pytest.raises(SketchError) as error:
+        prepare(PointCloud(tree() * [1.0, 0.0, 0.0]), up="y")
+    assert str(error.value).endswith("m wide and 0 m high: nothing stands there. Check which axis is up (`--up y` or `--up z`).")
