@@ -20,6 +20,7 @@ _STAGES = ("read", "infer", "propagate", "foliage", "mesh", "export")
 @click.option("--height", type=float, metavar="METRES", help="How high the plant is: photos don't know (default: as the poses say, else 10).")
 @click.option("--cloud", "cloud_file", type=_FILE, metavar="C.ply", help="Write the points too.")
 @click.option("--keep-ground", is_flag=True, help="Don't look for ground among the points.")
+@click.option("--engine", type=click.Choice(["auto", "numba", "jax"]), default="auto", show_default=True, help="What finds depths (auto: jax where it has a GPU, else numba).")
 @options.standing
 @options.common
 def views(folder: Path, output: Path, seed: int, quiet: bool, json_log: bool, report: Path | None, db: Path | None, **wanted) -> None:
@@ -46,7 +47,7 @@ def views(folder: Path, output: Path, seed: int, quiet: bool, json_log: bool, re
     watch = Watch(progress, progress.part)
     with progress.running():
         asked = of_points.asked(wanted, given=given, output=output, report=report, seed=seed, db=db, up="y")
-        how = {name: wanted[name] for name in ("poses", "quality", "height", "keep_ground")}
+        how = {name: wanted[name] for name in ("poses", "quality", "height", "keep_ground", "engine")}
         with watch("read"):
             found = photos_cloud(folder, key=stage_key(root_key(seed), "photos"), watch=Watch(progress, progress.part), **how)
             points, told = _sized(found)

@@ -38,7 +38,7 @@ def test_photos_become_a_tree_with_their_points_and_a_report(masks, tmp_path):
     jsonschema.validate(told, json.loads((Path(__file__).parents[2] / "sketchtree" / "report.schema.json").read_text(encoding="utf-8")))
     assert told["command"] == "views" and len(told["views"]["placed"]) == 13 and "carve" in told["views"]["seconds"]
     assert read_cloud(cloud).height == pytest.approx(5.0, abs=0.01)
-    assert told["height"] == pytest.approx(5.0, abs=0.4)
+    assert told["height"] == pytest.approx(5.0, abs=0.4) and told["options"]["engine"] == "auto"
     assert out.stat().st_size > 5_000
 
 
@@ -48,6 +48,7 @@ def test_photos_become_a_tree_with_their_points_and_a_report(masks, tmp_path):
         (["--poses", "nowhere.json"], "nowhere.json"),
         (["--height", "-1"], "A height of -1 m is none. Give metres above 0, or leave it out."),
         (["--cloud", "points.xyz"], "points.xyz"),
+        (["--engine", "cuda"], "'cuda' is not one of 'auto', 'numba', 'jax'."),
     ],
 )
 def test_bad_choices_are_one_paragraph(masks, tmp_path, capfd, more, message):
