@@ -22,6 +22,7 @@ from sketchtree.clouds.growing.metamer import Buds, branched, carried, rolled
 from sketchtree.clouds.growing.species import Species
 from sketchtree.clouds.growing.wanted import Growing
 from sketchtree.clouds.growing.wood import Wood
+from sketchtree.similarity import Similarity
 from sketchtree.skeleton import Kind, TreeSkeleton
 from sketchtree.skeleton_rows import limbs
 from sketchtree.traverse import generations, sum_from_root, sum_to_root
@@ -33,16 +34,32 @@ def filled(
 ) -> TreeSkeleton:
     """The tree and, after its own rows, those that fill its inside (kind GROWN). `xyz`: the cloud that it was made of, metres; `wanted`: how, if not as the species says."""
     box = boxed(xyz)
-    inside, place, apart = box.to_sketch(xyz), box.to_sketch(tree.tip), APART * species.internode
+    inside, apart = box.to_sketch(xyz), APART * species.internode
     more = hull_fill(crown_of(inside), apart, key=keys.stage_key(key, "fill"), clear=apart)
-    more = more[cKDTree(place).query(more)[0] > apart] if len(more) else more
-    if not len(more):
+    return reaching(tree, box, more, float(np.ptp(inside[:, 1])), species, key=key, wanted=wanted, pulse=pulse)
+
+
+def reaching(
+    tree: TreeSkeleton,
+    box: Similarity,
+    points: Float[np.ndarray, "point 3"],
+    high: float,
+    species: Species,
+    *,
+    key: Key[Array, ""],
+    wanted: Growing | None = None,
+    pulse: Pulse = no_pulse,
+) -> TreeSkeleton:
+    """The tree and, after its own rows, those that grow from it to points of the box (kind GROWN), but for points that it comes near to already. `high`: the plant in the box, metres."""
+    place, apart = box.to_sketch(tree.tip), APART * species.internode
+    points = points[cKDTree(place).query(points)[0] > apart] if len(points) else points
+    if not len(points):
         return tree
     word = keys.draw_key(keys.stage_key(key, "grow"))
     wanted = dataclasses.replace(wanted or species.growing, sheds=False)  # what stands stays
-    influence = influence_of(wanted, float(np.ptp(inside[:, 1])) / species.internode)
+    influence = influence_of(wanted, high / species.internode)
     begun, radius = Wood.of(tree.parent, place), tree.radius / box.scale
-    result = colonise(Markers(more, np.ones(len(more))), begun, _buds(tree, place, species, word), influence, species, wanted, radius, word, pulse)
+    result = colonise(Markers(points, np.ones(len(points))), begun, _buds(tree, place, species, word), influence, species, wanted, radius, word, pulse)
     return _appended(tree, result.wood, species.gamma, box)
 
 
