@@ -1,8 +1,9 @@
 """Which of all the depths are true, and what cloud do they make? Visibility over the views, then one point a voxel (Guo et al. 2018, §4; rules ours).
 
 A pixel's place counts if its likelihood (Eq. 3) is at least `LEAST`, at least `AGREE` other views agree with it, and more views agree with it than see through
-it: a view sees through a place where its own depth map, likely there, shows something more than `BEHIND` farther away. What is left is gathered in voxels of
-the size of a pixel at the median depth: middle, mean colour, mean normal, each counted by likelihood. A voxel with fewer than `COMPANY` others within `NEAR`
+it: a view sees through a place where its own depth map, likely there, shows something more than `BEHIND` farther away. What photos look past is no place of the
+plant (`outline`): so thin limbs are as thin as they look. What is left is gathered in voxels of the size of a pixel at the median depth: middle, mean colour,
+mean normal, each counted by likelihood and, squared, by how much of its pixel the plant fills. A voxel with fewer than `COMPANY` others within `NEAR`
 voxels is a stray.
 """
 
@@ -15,6 +16,7 @@ from scipy.spatial import cKDTree
 from sketchtree.clouds.cloud import PointCloud
 from sketchtree.errors import ViewsError
 from sketchtree.multiview.homography import normals_of
+from sketchtree.multiview.outline import brought_in, filled, outlines_of
 from sketchtree.multiview.workplace import Level
 
 LEAST = 0.25
@@ -34,10 +36,12 @@ class Gathered:
     size: float  # of a pixel at the median depth, world units
 
 
-def gathered(levels: list[Level], agree: int = AGREE, least: float = LEAST) -> Gathered:
-    """The places of all depth maps that count. Raises ViewsError where none do."""
+def gathered(levels: list[Level], agree: int = AGREE, least: float = LEAST, outlines: bool = True) -> Gathered:
+    """The places of all depth maps that count; `outlines`: without those that photos look past. Raises ViewsError where none do."""
     columns, sizes = [], []
-    for level in levels:
+    alpha = [filled(level.rgb, level.empty) for level in levels] if outlines else []
+    shown = outlines_of([level.camera for level in levels], alpha) if outlines else None
+    for row, level in enumerate(levels):
         y, x = np.nonzero(level.used & (level.likely >= least) & (level.agreeing >= min(agree, max(len(level.sources.rows), 1))))
         pixel, plane = np.column_stack([x, y]) + 0.5, level.plane[y, x].astype(np.float64)
         if not len(y):
@@ -45,7 +49,10 @@ def gathered(levels: list[Level], agree: int = AGREE, least: float = LEAST) -> G
         xyz = level.camera.unproject(pixel, 1.0 / plane[:, 0])
         open_sky = seen_through(xyz, level, levels)
         keep = open_sky < level.agreeing[y, x]
-        columns.append((xyz[keep], level.rgb[y, x][keep], normals_of(level.camera, pixel, plane)[keep], level.likely[y, x][keep]))
+        if outlines:
+            xyz[keep], keep[keep] = brought_in(xyz[keep], level.camera.centre, 1.0 / level.camera.matrix[0, 0], shown)
+        trust = level.likely[y, x] * (alpha[row][y, x] ** 2 + 0.01 if outlines else 1.0)
+        columns.append((xyz[keep], level.rgb[y, x][keep], normals_of(level.camera, pixel, plane)[keep], trust[keep]))
         sizes.append(1.0 / plane[keep, 0] / level.camera.matrix[0, 0])
     if not columns or not sum(len(column[0]) for column in columns):
         raise ViewsError(

@@ -31,6 +31,7 @@ class Level:
     rgb: Float[np.ndarray, "row column 3"]
     grey: Float[np.ndarray, "row column"]
     used: Bool[np.ndarray, "row column"]  # u(p) of Eq. 4: seen, not sky, not even
+    empty: Bool[np.ndarray, "row column"]  # sky, or even
     sources: Sources
     plane: Float[np.ndarray, "row column 3"]  # (ρ, ∂ρ/∂x, ∂ρ/∂y)
     energy: Float[np.ndarray, "row column"] = field(default=None)  # the integrand of Eq. 2
@@ -62,9 +63,10 @@ def level_of(view: View, sources: Sources, shrink: int, least: int = 96) -> Leve
         rgb = np.stack([np.asarray(Image.fromarray(rgb[..., k]).resize(size, Image.Resampling.BOX)) for k in range(3)], axis=2)
         seen = np.asarray(Image.fromarray(seen.astype(np.float32)).resize(size, Image.Resampling.BOX)) > 0.99
     grey = np.ascontiguousarray(rgb @ np.array([0.299, 0.587, 0.114], np.float32), np.float32)
-    used = seen & textured(grey) & ~sky(rgb)
-    used &= ~like_even(rgb, seen & ~textured(grey))
-    return Level(view.name, view.camera.resized(size), rgb, grey, used, sources, np.zeros((*grey.shape, 3), np.float32), np.full(grey.shape, 9.0, np.float32))
+    even = seen & ~textured(grey)
+    empty = even | seen & sky(rgb)
+    used = seen & ~empty & ~like_even(rgb, even)
+    return Level(view.name, view.camera.resized(size), rgb, grey, used, empty, sources, np.zeros((*grey.shape, 3), np.float32), np.full(grey.shape, 9.0, np.float32))
 
 
 def textured(grey: Float[np.ndarray, "row column"]) -> Bool[np.ndarray, "row column"]:

@@ -54,6 +54,19 @@ def rendered(camera: Camera) -> tuple[np.ndarray, np.ndarray]:
     return rgb.reshape(*shape, 3).astype(np.float32), np.where(there, depth, 0.0).reshape(shape)
 
 
+def painted_room(camera: Camera, ball: bool = True) -> np.ndarray:
+    """A textured cave with a textured ball in it: much to be found again, near and far."""
+    pixel, start = camera.pixels(), camera.centre - [0, 0.5, 0]
+    ray = camera.unproject(pixel, np.ones(len(pixel))) - camera.centre
+    rgb = np.zeros((len(ray), 3))
+    for radius, side, fine in ((6.0, 1, 0.3), (0.7, -1, 1.2))[: 1 + ball]:
+        b, a, c = ray @ start, (ray**2).sum(axis=1), start @ start - radius**2
+        hit = b * b > a * c
+        t = (-b + side * np.sqrt(np.maximum(b * b - a * c, 0))) / a
+        rgb[hit] = colour_of(fine * (camera.centre + t[:, None] * ray)[hit])
+    return rgb.reshape(camera.size[1], camera.size[0], 3)
+
+
 def ring(count: int = 8, step: float = 14.0, **options) -> list[View]:
     """Views from so many cameras, so many degrees apart."""
     views = []

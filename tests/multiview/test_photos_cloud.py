@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 import written_poses
 from PIL import Image
-from ring import camera_at, colour_of, distance_to_surface, rendered
+from ring import camera_at, distance_to_surface, painted_room, rendered
 
 from sketchtree.errors import OptionError, ViewsError
 from sketchtree.keys import root_key
@@ -76,19 +76,6 @@ def test_two_photos_are_too_few(tmp_path):
 def test_photos_of_nothing_can_not_be_placed(tmp_path):
     saved(tmp_path, [np.full((80, 80, 3), 0.1 * k) for k in range(5)])
     refused(f"None of the 5 photos could be placed: too few of their details were found again in others. {sfm.ADVICE}", ViewsError, tmp_path)
-
-
-def painted_room(camera):
-    """A textured ball in a textured cave: much to be found again, near and far."""
-    pixel, start = camera.pixels(), camera.centre - [0, 0.5, 0]
-    ray = camera.unproject(pixel, np.ones(len(pixel))) - camera.centre
-    rgb = np.zeros((len(ray), 3))
-    for radius, side, fine in ((6.0, 1, 0.3), (0.7, -1, 1.2)):
-        b, a, c = ray @ start, (ray**2).sum(axis=1), start @ start - radius**2
-        hit = b * b > a * c
-        t = (-b + side * np.sqrt(np.maximum(b * b - a * c, 0))) / a
-        rgb[hit] = colour_of(fine * (camera.centre + t[:, None] * ray)[hit])
-    return rgb.reshape(camera.size[1], camera.size[0], 3)
 
 
 @pytest.fixture(scope="module")
