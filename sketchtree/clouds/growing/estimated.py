@@ -5,6 +5,7 @@ points, where there is one:
 
     l = 1.5 s, but H / 250 ≤ l ≤ H / 100      s   median distance to the nearest point: buds that look 4 l at least see the next ones
     ψ = median angle between a limb's first course and what bears it        φ = median turn about a limb from lateral to lateral
+    d_k = 0.35 d_i, at least 1.4 l or two spacings: points farther than that from wood tell of other wood. The paper's 0.5 is meant for markers spread in space
 """
 
 import dataclasses
@@ -24,6 +25,8 @@ _LEAST, _MOST = 1 / 250, 1 / 100  # of the box
 _SPACINGS = 1.5  # between nodes
 _COURSE = 3  # nodes that a direction is told by
 _ENOUGH = 8  # angles that a median is believed of
+KILL = 0.35
+"""d_k / d_i, where points are wood."""
 
 
 def estimated(xyz: Float[np.ndarray, "point 3"], base: Species, tree: TreeSkeleton | None = None, gamma: float | None = None) -> Species:
@@ -35,7 +38,7 @@ def estimated(xyz: Float[np.ndarray, "point 3"], base: Species, tree: TreeSkelet
         found |= {name: float(np.median(value)) for name, value in (("branching", branching), ("roll", roll)) if len(value) >= _ENOUGH}
     if gamma is not None:
         found["gamma"] = float(gamma)
-    return dataclasses.replace(base, name="estimated", title=f"{base.title}, as estimated", source="estimated from the cloud", **found)
+    return dataclasses.replace(base, name="estimated", title=f"{base.title}, as estimated", source="estimated from the cloud", growing=dataclasses.replace(base.growing, kill=KILL), **found)
 
 
 def _angles(tree: TreeSkeleton) -> tuple[np.ndarray, np.ndarray]:

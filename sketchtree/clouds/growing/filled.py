@@ -19,6 +19,7 @@ from sketchtree.clouds.growing.heading import unit
 from sketchtree.clouds.growing.hull_fill import crown_of, hull_fill
 from sketchtree.clouds.growing.markers import Markers
 from sketchtree.clouds.growing.metamer import Buds, branched, carried, rolled
+from sketchtree.clouds.growing.perception import KILL
 from sketchtree.clouds.growing.species import Species
 from sketchtree.clouds.growing.wanted import Growing
 from sketchtree.clouds.growing.wood import Wood
@@ -56,7 +57,7 @@ def reaching(
     if not len(points):
         return tree
     word = keys.draw_key(keys.stage_key(key, "grow"))
-    wanted = dataclasses.replace(wanted or species.growing, sheds=False)  # what stands stays
+    wanted = dataclasses.replace(wanted or species.growing, sheds=False, kill=KILL)  # what stands stays; points of the inside are spread in space, as the paper's markers
     influence = influence_of(wanted, high / species.internode)
     begun, radius = Wood.of(tree.parent, place), tree.radius / box.scale
     result = colonise(Markers(points, np.ones(len(points))), begun, _buds(tree, place, species, word), influence, species, wanted, radius, word, pulse)
