@@ -11,7 +11,8 @@ import numpy as np
 
 from sketchtree.axes import NULL
 from sketchtree.editing.edits import Edits
-from sketchtree.editing.project import hand_work
+from sketchtree.editing.laid_cloud import LaidCloud
+from sketchtree.editing.project import hand_work, laid_cloud
 from sketchtree.editing.settled import Settled
 from sketchtree.errors import SketchError
 from sketchtree.options import DrawingOptions
@@ -30,6 +31,7 @@ class HandWork:
 
     edits: Edits = Edits()
     settled: Settled = Settled()
+    cloud: LaidCloud | None = None  # points that say how deep its branches lie
 
 
 def read_drawing(source: Sketch | str | Path, options: DrawingOptions, watch: Watch) -> tuple[Sketch, SketchGraph]:
@@ -51,7 +53,7 @@ def read_hand_work(source: Sketch | str | Path) -> HandWork:
     if isinstance(source, Sketch):
         return HandWork()
     found = hand_work(source)
-    return HandWork() if found is None else HandWork(*found)
+    return HandWork() if found is None else HandWork(*found, laid_cloud(source))
 
 
 def front_graph(sketch: Sketch, crown: str) -> SketchGraph:

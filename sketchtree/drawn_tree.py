@@ -15,10 +15,12 @@ from sketchtree.choose import choose_template
 from sketchtree.drawing import read_drawing, read_hand_work
 from sketchtree.editing.attached import Hanging, attach_turned, is_turned, sd_of_rows
 from sketchtree.editing.edits import Edits
+from sketchtree.editing.laid_cloud import LaidCloud
 from sketchtree.editing.limbs import LimbLines
 from sketchtree.editing.rows import Drawing
+from sketchtree.editing.seen import with_seen
 from sketchtree.editing.settle import Settling, settle
-from sketchtree.editing.settled import Depths, Manner, Settled
+from sketchtree.editing.settled import MEASURED, Depths, Manner, Settled
 from sketchtree.errors import InferenceError
 from sketchtree.geometry.radii import PipeRadii
 from sketchtree.keys import stage_key
@@ -43,6 +45,7 @@ from sketchtree.templates.store.database import Database
 from sketchtree.watch import Watch
 
 _ANOTHER = 0.15  # the manner of growing is measured anew when so many limbs, of those there were, came or went
+_TRUNKS = (0.001, 0.2)  # radius at the foot / height, of any tree
 _LARGER = 0.02  # or when the tree's scale changed by so much
 
 
@@ -65,6 +68,7 @@ class DrawnTree:
     settled: Settled = Settled()  # what the depths have come to
     touched: frozenset[int] = frozenset()  # ids of the limbs that were solved
     remarks: tuple[str, ...] = ()  # what could not be done as asked by hand
+    cloud: LaidCloud | None = None  # points behind the drawing, which said how deep it lies
 
     @property
     def crown(self) -> tuple[Float[np.ndarray, "point 2"], ...]:
@@ -86,20 +90,22 @@ def draw_out(
     options: ReadingOptions = ReadingOptions(),
     edits: Edits | None = None,
     settled: Settled | None = None,
+    cloud: LaidCloud | None = None,
     similarity: Similarity | None = None,
     quick: bool = False,
     watch: Watch | None = None,
 ) -> DrawnTree:
     """Strokes → sketch graph → template → depths: the drawn branches in 3D (§5, §7).
 
-    A project file brings what was done to its tree by hand; `edits` and `settled` say so otherwise. What is settled already is not solved again. `quick`: the shortest run that finds a side for what
-    was touched, in the scale of `similarity` if given."""
+    A project file brings what was done to its tree by hand, and the cloud behind it; `edits`, `settled` and `cloud` say so otherwise. What is settled already is not solved again. `quick`: the
+    shortest run that finds a side for what was touched, in the scale of `similarity` if given."""
     watch = watch or Watch()
     with watch("read"):
         by_hand = read_hand_work(sketch) if edits is None or settled is None else None  # of a project file
         edits, settled = by_hand.edits if edits is None else edits, by_hand.settled if settled is None else settled
+        cloud = by_hand.cloud if cloud is None and by_hand is not None else cloud
         sketch, graph = read_drawing(sketch, options, watch)
-    return draw_out_graph(sketch, graph, templates, key=key, options=options, edits=edits, settled=settled, similarity=similarity, quick=quick, watch=watch)
+    return draw_out_graph(sketch, graph, templates, key=key, options=options, edits=edits, settled=settled, cloud=cloud, similarity=similarity, quick=quick, watch=watch)
 
 
 def draw_out_graph(
@@ -111,13 +117,14 @@ def draw_out_graph(
     options: ReadingOptions = ReadingOptions(),
     edits: Edits = Edits(),
     settled: Settled = Settled(),
+    cloud: LaidCloud | None = None,
     similarity: Similarity | None = None,
     quick: bool = False,
     watch: Watch | None = None,
 ) -> DrawnTree:
     """The same of a segment tree that is known already, of a photo for one: template → depths. `sketch` are its limbs as strokes."""
     watch = watch or Watch()
-    asked = _Asked(options, stage_key(key, "infer"), edits, settled, quick)
+    asked = _Asked(options, stage_key(key, "infer"), edits, settled, quick, cloud)
     with watch("match"):
         templates = templates if templates is not None or options.template == "none" else Database.open()
         matches, exemplar = _template(graph, templates, asked)
@@ -134,10 +141,27 @@ class _Asked:
     edits: Edits
     settled: Settled
     quick: bool
+    cloud: LaidCloud | None = None
 
     def of_depths(self, exemplar: Exemplar | None) -> str:
         """All that bears on depths beside the drawing: with others, every limb is solved again."""
-        return f"{self.options.method} {self.options.theta} {self.options.planar} {exemplar.name if exemplar else 'none'}"
+        seen = "" if self.cloud is None else f" {self.cloud.digest} {self.cloud.place}"
+        return f"{self.options.method} {self.options.theta} {self.options.planar} {exemplar.name if exemplar else 'none'}{seen}"
+
+    def scale(self, graph: SketchGraph, habit: Habit) -> Similarity:
+        """From the page to metres: as high as is said, else as the cloud behind it is, else as such a tree is."""
+        if self.cloud is None or self.options.height is not None:
+            return page_to_world(graph, self.options.height or habit.height)
+        metres = 1.0 / self.cloud.unit
+        x, y = graph.xy[np.flatnonzero(graph.is_base)[0]]
+        return Similarity(metres, (float(-metres * x), float(-metres * y), 0.0))
+
+    def habit(self, graph: SketchGraph, habit: Habit) -> Habit:
+        """The species', with a trunk as thick as the cloud behind the drawing has it."""
+        tall = float(np.ptp(graph.xy[:, 1]))
+        if self.cloud is None or not self.cloud.trunk or tall <= 0:
+            return habit
+        return dataclasses.replace(habit, trunk_ratio=float(np.clip(self.cloud.trunk * self.cloud.unit / tall, *_TRUNKS)))
 
 
 def _template(graph: SketchGraph, templates: Database | None, asked: _Asked) -> tuple[list[Match], Exemplar | None]:
@@ -150,22 +174,22 @@ def _template(graph: SketchGraph, templates: Database | None, asked: _Asked) -> 
 def _in_space(sketch, graph: SketchGraph, matches, exemplar, asked: _Asked, similarity: Similarity | None, radii_key) -> DrawnTree:
     """Depths, what hangs on turned pages and what was adopted, and the scale: a skeleton."""
     above, options = graph.above_ground(), asked.options
-    habit = exemplar.habit if exemplar else Habit()
+    habit = asked.habit(above, exemplar.habit if exemplar else Habit())
     prior = Prior(exemplar.theta, exemplar.limbs) if exemplar else Prior(GENERIC)
     solver, settling = _settled(above, prior, asked, exemplar)
-    similarity = similarity or page_to_world(above, options.height or habit.height)
+    similarity = similarity or asked.scale(above, habit)
     radius = np.full(len(graph), np.nan)
     radius[~graph.root] = drawn_radius(sketch, above, similarity, habit)
     front = _Front(graph, _with_roots(settling.fit, graph), radius, _settled_limbs(above, settling.fit), settling.touched, settling.warnings)
     axis = float(above.xy[np.flatnonzero(above.is_base)[0], 0])
-    hanging = Hanging(graph, prior, solver, asked.edits, asked.settled, axis, asked.key, asked.quick)
+    hanging = Hanging(graph, prior, solver, asked.edits, asked.settled, axis, asked.key, asked.quick, asked.cloud)
     front, tree = _with_attached(front, sketch, hanging)
     skeleton = PipeRadii(habit, front.radius)(_in_world(tree, similarity, front.fit.depth_sd), key=radii_key)
     now = _as_settled(front, asked, exemplar, axis, skeleton, similarity.scale)
     held = options.theta == "fixed"
     theta = front.fit.theta_before if held else now.manner.theta
     return DrawnTree(
-        front.graph, matches, exemplar, front.fit, similarity, skeleton, front.radius, habit, held, theta, sketch, asked.edits, now, front.touched, front.remarks
+        front.graph, matches, exemplar, front.fit, similarity, skeleton, front.radius, habit, held, theta, sketch, asked.edits, now, front.touched, front.remarks, asked.cloud
     )
 
 
@@ -174,9 +198,9 @@ def _settled(above: SketchGraph, prior: Prior, asked: _Asked, exemplar: Exemplar
     options, factors = asked.options, factor_graph(above)
     solver = solver_named(options.method, theta=options.theta, planar=options.planar)
     solver = solver.with_samples(options.samples, factors) if options.samples else solver
-    open_all = bool(len(asked.settled)) and asked.settled.asked != asked.of_depths(exemplar)
+    open_all = bool(len(asked.settled)) and asked.settled.asked not in (MEASURED, asked.of_depths(exemplar))
     settling = settle(
-        above, factors, prior, solver, edits=asked.edits, settled=asked.settled, key=asked.key, quick=asked.quick, alternatives=options.alternatives, open_all=open_all
+        above, factors, prior, with_seen(solver, asked.cloud, above), edits=asked.edits, settled=asked.settled, key=asked.key, quick=asked.quick, alternatives=options.alternatives, open_all=open_all
     )
     if settling.fit.result == RESULTS.not_finite:
         raise InferenceError(f"The depths could not be inferred by `{options.method}`.", remedy=str(RESULTS[settling.fit.result]))

@@ -22,6 +22,14 @@ class SketchError(SketchTreeError):
         super().__init__(message if stroke is None else f"Stroke {stroke}: {message}", remedy=remedy)
 
 
+class SeveralTrees(SketchError):
+    """Several trees stand in a cloud, and none was chosen. `trees` has each in words, the largest first."""
+
+    def __init__(self, message: str, *, remedy: str, trees: tuple[str, ...]):
+        self.trees = trees
+        super().__init__(message, remedy=remedy)
+
+
 class ViewsError(SketchTreeError):
     """Photos of one plant from many sides, or where they were taken from, can't be used. `photo` is the name of the photo at fault (None: all)."""
 

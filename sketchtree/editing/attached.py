@@ -14,8 +14,10 @@ from jaxtyping import Array, Float, Key
 from sketchtree.axes import NULL
 from sketchtree.drawable import bends
 from sketchtree.editing.edits import Adopted, Edits
+from sketchtree.editing.laid_cloud import LaidCloud
 from sketchtree.editing.part import part_of, reachable
 from sketchtree.editing.rows import Drawing, nearest_place, on_other_page, place_at
+from sketchtree.editing.seen import with_seen_from
 from sketchtree.editing.settle import QUICK
 from sketchtree.editing.settled import Depths, Settled, course_of
 from sketchtree.editing.touched import SAME_COURSE, depth_at
@@ -56,6 +58,7 @@ class Hanging:
     axis: float
     key: Key[Array, ""]
     quick: bool = False
+    cloud: LaidCloud | None = None
 
 
 def attach_turned(drawing: Drawing, strokes: dict[int, Stroke], hanging: Hanging) -> Attached:
@@ -149,7 +152,9 @@ def _solved(drawing: Drawing, limb: int, foot: int, view: float, hanging: Hangin
     start = None if begin is None or len(begin) != len(mine) + 1 else np.where(np.isin(np.arange(len(rows)), mine), np.nan, z[rows])
     if start is not None:
         start[mine] = z[foot] + begin[1:]
-    solver = dataclasses.replace(hanging.solver, start=start, locked=locked, **(QUICK if hanging.quick else {}))
+    base = float(turned.tip[np.flatnonzero(graph.is_base)[0], 2])
+    seeing = with_seen_from(hanging.solver, hanging.cloud, graph, view, hanging.axis, base)
+    solver = dataclasses.replace(seeing, start=start, locked=locked, **(QUICK if hanging.quick else {}))
     fit = infer(part, hanging.prior, solver, key=stage_key(hanging.key, f"turned {limb}"), throw=False)
     at = turned.tip[foot, 2]
     sd = fit.depth_sd[mine] if np.isfinite(fit.depth_sd[mine]).all() else np.zeros(len(mine))

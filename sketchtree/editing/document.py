@@ -5,6 +5,7 @@ from collections.abc import Mapping
 from dataclasses import dataclass, field
 
 from sketchtree.editing.edits import Edits
+from sketchtree.editing.laid_cloud import CloudChoices, LaidCloud
 from sketchtree.editing.settled import Settled
 from sketchtree.options import ReadingOptions, TreeOptions
 from sketchtree.photo.wanted import PhotoOptions
@@ -41,6 +42,8 @@ class Document:
     trunk: TrunkChoices = TrunkChoices()  # of that which scribbles mark in it
     seed: int = 0
     underlay: Underlay | None = None
+    cloud: LaidCloud | None = None  # points of a scan behind the strokes
+    points: CloudChoices = CloudChoices()  # how they are seen, and used
     name: str = "untitled"
     units: str = "px"
     page: tuple[float, float, float, float] | None = None  # left, bottom, right, top; y up

@@ -9,6 +9,7 @@ from jaxtyping import Float
 from sketchtree.parameters import TreeParameters
 from sketchtree.propagate.blocks.block import Blocks
 
+MEASURED = "measured"  # `Settled.asked`: depths that were seen in points, whatever the options are
 COURSE = 9  # places along a limb by which its course is told from another
 
 

@@ -22,6 +22,7 @@ from sketchtree.mrf.answer.readings import Reading, distinct_readings
 from sketchtree.mrf.answer.typical import most_typical, typical_readings
 from sketchtree.mrf.depths import depth_of, elevation_of
 from sketchtree.mrf.factor_graph import FactorGraph
+from sketchtree.mrf.factors.own import is_ours
 from sketchtree.mrf.log_posterior import LogPosterior, log_posterior, own_energy
 from sketchtree.mrf.okabe import Okabe
 from sketchtree.mrf.padding import bucket
@@ -250,7 +251,7 @@ class Elevation(AbstractSolver):
         block = block_of(key, state.chains, len(graph), temperature)
         if self.start is not None:
             block = _with_loyal_chain(block, first=state.block == 0)
-        return in_teams(state.posterior, state.moves, state.chains, block, keep=not self.factors, compile_only=compile_only)
+        return in_teams(state.posterior, state.moves, state.chains, block, keep=all(map(is_ours, self.factors.values())), compile_only=compile_only)
 
     def _polished(self, graph: FactorGraph, state: State) -> State:
         from sketchtree.mrf.sampling.ascend import ascend  # takes longer to import than most drawings to solve

@@ -24,6 +24,7 @@ from sketchtree.studio.session import Session
 
 _TEXTURE = re.compile(r"/texture/(?P<key>[\w.-]{1,120})/(?P<map>[a-z]{1,20})\.png")
 _UNDERLAY = re.compile(r"/underlay/(?P<digest>[0-9a-f]{16,64})")
+_CLOUD = re.compile(r"/cloud/(?P<digest>[0-9a-f]{16,64})")
 _PATIENCE = 60.0  # seconds that Python waits for the session
 
 Say = Callable[[dict, list[bytes]], None]
@@ -152,6 +153,8 @@ class Cell:
             picture = await self._session.desk.engine.texture(found["key"], found["map"])
         elif found := _UNDERLAY.fullmatch(path):
             picture = self._session.desk.pictures.get(found["digest"])
+        elif (found := _CLOUD.fullmatch(path)) and (cloud := self._session.desk.clouds.get(found["digest"])):
+            picture = cloud.points
         self._say({"fetched": content["fetch"]}, [] if picture is None else [picture])
 
     def _tell(self, event: messages.Event) -> None:

@@ -4,7 +4,7 @@
     full     the whole tree; meanwhile, of the last one, what pages that join need and the undrawn limb that is picked
     side     everything else: pictures, other readings, glances, files in and out
 
-and, once a photo lies under the page, three more (`tracer`, `grower`). One more once a tree is taken from scribbles (`trunker`), one more while somebody looks at the tree as it grows, and one while a film of that is made (`growth`).
+and, once a photo lies under the page, three more (`tracer`, `grower`). One more once a tree is taken from scribbles (`trunker`), one once it is traced in points (`cloud_tracer`), one more while somebody looks at the tree as it grows, and one while a film of that is made (`growth`).
 
 Each begins when it is first needed, and is begun again should it end. The newest request wins; a hurried answer goes before the full tree of the same revision.
 """
@@ -19,13 +19,14 @@ from pathlib import Path
 
 from sketchtree.editing.document import Document
 from sketchtree.editing.settled import Settled
-from sketchtree.errors import SketchTreeError
+from sketchtree.errors import SeveralTrees, SketchTreeError
 from sketchtree.studio import messages
+from sketchtree.studio.cloud_tracer import CloudTracer
 from sketchtree.studio.engine import Fault, Outcome, Tell, untold
 from sketchtree.studio.grower import Grower
 from sketchtree.studio.growth import FILMS, Ager, Growing, Grown, Whose
 from sketchtree.studio.hand import Ended, Hand
-from sketchtree.studio.laid_photo import LaidPhoto
+from sketchtree.studio.laid_photo import LaidPhoto, unheard
 from sketchtree.studio.making.basis import Basis
 from sketchtree.studio.tracer import Tracer
 from sketchtree.studio.trunker import Trunker
@@ -54,6 +55,7 @@ class Crew:
         self._told = (0.0, "")
         self._catalogue: messages.Welcome | None = None
         self._whole_shown = -1  # the revision whose whole tree the pages have already
+        self._expects: dict[str, int] = {}  # which process of each role was told of points behind the drawing
         self._soon: dict[str, asyncio.TimerHandle] = {}  # processes that begin in a while
 
     @property
@@ -82,6 +84,8 @@ class Crew:
         self._grower = Grower(grow, laid, lambda outcome: self.on_outcome(outcome), self._run)
         trunk = Hand("trunk", self._database, lambda number, value: self._trunker.heard(number, value), partial(self._ended, "trunk"))
         self._trunker = Trunker(trunk, laid, lambda outcome: self.on_outcome(outcome), self._run)
+        points = Hand("points", self._database, lambda number, value: self._cloud.heard(number, value), partial(self._ended, "points"))
+        self._cloud = CloudTracer(points, lambda outcome: self.on_outcome(outcome), self._run)
         self._tracer = Tracer(*photo, laid, lambda revision, event: self.on_outcome(Outcome(revision, event)), self._grower.seen, self._run)
         self._ager, self._filmer = (Ager(partial(Hand, role, self._database, lambda number, value: None, partial(self._ended, role))) for role in ("age", "film"))
         self._begun = 1
@@ -99,6 +103,7 @@ class Crew:
         self._tracer.end()
         self._grower.end()
         self._trunker.end()
+        self._cloud.end()
         self._ager.end()
         self._filmer.end()
 
@@ -107,9 +112,20 @@ class Crew:
         self._revision, self._document, self._cancelled = revision, document.drawn, False
         self._hands["full"].stop()
         self._say(messages.Working(state="working", revision=revision, stage="read"))
+        if document.cloud is not None:
+            self._expect_points()
         if not self._hurrying:
             self._hurrying = True  # before the task begins: drawings that come at once have one
             self._run(self._make(), makes=True)
+
+    def _expect_points(self) -> None:
+        """Strokes over points come: each process is told once."""
+        for role in ("full", "quick"):
+            hand = self._hands[role]
+            hand.ready()
+            if self._expects.get(role) != hand.begun:
+                self._expects[role] = hand.begun
+                unheard(hand.ask("expect_points", role == "quick")[1])
 
     async def _make(self) -> None:
         """Hurried answers until one is of the newest drawing, then its whole tree. However many drawings come meanwhile, one at a time is made."""
@@ -205,7 +221,7 @@ class Crew:
 
     async def with_traced(self, document: Document) -> Document:
         """As `Engine.with_traced`."""
-        return await self._tracer.taken_over(document)
+        return await (self._cloud if self._maker(document) is self._cloud else self._tracer).taken_over(document)
 
     async def proposed(self, document: Document) -> tuple[Document, str]:
         """As `Engine.proposed`."""
@@ -215,21 +231,24 @@ class Crew:
         """As `Engine.grow`."""
         if at_once:
             self._tracer.make(revision, document)  # what was stopped looking for foliage looks again
-        for one in (self._grower, self._trunker) if document.trunk.on else (self._trunker, self._grower):  # the one that has nothing to do says so first
-            one.make(revision, document, at_once=at_once)
+        turn, none = self._maker(document), document.replace(underlay=None, cloud=None)
+        for one in sorted((self._grower, self._trunker, self._cloud), key=lambda one: one is turn):  # those that have nothing to do say so first
+            one.make(revision, document if one is turn else none, at_once=at_once)
 
     def stop_growing(self) -> None:
         """As `Engine.stop_growing`."""
         self._tracer.cancel()
-        self._grower.stop()
-        self._trunker.stop()
+        for one in (self._grower, self._trunker, self._cloud):
+            one.stop()
 
     async def grown(self, document: Document, name: str, options: dict, tell: Tell = untold) -> dict[str, bytes]:
         """As `Engine.grown`."""
-        return await self._of_photo(document).files(document, name, options, tell)
+        return await self._maker(document).files(document, name, options, tell)
 
-    def _of_photo(self, document: Document) -> Grower | Trunker:
-        """Who makes the tree of its photo."""
+    def _maker(self, document: Document) -> Grower | Trunker | CloudTracer:
+        """Who makes the tree that is not that of its strokes."""
+        if document.cloud is not None and document.points.traced:
+            return self._cloud
         return self._trunker if document.trunk.on else self._grower
 
     async def marks(self, document: Document) -> bytes:
@@ -283,20 +302,24 @@ class Crew:
         for hand in self._hands.values():
             hand.stop()
         self._tracer.cancel()
-        self._grower.stop()
+        for one in (self._grower, self._cloud):
+            one.stop()
         self._say(messages.Working(state="idle", revision=self._revision))
 
     async def find(self, document: Document, limb: int):
         """As `Engine.find`."""
         return await self._hands["full"].ask("find", self._job, limb)[1]
 
-    async def read(self, data: bytes, name: str) -> Document:
+    async def read(self, data: bytes, name: str, tree: int | None = None) -> Document:
         """As `Engine.read`. Small drawings of lines are read here, on a thread: they are there before any other process is."""
         if len(data) < _SMALL and Path(name).suffix.lower() in _LINES:
             from sketchtree.studio.making.documents import document_of
 
             return await asyncio.to_thread(document_of, data, name)
-        return await self._hands["side"].ask("read", data, name)[1]
+        found = await self._hands["side"].ask("read", data, name, tree)[1]
+        if not isinstance(found, Document):
+            raise SeveralTrees(f"{len(found)} trees stand in {name}.", remedy="Choose one of them.", trees=found)
+        return found
 
     async def export(self, document: Document, name: str, options: dict, tell: Tell = untold) -> dict[str, bytes]:
         """As `Engine.export`."""
@@ -312,7 +335,7 @@ class Crew:
         return await (self._filmer if film else self._ager).files(self._whose(document, tree), name, grown, tell, film=film)
 
     def _whose(self, document: Document, tree: str) -> Whose:
-        return self._of_photo(document).whose(document) if tree == "photo" else Whose.drawn(document)
+        return self._maker(document).whose(document) if tree == "photo" else Whose.drawn(document)
 
     async def project(self, document: Document) -> bytes:
         """As `Engine.project`."""
@@ -320,7 +343,7 @@ class Crew:
 
     async def texture(self, key: str, kind: str) -> bytes | None:
         """As `Engine.texture`."""
-        own = self._grower.textures.get((key, kind)) or self._trunker.textures.get((key, kind))
+        own = next(filter(None, (one.textures.get((key, kind)) for one in (self._grower, self._trunker, self._cloud))), None)
         return own if own is not None else await self._surely("texture", key, kind)
 
     async def picture(self, what: str, name: str) -> bytes | None:

@@ -13,6 +13,7 @@ from collections.abc import Callable, Hashable
 from dataclasses import dataclass, field
 
 from sketchtree.editing.document import Document
+from sketchtree.editing.laid_cloud import LaidCloud
 from sketchtree.editing.settled import Settled
 from sketchtree.errors import SketchTreeError
 from sketchtree.studio import journal_lines, messages, wire
@@ -27,7 +28,7 @@ from sketchtree.studio.scribe import Scribe
 from sketchtree.studio.settling import known_at_once, sharing
 
 _KEPT = (messages.Working, messages.Matches, messages.Read, messages.Alternatives, messages.Traced, messages.Foliage, messages.Matte, messages.Trunks, messages.Growing)  # the newest of each is told to pages that join later
-_NO_TREE = frozenset({"underlay", "name", "units", "page", "photo"})  # fields of a document that its tree does not hang on
+_NO_TREE = frozenset({"underlay", "points", "name", "units", "page", "photo"})  # fields of a document that its tree does not hang on
 
 
 @dataclass(eq=False)
@@ -65,6 +66,7 @@ class Desk:
         self.pending: dict[asyncio.Task, int] = {}  # of them, edits of limbs that are being looked for → the revision at which they were asked
         self.notes: list[messages.Trouble] = []  # told to every page that joins
         self.pictures: dict[str, bytes] = {}  # that were traced over, by digest
+        self.clouds: dict[str, LaidCloud] = {}  # that were laid behind the drawing, likewise
         self._wrong: messages.Trouble | None = None  # why there is no tree of the drawing as it is
         self._unkept: messages.Trouble | None = None  # why steps are not in the journal
         self._clock = clock
@@ -297,6 +299,8 @@ class Desk:
         return tuple(self.ledger.keep(before, self.document))
 
     def _remember_picture(self) -> None:
+        if self.document.cloud is not None:
+            self.clouds[self.document.cloud.digest] = self.document.cloud
         if self.document.underlay is not None:
             self.pictures[wire.digest(self.document.underlay.picture)] = self.document.underlay.picture
 

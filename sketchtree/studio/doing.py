@@ -3,12 +3,13 @@
 import asyncio
 import traceback
 from collections.abc import Awaitable, Callable
+from dataclasses import replace
 from typing import Any
 
 from sketchtree.editing import operations
 from sketchtree.editing.document import Document
 from sketchtree.editing.edits import Adopted
-from sketchtree.errors import OptionError, SketchError, SketchTreeError
+from sketchtree.errors import OptionError, SeveralTrees, SketchError, SketchTreeError
 from sketchtree.sketch.strokes import Stroke
 from sketchtree.studio import filing, messages, wire
 from sketchtree.studio.change import Change
@@ -73,6 +74,27 @@ async def _choose(desk: Desk, page: Page, request: messages.Choose) -> None:
 async def _choose_trunk(desk: Desk, page: Page, request: messages.ChooseTrunk) -> None:
     async with desk.turn:
         desk.step(desk.document.replace(trunk=wire.trunk_in(request.trunk)), request.label or "trunk", alike=("trunk", request.label))
+
+
+async def _choose_points(desk: Desk, page: Page, request: messages.ChoosePoints) -> None:
+    async with desk.turn:
+        document = desk.document.replace(points=wire.points_in(request.points))
+        under = document.underlay
+        if document.points.traced and under is not None and under.photo:
+            document = document.replace(underlay=replace(under, photo=False))  # one tree at a time stands in the place of the strokes'
+        desk.step(document, request.label or "points", alike=("points", request.label))
+
+
+async def _set_cloud(desk: Desk, page: Page, request: messages.SetCloud) -> None:
+    async with desk.turn:
+        document, said = desk.document, request.cloud
+        if said is None:
+            desk.step(document.replace(cloud=None, points=document.points.drawn), "point cloud")
+            return
+        cloud = desk.clouds.get(said.digest)
+        if cloud is None:
+            raise OptionError("Those points are not here any more.", remedy="Open their cloud again.")
+        desk.step(document.replace(cloud=wire.cloud_in(said, cloud)), "point cloud", alike="cloud")
 
 
 async def _glance(desk: Desk, page: Page, request: messages.Glance) -> None:
@@ -207,9 +229,17 @@ async def _new(desk: Desk, page: Page, request: messages.New) -> None:
 
 
 async def _open(desk: Desk, page: Page, request: messages.Open) -> None:
-    task = _file(desk, page, lambda: filing.open_named(desk, request.name, example=request.example))
+    task = _file(desk, page, lambda: _open_or_ask(desk, page, request))
     desk.pending[task] = desk.revision  # undo takes it back before it is done
     task.add_done_callback(desk.pending.pop)
+
+
+async def _open_or_ask(desk: Desk, page: Page, request: messages.Open) -> None:
+    """A cloud in which several trees stand is asked about."""
+    try:
+        await filing.open_named(desk, request.name, example=request.example, tree=request.tree)
+    except SeveralTrees as several:
+        page.outbox.put(messages.Several(name=request.name, trees=list(several.trees)))
 
 
 async def _save(desk: Desk, page: Page, request: messages.Save) -> None:
@@ -232,7 +262,8 @@ async def _set_underlay(desk: Desk, page: Page, request: messages.SetUnderlay) -
         picture = desk.pictures.get(said.digest)
         if picture is None:
             raise OptionError("That picture is not here any more.", remedy="Add it again.")
-        desk.step(document.replace(underlay=wire.underlay_in(said, picture)), "picture", alike="underlay")
+        points = document.points.drawn if said.photo else document.points
+        desk.step(document.replace(underlay=wire.underlay_in(said, picture), points=points), "picture", alike="underlay")
 
 
 async def _use_traced(desk: Desk, page: Page, request: messages.UseTraced) -> None:
@@ -247,8 +278,9 @@ async def _take_over(desk: Desk) -> None:
         document = desk.document
         made = await desk.engine.with_traced(document)
         async with desk.turn:
-            if desk.document.strokes is document.strokes and desk.document.underlay is document.underlay:
-                desk.step(desk.document.replace(strokes=made.strokes, underlay=made.underlay), "traced limbs")
+            if all(getattr(desk.document, name) is getattr(document, name) for name in ("strokes", "underlay", "cloud")):
+                settled = {} if made.settled is document.settled else {"settled": made.settled}
+                desk.step(desk.document.replace(strokes=made.strokes, underlay=made.underlay, points=made.points, **settled), "traced limbs")
                 return
     raise OptionError("The drawing was another each time its limbs were traced.", remedy="Lift the pen for a moment, then use them.")
 
@@ -300,7 +332,8 @@ def _aside(
 
 
 _DOING: dict[type, Callable[[Desk, Page, Any], Awaitable[None]]] = {
-    messages.Hello: _hello, messages.Strokes: _strokes, messages.Sketching: _sketching, messages.Choose: _choose, messages.ChooseTrunk: _choose_trunk, messages.Glance: _glance,
+    messages.Hello: _hello, messages.Strokes: _strokes, messages.Sketching: _sketching, messages.Choose: _choose, messages.ChooseTrunk: _choose_trunk,
+    messages.ChoosePoints: _choose_points, messages.SetCloud: _set_cloud, messages.Glance: _glance,
     messages.Hold: _hold, messages.Flip: _flip, messages.Mirror: _mirror, messages.Lock: _lock, messages.Delete: _delete, messages.Settle: _settle,
     messages.Readings: _readings, messages.Pick: _pick, messages.Undo: _undo, messages.Redo: _redo, messages.Cancel: _cancel, messages.New: _new,
     messages.Open: _open, messages.Save: _save, messages.SetUnderlay: _set_underlay,

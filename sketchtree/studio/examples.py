@@ -1,4 +1,4 @@
-"""Which drawings come with the program, to begin with? And which photo, with scribbles on it?"""
+"""Which drawings come with the program, to begin with? Which photo, with scribbles on it? And which points of a tree?"""
 
 from pathlib import Path
 
@@ -6,9 +6,10 @@ from sketchtree.errors import SketchError
 
 FIRST = "oak_50.svg"  # shown when the studio is started with no file
 SCRIBBLED = {"sugar_maple.jpg": "sugar_maple_marks.json"}  # photos of a bare tree, and the scribbles on each
+SCANNED = ("ash.ply",)  # point clouds
 _KINDS = (".svg", ".json")
 _TITLES = {
-    "curvy.svg": "Wind-swept pine", "oak_50.svg": "Old oak", "poplar.svg": "Lombardy poplar", "sugar_maple.jpg": "Bare maple, a photo",
+    "curvy.svg": "Wind-swept pine", "oak_50.svg": "Old oak", "poplar.svg": "Lombardy poplar", "sugar_maple.jpg": "Bare maple, a photo", "ash.ply": "Ash, a point cloud",
 }  # fmt: skip - where the file's name says less
 
 
@@ -19,13 +20,14 @@ def folder() -> Path:
 
 
 def names() -> list[str]:
-    """Of the drawings, then of the photos."""
-    return sorted(path.name for path in folder().glob("*.*") if path.suffix in _KINDS) + sorted(SCRIBBLED)
+    """Of the drawings, then of the photos and the point clouds."""
+    return sorted(path.name for path in folder().glob("*.*") if path.suffix in _KINDS) + sorted(SCRIBBLED) + sorted(SCANNED)
 
 
 def files() -> list[str]:
     """Of all that they are made of, from the folder on."""
-    return [name for name in names() if name not in SCRIBBLED] + [f"photo/{name}" for pair in SCRIBBLED.items() for name in pair]
+    drawings = [name for name in names() if name not in SCRIBBLED and name not in SCANNED]
+    return drawings + [f"photo/{name}" for pair in SCRIBBLED.items() for name in pair] + [f"cloud/{name}" for name in SCANNED]
 
 
 def title(name: str) -> str:
@@ -34,10 +36,11 @@ def title(name: str) -> str:
 
 
 def data(name: str) -> bytes:
-    """The bytes of a drawing, or of a photo. Raises SketchError."""
+    """The bytes of a drawing, a photo or a point cloud. Raises SketchError."""
     if name not in names():
         raise SketchError("There is no example of that name.", remedy=f"The examples are {', '.join(names())}.")
-    return (folder() / "photo" / name if name in SCRIBBLED else folder() / name).read_bytes()
+    place = folder() / "photo" if name in SCRIBBLED else folder() / "cloud" if name in SCANNED else folder()
+    return (place / name).read_bytes()
 
 
 def scribbles(name: str) -> bytes:

@@ -9,6 +9,7 @@ from pathlib import Path
 import msgspec
 
 from sketchtree.editing.document import Document
+from sketchtree.editing.laid_cloud import laid_under
 from sketchtree.errors import ExportError, SketchError
 from sketchtree.studio import examples, messages
 from sketchtree.studio.desk import Desk, Page
@@ -33,8 +34,8 @@ async def welcome(desk: Desk, page: Page) -> None:
     )  # fmt: skip
 
 
-async def open_named(desk: Desk, name: str, *, example: bool) -> None:
-    """A file of the folder, or an example, takes the place of what is there, once it is read, as a step. Raises SketchTreeError."""
+async def open_named(desk: Desk, name: str, *, example: bool, tree: int | None = None) -> None:
+    """A file of the folder, or an example, takes the place of what is there, once it is read, as a step. `tree`: which of several in a cloud. Raises SketchTreeError."""
     if example and name in examples.SCRIBBLED:
         await _open_scribbled(desk, name)
         return
@@ -47,7 +48,7 @@ async def open_named(desk: Desk, name: str, *, example: bool) -> None:
     async with desk.filing:
         signature = folder.signature(name)
         data = await asyncio.to_thread(folder.read, name)
-        document = await read(desk, data, name)
+        document = await read(desk, data, name, tree)
         async with desk.turn:
             desk.files.signatures[name] = signature
             desk.step(document, "open", saved_as=name if name.lower().endswith(PROJECT) else None)
@@ -60,21 +61,32 @@ async def _open_scribbled(desk: Desk, name: str) -> None:
         desk.step(document, "open")
 
 
-async def open_bytes(desk: Desk, data: bytes, name: str) -> None:
-    """A drawing or a project takes the place of what is there, once it is read, as a step. Raises SketchTreeError."""
+async def open_bytes(desk: Desk, data: bytes, name: str, tree: int | None = None) -> None:
+    """A drawing, a project or a point cloud takes the place of what is there, once it is read, as a step. Raises SketchTreeError."""
     async with desk.filing:
-        document = await read(desk, data, name)
+        document = await read(desk, data, name, tree)
         async with desk.turn:
             desk.step(document, "open")
 
 
-async def read(desk: Desk, data: bytes, name: str) -> Document:
-    """The document of a file, called as the file is. Raises SketchTreeError."""
+async def lay(desk: Desk, data: bytes, name: str, tree: int | None = None) -> None:
+    """The points of a cloud lie behind the drawing, once they are read, as a step. Raises SketchTreeError."""
+    async with desk.filing:
+        cloud = (await read(desk, data, name, tree)).cloud
+        if cloud is None:
+            raise SketchError(f"{name} is no point cloud.", remedy="Give PLY, LAS, LAZ, XYZ, NPZ or NPY.")
+        async with desk.turn:
+            document = desk.document
+            desk.step(document.replace(cloud=laid_under(cloud, document.strokes.values()), points=document.points.drawn), "point cloud")
+
+
+async def read(desk: Desk, data: bytes, name: str, tree: int | None = None) -> Document:
+    """The document of a file, called as the file is. Raises SketchTreeError; SeveralTrees, where a cloud has several and none was chosen."""
     if not is_name(name):
         raise SketchError("That is no name of a drawing.", remedy="Rename the file, without a path, a colon, or a dot at its start.")
     if len(data) > messages.MAX_UPLOAD:
         raise SketchError(f"{name} has {len(data) / 1e6:.0f} MB; {messages.MAX_UPLOAD / 1e6:.0f} MB is the most.", remedy="Choose a smaller file.")
-    document = await desk.engine.read(data, name)
+    document = await desk.engine.read(data, name, tree)
     return fitting(document).replace(name=Path(name).stem)
 
 

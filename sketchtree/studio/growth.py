@@ -24,7 +24,7 @@ FILMS = (".mp4", ".gif")  # kinds of film
 MOVING = (".glb", ".gltf", ".usdz", ".usd", ".usda", ".usdc")  # and of files that move
 _PATIENCE = 6.0  # seconds in which what is stopped ends by itself, before its process is ended: another one begins slowly, and this one gives way to all others
 _FORGETS = 180.0  # seconds without a wish, after which the process and the last growth go
-_FIELDS = ("strokes", "edits", "settled", "reading", "tree", "seed")  # of a document, that its tree hangs on
+_FIELDS = ("strokes", "edits", "settled", "cloud", "reading", "tree", "seed")  # of a document, that its tree hangs on
 _FETCHED = 0.4  # of the work, that fetching a tree from the process that grew it is
 
 
@@ -80,7 +80,7 @@ class Whose:
         if not document.drawn.strokes:
             raise SketchError("There is no tree that could grow.", remedy="Draw a trunk first.")
         parts = [getattr(document, name) for name in _FIELDS]
-        return cls(Held((*map(id, parts[:3]), *parts[3:]), document), document.drawn)  # documents are immutable: large parts that are the same object are the same
+        return cls(Held((*map(id, parts[:4]), *parts[4:]), document), document.drawn)  # documents are immutable: large parts that are the same object are the same
 
 
 class Ager:

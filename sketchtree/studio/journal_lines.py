@@ -1,6 +1,6 @@
 """What does the journal say of a step? One JSON object a line; played from the first, they give the drawing with all its steps.
 
-    begin     the drawing that the steps start from         picture   the bytes of a picture to trace over, once
+    begin     the drawing that the steps start from         picture   the bytes of a picture to trace over, or of points behind the drawing, once
     step      what a step changed, and what undo calls it   keep      where the depths have settled since
     back, on  undo, redo
 """
@@ -16,6 +16,7 @@ from msgspec import UNSET, UnsetType
 from sketchtree.editing import kept
 from sketchtree.editing.document import Document, Underlay
 from sketchtree.editing.edits import Edits
+from sketchtree.editing.laid_cloud import CloudChoices, LaidCloud
 from sketchtree.editing.settled import Depths, Settled
 from sketchtree.options import ReadingOptions, TreeOptions
 from sketchtree.photo.wanted import PhotoOptions
@@ -25,7 +26,7 @@ from sketchtree.studio.change import Change, apply, change
 from sketchtree.trunk.wanted import TrunkChoices
 
 VERSION = 1
-_PLAIN = ("edits", "reading", "tree", "photo", "trunk", "seed", "name", "units", "page", "warnings")  # fields that are written as they are
+_PLAIN = ("edits", "reading", "tree", "photo", "trunk", "points", "seed", "name", "units", "page", "warnings")  # fields that are written as they are
 
 
 class _Line(msgspec.Struct, forbid_unknown_fields=True, frozen=True, kw_only=True, omit_defaults=True):
@@ -40,6 +41,16 @@ class _Placed(_Line):
     height: float
     opacity: float
     photo: bool = False
+
+
+class _Laid(_Line):
+    digest: str
+    coloured: bool
+    x: float
+    y: float
+    unit: float
+    trunk: float = 0.0
+    remarks: tuple[str, ...] = ()
 
 
 class _Resettled(_Line):
@@ -63,6 +74,8 @@ class Different(_Line):
     trunk: TrunkChoices | UnsetType = UNSET
     seed: int | UnsetType = UNSET
     underlay: _Placed | None | UnsetType = UNSET
+    cloud: _Laid | None | UnsetType = UNSET
+    points: CloudChoices | UnsetType = UNSET
     name: str | UnsetType = UNSET
     units: str | UnsetType = UNSET
     page: tuple[float, float, float, float] | None | UnsetType = UNSET
@@ -79,7 +92,7 @@ class Begin(_Line, tag="begin"):
 
 
 class Picture(_Line, tag="picture"):
-    """A picture to trace over, before the first line that names it."""
+    """A picture to trace over, or points behind the drawing, before the first line that names it."""
 
     digest: str
     data: bytes
@@ -122,6 +135,8 @@ def told(old: Document, what: Change, new: Document) -> Different:
         said["settled"] = _resettled(old.settled, new.settled)
     if "underlay" in what.others:
         said["underlay"] = _placed(new.underlay)
+    if "cloud" in what.others:
+        said["cloud"] = _laid(new.cloud)
     return Different(put=list(what.put.values()), gone=list(what.gone), order=None if what.order is None else list(what.order), **said)
 
 
@@ -135,6 +150,9 @@ def differing(document: Document, said: Different, pictures: Mapping[str, bytes]
     if said.underlay is not UNSET:
         place = said.underlay
         others["underlay"] = place and Underlay(pictures[place.digest], place.x, place.y, place.width, place.height, place.opacity, place.photo)
+    if said.cloud is not UNSET:
+        laid = said.cloud
+        others["cloud"] = laid and LaidCloud(pictures[laid.digest], laid.coloured, laid.x, laid.y, laid.unit, laid.trunk, laid.remarks)
     order = None if said.order is None else tuple(said.order)
     return apply(document, Change({stroke.id: stroke for stroke in said.put}, tuple(said.gone), order, others))
 
@@ -166,6 +184,10 @@ def _placed(underlay: Underlay | None) -> _Placed | None:
         return None
     place = (underlay.x, underlay.y, underlay.width, underlay.height, underlay.opacity)
     return _Placed(digest=wire.digest(underlay.picture), photo=underlay.photo, **dict(zip(("x", "y", "width", "height", "opacity"), map(float, place))))
+
+
+def _laid(cloud: LaidCloud | None) -> _Laid | None:
+    return cloud and _Laid(digest=cloud.digest, coloured=cloud.coloured, trunk=float(cloud.trunk), remarks=cloud.remarks, **dict(zip(("x", "y", "unit"), map(float, cloud.place))))
 
 
 def _plain(value: Any) -> Any:

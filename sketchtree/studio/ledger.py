@@ -52,6 +52,10 @@ class Ledger:
 
 
 def _pictures(document: Document) -> tuple[lines.Line, ...]:
-    if document.underlay is None:
-        return ()
-    return (lines.Picture(digest=wire.digest(document.underlay.picture), data=document.underlay.picture),)
+    """What a line can only name: the bytes of a picture, and of points."""
+    found = []
+    if document.underlay is not None:
+        found.append(lines.Picture(digest=wire.digest(document.underlay.picture), data=document.underlay.picture))
+    if document.cloud is not None:
+        found.append(lines.Picture(digest=document.cloud.digest, data=document.cloud.points))
+    return tuple(found)

@@ -112,6 +112,27 @@ class Underlay(_Record):
     photo: bool = False  # it shows the tree: strokes mark its crown and limbs, and its limbs are traced
 
 
+class Cloud(_Record):
+    """Points of a scan behind the drawing; their bytes are at /cloud/<digest>: x, y, z of each as 32 bits (metres, y UP, the foot at the origin), then red, green, blue of each as 8, where coloured."""
+
+    digest: Annotated[str, Meta(pattern=r"^[0-9a-f]{16,64}$")]
+    x: Coordinate  # of the foot, page units
+    y: Coordinate
+    unit: Annotated[float, Meta(gt=0, le=1e9)]  # page units a metre
+    count: int = 0  # and what follows: the program says it
+    coloured: bool = False
+    height: float = 0.0  # metres
+    remarks: list[str] = []  # what was done to the points of the file
+
+
+class Points(_Record):
+    """How they are seen, and used."""
+
+    shown: bool = True
+    size: Annotated[float, Meta(ge=0.5, le=8)] = 2.0  # CSS pixels that a point is wide
+    traced: bool = False  # the tree is the one that stands in them
+
+
 class Edit(_Record):
     """One thing done to the tree by hand, for the page's list."""
 
@@ -155,6 +176,19 @@ class ChooseTrunk(_Said):
 
     trunk: Trunk
     label: Annotated[str, Meta(max_length=40)] = "trunk"
+
+
+class ChoosePoints(_Said):
+    """See the points so, and use them so. A quick succession under one `label` makes one step of undo."""
+
+    points: Points
+    label: Annotated[str, Meta(max_length=40)] = "points"
+
+
+class SetCloud(_Said):
+    """Another place for the points behind the drawing; `None` takes them away."""
+
+    cloud: Cloud | None = None
 
 
 class Glance(_Said):
@@ -232,6 +266,7 @@ class Open(_Said):
 
     name: Name
     example: bool = False
+    tree: Annotated[int, Meta(ge=1, le=10_000)] | None = None  # which of several in a point cloud, 1 the largest
 
 
 class Save(_Said):
@@ -258,11 +293,11 @@ class Propose(_Said):
 
 
 class UseTraced(_Said):
-    """The limbs that were traced in the photo become the drawing, in place of the strokes that mark them; the photo is a picture to trace over again."""
+    """The limbs that were traced in the photo, or in the points, become the drawing, in place of the strokes; the photo is a picture to trace over again, the points are there to draw over."""
 
 
 Request = (
-    Hello | Strokes | Sketching | Choose | ChooseTrunk | Glance | Hold | Flip | Mirror | Lock | Delete | Settle | Readings | Pick | Undo | Redo | Cancel | New
+    Hello | Strokes | Sketching | Choose | ChooseTrunk | ChoosePoints | SetCloud | Glance | Hold | Flip | Mirror | Lock | Delete | Settle | Readings | Pick | Undo | Redo | Cancel | New
     | Open | Save | SetUnderlay | UseTraced | Grow | Propose
 )  # fmt: skip
 
@@ -307,6 +342,9 @@ class Changed(_Said):
     trunk: Trunk | None = None  # None: as it was
     underlay: Underlay | None = None
     underlay_changed: bool = False
+    cloud: Cloud | None = None
+    cloud_changed: bool = False
+    points: Points | None = None  # None: as they were
     name: str | None = None
     undo: str | None = None  # what undo takes back; None: nothing to undo
     redo: str | None = None
@@ -337,6 +375,13 @@ class Match(_Record):
     name: str
     score: float
     view_deg: float
+
+
+class Several(_Said):
+    """Several trees stand in that point cloud of the folder: `Open` it again, with one of them."""
+
+    name: str
+    trees: list[str]  # each in words, the largest first
 
 
 class Matches(_Said):
@@ -566,4 +611,4 @@ class Ghost(_Said):
     arrays: list[Array]
 
 
-Event = Welcome | Changed | Working | Trouble | Matches | Alternatives | Saved | Read | Traced | Foliage | Matte | Trunks | Proposed | Growing | Making | Tree | Ghost
+Event = Welcome | Changed | Working | Trouble | Several | Matches | Alternatives | Saved | Read | Traced | Foliage | Matte | Trunks | Proposed | Growing | Making | Tree | Ghost

@@ -5,7 +5,8 @@
     /texture/KEY/MAP.png                  what the tree wears
     /picture/WHAT/NAME.png                thumbnails
     /underlay/DIGEST                      the picture to trace over
-    POST /upload?name=&as=                a drawing or project to open; a picture to trace over, to mark a tree in, or to read strokes from
+    /cloud/DIGEST                         the points behind the drawing
+    POST /upload?name=&as=&tree=          a drawing, project or point cloud to open; a picture to trace over, to mark a tree in, or to read strokes from; points to draw over
     POST /export                          the tree, as files, or its growth; hanging up stops their making
     POST /growth                          the tree as it grows, an animated GLB, likewise
     /download  /marks  /command?export=   the project; the strokes that mark the photo, as SVG; the command line that makes the same as that export
@@ -26,7 +27,7 @@ from starlette.types import ASGIApp
 from starlette.websockets import WebSocket, WebSocketDisconnect
 
 from sketchtree.editing.document import Document
-from sketchtree.errors import SketchTreeError
+from sketchtree.errors import SeveralTrees, SketchTreeError
 from sketchtree.studio import exports, filing, messages
 from sketchtree.studio.engine import Tell, untold
 from sketchtree.studio.folder import PROJECT, is_name
@@ -66,6 +67,7 @@ class Studio:
             Route("/texture/{key}/{name}.png", self._texture),
             Route("/picture/{what}/{name}.png", self._picture),
             Route("/underlay/{digest}", self._underlay),
+            Route("/cloud/{digest}", self._cloud),
             Route("/upload", self._upload, methods=["POST"]),
             Route("/export", self._export, methods=["POST"]),
             Route("/growth", self._growth, methods=["POST"]),
@@ -142,11 +144,18 @@ class Studio:
             raise HTTPException(404)
         return Response(picture, media_type=kind)
 
+    async def _cloud(self, request: Request) -> Response:
+        cloud = self._session.desk.clouds.get(request.path_params["digest"])
+        if cloud is None:
+            raise HTTPException(404)
+        return Response(cloud.points, media_type="application/octet-stream")
+
     # Files
 
     async def _upload(self, request: Request) -> Response:
         name, use = request.query_params.get("name", ""), request.query_params.get("as", "drawing")
-        if use not in ("drawing", "underlay", "photo"):
+        tree = request.query_params.get("tree", "")
+        if use not in ("drawing", "underlay", "photo", "cloud") or not re.fullmatch("[0-9]{0,5}", tree):
             raise HTTPException(400)
         data = await _body(request, messages.MAX_UPLOAD)
         desk = self._session.desk
@@ -155,8 +164,10 @@ class Studio:
             await filing.trace(desk, data, name if is_name(name) else "This file")
         elif use == "photo":
             await filing.open_photo(desk, data, name if is_name(name) else "This file")
+        elif use == "cloud":
+            await filing.lay(desk, data, name, int(tree) if tree else None)
         else:
-            await filing.open_bytes(desk, data, name)
+            await filing.open_bytes(desk, data, name, int(tree) if tree else None)
         return _json({"revision": desk.revision})
 
     async def _export(self, request: Request) -> Response:
@@ -298,7 +309,8 @@ async def _not_so(request: Request, error: HTTPException) -> Response:
 
 
 async def _cannot(request: Request, error: SketchTreeError) -> Response:
-    return _json({"message": error.message, "remedy": error.remedy}, 422)
+    several = {"trees": list(error.trees)} if isinstance(error, SeveralTrees) else {}
+    return _json({"message": error.message, "remedy": error.remedy} | several, 422)
 
 
 async def _unread(request: Request, error: Unread) -> Response:

@@ -164,7 +164,7 @@ def tree_of(document: Document):
     from sketchtree.pipeline import complete, draw_out
 
     key = root_key(document.seed)
-    drawn = draw_out(document.sketch, key=key, options=document.reading, edits=document.edits, settled=document.settled)
+    drawn = draw_out(document.sketch, key=key, options=document.reading, edits=document.edits, settled=document.settled, cloud=document.cloud)
     return complete(drawn, key=key, options=document.tree)
 
 

@@ -9,6 +9,7 @@ import numpy as np
 
 from sketchtree.editing.document import Document, Underlay
 from sketchtree.editing.edits import Edits
+from sketchtree.editing.laid_cloud import CloudChoices, LaidCloud
 from sketchtree.errors import OptionError, SketchError
 from sketchtree.sketch.strokes import Stroke, StrokeKind
 from sketchtree.studio import messages
@@ -116,6 +117,30 @@ def underlay_in(said: messages.Underlay, picture: bytes) -> Underlay:
     return Underlay(picture, said.x, 0.0 - said.y, said.width, said.height, said.opacity, said.photo)
 
 
+def cloud_out(cloud: LaidCloud | None) -> messages.Cloud | None:
+    """The points behind the drawing as the page is told."""
+    if cloud is None:
+        return None
+    return messages.Cloud(
+        digest=cloud.digest, x=cloud.x, y=0.0 - cloud.y, unit=cloud.unit, count=len(cloud), coloured=cloud.coloured, height=cloud.height, remarks=list(cloud.remarks)
+    )  # fmt: skip
+
+
+def cloud_in(said: messages.Cloud, cloud: LaidCloud) -> LaidCloud:
+    """These points, at the place that the page says."""
+    return dataclasses.replace(cloud, x=said.x, y=0.0 - said.y, unit=said.unit)
+
+
+def points_out(points: CloudChoices) -> messages.Points:
+    """How they are seen and used, as the page is told."""
+    return msgspec.convert(dataclasses.asdict(points), messages.Points)
+
+
+def points_in(said: messages.Points) -> CloudChoices:
+    """And as the page says it. Raises OptionError."""
+    return CloudChoices(said.shown, said.size, said.traced)
+
+
 @lru_cache(maxsize=8)
 def digest(picture: bytes) -> str:
     """What a picture is known by."""
@@ -132,6 +157,8 @@ def changed(what: Change, document: Document, since: int, revision: int, **state
         edits=edits_out(document.edits) if "edits" in others else None,
         trunk=trunk_out(document.trunk) if "trunk" in others else None,
         underlay=underlay_out(document.underlay) if "underlay" in others else None, underlay_changed="underlay" in others,
+        cloud=cloud_out(document.cloud) if "cloud" in others else None, cloud_changed="cloud" in others,
+        points=points_out(document.points) if "points" in others else None,
         name=document.name if "name" in others else None, **state,
     )  # fmt: skip
 
@@ -140,7 +167,8 @@ def whole(document: Document, revision: int, **state) -> messages.Changed:
     """The message that tells everything."""
     return messages.Changed(
         since=0, revision=revision, put=[stroke_out(stroke) for stroke in document.strokes.values()], options=options_out(document),
-        edits=edits_out(document.edits), trunk=trunk_out(document.trunk), underlay=underlay_out(document.underlay), underlay_changed=True, name=document.name, **state,
+        edits=edits_out(document.edits), trunk=trunk_out(document.trunk), underlay=underlay_out(document.underlay), underlay_changed=True,
+        cloud=cloud_out(document.cloud), cloud_changed=True, points=points_out(document.points), name=document.name, **state,
     )  # fmt: skip
 
 

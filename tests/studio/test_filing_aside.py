@@ -25,7 +25,7 @@ class Slow(FakeEngine):
         await self._late()
         return await super().project(document)
 
-    async def read(self, data, name):
+    async def read(self, data, name, tree=None):
         await self._late()
         return await super().read(data, name)
 

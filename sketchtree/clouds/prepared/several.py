@@ -18,7 +18,7 @@ from sketchtree.axes import NULL
 from sketchtree.clouds.standing.reached import reached
 from sketchtree.clouds.standing.stems import Stems, stems
 from sketchtree.clouds.voxels import voxel_rows, voxel_size
-from sketchtree.errors import OptionError, SketchError
+from sketchtree.errors import OptionError, SeveralTrees
 
 _LOOKED_AT = 60_000  # points that ways are sought through
 _SAID = 9  # trees that an error names
@@ -79,11 +79,13 @@ def _borne_by(xyz, low, above, tree, height: float) -> int:
 def one_tree(found: Plants, tree: int | None, places: Sequence[str]) -> Int[np.ndarray, " kept"]:
     """Rows of the one tree, or of the tree of that number (from 1). `places`: where each stands, in words.
 
-    Raises SketchError where there are several and none was chosen, OptionError for a number that none has.
+    Raises SeveralTrees where there are several and none was chosen, OptionError for a number that none has.
     """
     if tree is None and len(found) > 1:
-        said = "; ".join(f"{k}: {height:.1f} m high, at {place}" for k, (height, place) in enumerate(zip(found.height[:_SAID], places, strict=False), 1))
-        raise SketchError(f"{len(found)} trees stand in the cloud ({said}{'; ...' if len(found) > _SAID else ''}).", remedy="Say which with `--tree K`, or cut it out of the cloud.")
+        each = [f"{height:.1f} m high, at {place}" for height, place in zip(found.height, places, strict=True)]
+        said = "; ".join(f"{k}: {words}" for k, words in enumerate(each[:_SAID], 1))
+        stand = f"{len(found)} trees stand in the cloud ({said}{'; ...' if len(found) > _SAID else ''})."
+        raise SeveralTrees(stand, remedy="Say which with `--tree K`, or cut it out of the cloud.", trees=tuple(each))
     if tree is not None and not 1 <= tree <= len(found):
         raise OptionError(f"There is no tree {tree}: the cloud has {len(found)}.", remedy=f"Say 1 to {len(found)}; 1 is the largest.")
     return np.flatnonzero(found.of_point == (0 if tree is None else tree - 1))

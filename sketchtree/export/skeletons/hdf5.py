@@ -7,6 +7,7 @@ A project (`.sketchtree`) is all that a tree was made of, so that it can be made
     edits                             JSON: what was done by hand, operations by limb id (`editing.kept`)
     settled                           JSON: what the depths of drawn limbs have come to, likewise
     underlay                          a picture that was traced over, as it came; attributes x, y, width, height, opacity (sketch units, y up), photo
+    cloud                             points of a scan behind the drawing, as `editing.laid_cloud` has them; attributes coloured, x, y, unit (sketch units, y up), trunk (metres), remarks (JSON)
     options                           JSON: as used
     skeleton/                         every column of the complete tree
     posterior/                        what is known of the drawn segments' depths: depth and depth_sd (sketch units), log_posterior,
@@ -41,7 +42,7 @@ def write_hdf5(path: str | os.PathLike, tree: TreeSkeleton, *, header: Mapping[s
 
 
 def write_project(path: str | os.PathLike, model, *, seed: int, options: dict, underlay=None) -> None:
-    """Write a `TreeModel` with the drawing it was made of as `.sketchtree`, all or nothing. `options` are JSON, `underlay` an `editing.document.Underlay`.
+    """Write a `TreeModel` with the drawing it was made of, and the points behind it, as `.sketchtree`, all or nothing. `options` are JSON, `underlay` an `editing.document.Underlay`.
 
     Raises `SketchError` for a drawing that a file could not give back, `ExportError` where it can't be written."""
     import h5py
@@ -52,14 +53,15 @@ def write_project(path: str | os.PathLike, model, *, seed: int, options: dict, u
     with h5py.File(whole, "w", libver=("v110", "v110")) as file:
         file.attrs["format"], file.attrs["schema"], file.attrs["version"], file.attrs["seed"] = PROJECT, SCHEMA, __version__, seed
         file.attrs["template"] = model.drawn.exemplar.name if model.drawn.exemplar else ""
-        _put_drawing(file, model.drawn.sketch, model.drawn.edits, model.drawn.settled, options, underlay)
+        _put_drawing(file, model.drawn.sketch, model.drawn.edits, model.drawn.settled, options, underlay, model.drawn.cloud)
         put_columns(file.create_group("skeleton"), model.skeleton)
         _put_posterior(file.create_group("posterior"), model.drawn.fit)
     write_whole(path, whole.getvalue())
 
 
-def write_scribbled(path: str | os.PathLike, document, *, options: dict) -> None:
-    """Write an `editing.document.Document` whose tree is taken from scribbles on its picture as `.sketchtree`, all or nothing. It holds no skeleton: whoever wants the tree makes it (`trunk_project`).
+def write_undrawn(path: str | os.PathLike, document, *, options: dict) -> None:
+    """Write an `editing.document.Document` whose tree is taken from scribbles on its picture, or from the points behind it, as `.sketchtree`, all or nothing. It holds no skeleton: whoever wants
+    the tree makes it (`scribbled_tree`, `laid_tree`).
 
     Raises `SketchError` for a drawing that a file could not give back, `ExportError` where it can't be written."""
     import h5py
@@ -70,11 +72,11 @@ def write_scribbled(path: str | os.PathLike, document, *, options: dict) -> None
     with h5py.File(whole, "w", libver=("v110", "v110")) as file:
         file.attrs["format"], file.attrs["schema"], file.attrs["version"], file.attrs["seed"] = PROJECT, SCHEMA, __version__, document.seed
         file.attrs["template"] = ""
-        _put_drawing(file, document.sketch, document.edits, document.settled, options, document.underlay)
+        _put_drawing(file, document.sketch, document.edits, document.settled, options, document.underlay, document.cloud)
     write_whole(path, whole.getvalue())
 
 
-def _put_drawing(file, sketch, edits, settled, options: dict, underlay) -> None:
+def _put_drawing(file, sketch, edits, settled, options: dict, underlay, cloud) -> None:
     _put_text(file, "sketch", sketch_json(sketch))
     file["sketch"].attrs["name"] = sketch.name
     _put_text(file, "edits", json.dumps(kept.edits_as_json(edits)))
@@ -84,6 +86,11 @@ def _put_drawing(file, sketch, edits, settled, options: dict, underlay) -> None:
         for name in ("x", "y", "width", "height", "opacity"):
             file["underlay"].attrs[name] = float(getattr(underlay, name))
         file["underlay"].attrs["photo"] = bool(underlay.photo)
+    if cloud is not None:
+        put(file, "cloud", np.frombuffer(cloud.points, np.uint8), "byte")
+        said = file["cloud"].attrs
+        said["coloured"], said["remarks"] = cloud.coloured, json.dumps(cloud.remarks)
+        said["x"], said["y"], said["unit"], said["trunk"] = *cloud.place, cloud.trunk
     _put_text(file, "options", json.dumps(options, sort_keys=True))
 
 

@@ -72,8 +72,14 @@ def own_factor(name: str, given: Any, posterior, graph: FactorGraph) -> Own:
         if not hasattr(given, "log_potential"):
             raise _error(name, "made an object without `log_potential(assignment, theta)`", "Return an object that has one.")
     own = _wrapped(name, given)
-    _try(own, posterior, graph)
+    if not is_ours(given):
+        _try(own, posterior, graph)
     return own
+
+
+def is_ours(given: Any) -> bool:
+    """A factor of the program itself: tests try it, and its source is among those by which kept programs are told apart (`mrf.compilation`)."""
+    return type(given).__module__.startswith("sketchtree.mrf.")
 
 
 @lru_cache(maxsize=8)

@@ -32,7 +32,7 @@ UNSEEN = 0.1  # ε, before the depth's range divides it
 _WIDTHS = (1.0, 4.0, 16.0)  # σ
 _CELLS = 512  # of depth, between the least that was seen and the most
 _MOST = 256  # depths a place, the nearest on the page
-_BUCKET = 64  # places, or twice, four times … as many
+_BUCKET = 256  # places, or four times, sixteen times … as many
 _APART = 0.04  # H, about, from place to place
 
 
@@ -62,9 +62,10 @@ class SeenPoints:
     points: Float[np.ndarray, "point 3"]  # sketch units from the first base: x and y as on the page (y up), z towards the viewer
     sd: float = SD  # H: how far a point may lie from the axis of the wood
     reach: float = REACH  # H on the page
+    needed: bool = True  # an error where they say nothing of any branch; else the prior alone speaks there
 
     def __call__(self, graph: FactorGraph) -> SeenDepths:
-        """The factors of a drawing. Raises InferenceError where no point lies near any branch."""
+        """The factors of a drawing. Raises InferenceError where no point lies near any branch, and some should."""
         places = _places(graph)
         points = np.asarray(self.points, float) / graph.scale
         tree = cKDTree(points[:, :2])
@@ -72,7 +73,7 @@ class SeenPoints:
         distance, index = (np.reshape(column, (len(places.row), -1)) for column in near)
         there = np.isfinite(distance)
         weight = np.where(there, np.exp(-0.5 * (distance / (0.5 * self.reach)) ** 2), 0.0)
-        return _factors(places, np.where(there, points[np.minimum(index, len(points) - 1), 2], 0.0), weight, self.sd, "No point of the cloud lies near any drawn branch.")
+        return _factors(places, np.where(there, points[np.minimum(index, len(points) - 1), 2], 0.0), weight, self.sd, "No point of the cloud lies near any drawn branch." if self.needed else None)
 
 
 @dataclass(frozen=True, eq=False)
@@ -126,10 +127,12 @@ def _places(graph: FactorGraph) -> _Places:
     return _Places(row, graph.parent[row], share, start + share[:, None] * (graph.xy[row] - start))
 
 
-def _factors(places: _Places, depth, weight, sd: float, nothing: str) -> SeenDepths:
-    """The tables of places at which something was seen."""
+def _factors(places: _Places, depth, weight, sd: float, nothing: str | None) -> SeenDepths:
+    """The tables of places at which something was seen. `nothing`: what is wrong where there is none; None: nothing is."""
     total = weight.sum(axis=1)
     told = total > 1e-9
+    if not told.any() and nothing is None:
+        return _silent(places)
     if not told.any():
         raise InferenceError(nothing, remedy="Check that both have the same foot and scale, and that the points' z runs towards the viewer.")
     share = weight[told] / total[told, None]
@@ -142,8 +145,19 @@ def _factors(places: _Places, depth, weight, sd: float, nothing: str) -> SeenDep
     density = sum(gaussian_filter1d(held, width * sd / cell, axis=1, mode="constant") for width in _WIDTHS) / (len(_WIDTHS) * cell)
     floor = UNSEEN / (high - low)
     table = np.log(floor + (1 - UNSEEN) * density) - np.log(floor)
-    size = _BUCKET * 2 ** max(int(np.ceil(np.log2(len(told) / _BUCKET))), 0)  # so that other points, or other strokes, need no new program
+    size = _size(int(told.sum()))
     whole = np.zeros((size, _CELLS))
     whole[np.flatnonzero(told)] = table
     row, above, along = (np.pad(column, (0, size - len(told))) for column in (places.row, places.above, places.share))
     return SeenDepths(jnp.asarray(row), jnp.asarray(above), jnp.asarray(along, jnp.float32), jnp.asarray(whole, jnp.float32), jnp.float32(low), jnp.float32(cell))
+
+
+def _silent(places: _Places) -> SeenDepths:
+    """Factors that say nothing, as many as the least drawing has."""
+    rows, none = jnp.full(_BUCKET, places.row[0]), jnp.zeros(_BUCKET, jnp.float32)
+    return SeenDepths(rows, jnp.full(_BUCKET, places.above[0]), none, jnp.zeros((_BUCKET, _CELLS), jnp.float32), jnp.float32(0.0), jnp.float32(1.0))
+
+
+def _size(count: int) -> int:
+    """So many places or more: few sizes, so that other points, or other strokes, need no new program."""
+    return _BUCKET * 4 ** max(int(np.ceil(np.log2(count / _BUCKET) / 2)), 0)

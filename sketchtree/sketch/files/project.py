@@ -9,6 +9,7 @@ from sketchtree.skeleton_hdf5 import SCHEMA
 from sketchtree.sketch.files.limits import MAX_MB
 
 TRUNK = "trunk"  # among a project's options: how a tree is taken from scribbles on its picture (`trunk.wanted.TrunkChoices`)
+POINTS = "points"  # likewise: how points of a scan behind the drawing are seen, and used (`editing.laid_cloud.CloudChoices`)
 SIGNATURE = b"\x89HDF\r\n\x1a\n"
 
 
@@ -44,15 +45,37 @@ def holds_photo(path) -> bool:
 
 def holds_scribbles(path) -> bool:
     """Is it a project whose tree is taken from scribbles on its photo?"""
-    if not holds_photo(path):
-        return False
+    return holds_photo(path) and _says(path, TRUNK, "on")
+
+
+def holds_cloud(path) -> bool:
+    """Is it a project with points of a scan behind the drawing?"""
+    try:
+        with open(path, "rb") as file:
+            if file.read(8) != SIGNATURE:
+                return False
+        import h5py
+
+        with h5py.File(path, "r") as file:
+            return "cloud" in file
+    except (OSError, RuntimeError, ValueError, TypeError, KeyError, AttributeError):
+        return False  # whoever reads the strokes says so
+
+
+def holds_traced(path) -> bool:
+    """Is it a project whose tree is the one that stands in its points?"""
+    return holds_cloud(path) and _says(path, POINTS, "traced")
+
+
+def _says(path, what: str, name: str) -> bool:
+    """Do the options of a project say so?"""
     import json
 
     import h5py
 
     try:
         with h5py.File(path, "r") as file:
-            return "options" in file and bool((json.loads(column(file, "options").tobytes()).get(TRUNK) or {}).get("on"))
+            return "options" in file and bool((json.loads(column(file, "options").tobytes()).get(what) or {}).get(name))
     except (OSError, RuntimeError, ValueError, TypeError, KeyError, AttributeError, RecursionError):
         return False  # whoever reads the strokes says so
 

@@ -9,19 +9,24 @@ from pathlib import Path
 import numpy as np
 
 from sketchtree.editing.document import Document, Underlay
+from sketchtree.editing.laid_cloud import CloudChoices, laid
 from sketchtree.errors import SketchError, SketchTreeError
 from sketchtree.options import ReadingOptions, TreeOptions
 from sketchtree.photo.wanted import PhotoOptions
 from sketchtree.propagate.after.shears import plane
-from sketchtree.sketch.files.project import SIGNATURE, TRUNK, column
+from sketchtree.sketch.files.project import POINTS, SIGNATURE, TRUNK, column
 from sketchtree.sketch.formats import read_sketch
+from sketchtree.studio.cloud_files import is_cloud
 from sketchtree.trunk.wanted import TrunkChoices
 
 _NOT_KEPT = ("max_strokes", "max_mb", "max_megapixels", "samples", "alternatives")  # limits of a reading, and questions that were answered then
 
 
-def document_of(data: bytes, name: str) -> Document:
-    """The document of a file's bytes: any drawing, or a project with all that it keeps. Raises SketchTreeError, which names the file."""
+def document_of(data: bytes, name: str, tree: int | None = None) -> Document:
+    """The document of a file's bytes: any drawing, a project with all that it keeps, or a point cloud behind an empty page. `tree`: which of several that stand in a cloud, 1 the largest.
+    Raises SketchTreeError, which names the file."""
+    if is_cloud(data, name):
+        return _of_points(data, name, tree)
     with tempfile.TemporaryDirectory() as folder:
         path = Path(folder) / (Path(name).name or "drawing")
         path.write_bytes(data)
@@ -40,12 +45,24 @@ def document_of(data: bytes, name: str) -> Document:
         raise SketchError(f"{name} is damaged ({error}).", remedy="Open an older copy of it.") from error
 
 
+def _of_points(data: bytes, name: str, tree: int | None) -> Document:
+    """A page with the points of a file behind it."""
+    from sketchtree.clouds.files.read_cloud import read_placed
+    from sketchtree.clouds.prepared.prepare import prepare
+
+    with tempfile.TemporaryDirectory() as folder:
+        path = Path(folder) / Path(name).name
+        path.write_bytes(data)
+        cloud = laid(prepare(read_placed(path), tree=tree))
+    return Document.blank(name=Path(name).stem, cloud=cloud)
+
+
 def _by_hand(path: Path) -> dict:
     """What was done to a project's tree by hand, by the fields of a document. Imported here: the server reads small drawings of lines before it has anything else to do."""
     from sketchtree.drawing import read_hand_work
 
     found = read_hand_work(path)
-    return {"edits": found.edits, "settled": found.settled}
+    return {"edits": found.edits, "settled": found.settled, "cloud": found.cloud}
 
 
 def _with_choices(document: Document, data: bytes, name: str) -> Document:
@@ -62,7 +79,7 @@ def _with_choices(document: Document, data: bytes, name: str) -> Document:
     said, meshes = _without_meshes(said)
     told = tuple(f"The studio opens no file that a project names: the tree is made without {name}. `sketchtree build` takes it." for name in meshes)
     return document.replace(
-        reading=_options(ReadingOptions, said), tree=_options(TreeOptions, said), photo=_options(PhotoOptions, said), trunk=_options(TrunkChoices, said.get(TRUNK) or {}), seed=seed, underlay=underlay, warnings=(*document.warnings, *told)
+        reading=_options(ReadingOptions, said), tree=_options(TreeOptions, said), photo=_options(PhotoOptions, said), points=_options(CloudChoices, said.get(POINTS) or {}), trunk=_options(TrunkChoices, said.get(TRUNK) or {}), seed=seed, underlay=underlay, warnings=(*document.warnings, *told)
     )
 
 

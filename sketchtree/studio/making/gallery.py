@@ -6,6 +6,7 @@ from sketchtree.foliage.species.blossoms import BLOSSOMS
 from sketchtree.geometry.bark import bark_names
 from sketchtree.studio import examples, messages
 from sketchtree.studio.making.textures import SEASONS
+from sketchtree.studio.making.scanned_picture import scanned_picture
 from sketchtree.studio.scribbled_example import scribbled_picture
 from sketchtree.view.film import encoder
 
@@ -47,6 +48,8 @@ def example_picture(name: str) -> bytes | None:
         return None
     if name in examples.SCRIBBLED:
         return scribbled_picture(name)
+    if name in examples.SCANNED:
+        return encoded(scanned_picture(document_of(examples.data(name), name).cloud))
     strokes = document_of(examples.data(name), name).strokes.values()
     low = [min(float(stroke.points[:, axis].min()) for stroke in strokes) for axis in (0, 1)]
     high = [max(float(stroke.points[:, axis].max()) for stroke in strokes) for axis in (0, 1)]

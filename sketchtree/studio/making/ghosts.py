@@ -50,7 +50,7 @@ def _held(bench: Bench, document: Document, hold: messages.Hold | None, basis: B
 
 def _quick(bench: Bench, document: Document, basis: Basis | None) -> DrawnTree:
     similarity = None if basis is None else Similarity(basis.scale, basis.translate)
-    known = {"edits": document.edits, "settled": document.settled, "similarity": similarity}
+    known = {"edits": document.edits, "settled": document.settled, "cloud": document.cloud, "similarity": similarity}
     return draw_out(document.sketch, bench.templates, key=root_key(document.seed), options=document.reading, quick=True, **known)
 
 

@@ -112,7 +112,7 @@ class Growths:
     def _stands(self, of: Document | str, watch: Watch) -> tuple[str, Standing]:
         """(what it is known by, the tree grown up)."""
         if isinstance(of, Document):
-            at = signature(tuple(of.strokes.values()), of.edits, of.settled, of.reading, of.tree, of.seed)
+            at = signature(tuple(of.strokes.values()), of.edits, of.settled, of.reading, of.tree, of.cloud, of.seed)
             if self._standing is None or self._standing[0] != at:
                 model = self._model(of, watch, of.tree)
                 self._standing = at, Standing((Still.of(model),), about_of(model, Made(of.seed, {})))

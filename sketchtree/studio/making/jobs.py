@@ -2,19 +2,21 @@
 
 import dataclasses
 import tempfile
+import threading
 from functools import cached_property
 from pathlib import Path
 
 from sketchtree.editing.document import Document
+from sketchtree.editing.laid_cloud import CloudChoices
 from sketchtree.options import FileOptions, options_as_dict
 from sketchtree.photo.wanted import PhotoOptions
-from sketchtree.sketch.files.project import TRUNK
+from sketchtree.sketch.files.project import POINTS, TRUNK
 from sketchtree.studio.making.textures import Textures, thumbnail
-from sketchtree.studio.making.watching import AGED, FILMED, PHOTO, SCRIBBLED, USUAL, pulses, watching
+from sketchtree.studio.making.watching import AGED, FILMED, PHOTO, SCRIBBLED, TRACED, USUAL, pulses, watching
 from sketchtree.templates.store.database import Database
 from sketchtree.trunk.wanted import TrunkChoices
 
-_UPTO = {"grow": PHOTO, "grown_files": PHOTO, "standing": PHOTO, "trunk": SCRIBBLED, "trunk_files": SCRIBBLED, "trunk_standing": SCRIBBLED, "age": AGED, "moving": AGED, "film": FILMED}
+_UPTO = {"grow": PHOTO, "grown_files": PHOTO, "standing": PHOTO, "trunk": SCRIBBLED, "trunk_files": SCRIBBLED, "trunk_standing": SCRIBBLED, "points": TRACED, "points_files": TRACED, "points_standing": TRACED, "points_strokes": TRACED, "age": AGED, "moving": AGED, "film": FILMED}
 
 
 class Jobs:
@@ -65,6 +67,13 @@ class Jobs:
         from sketchtree.studio.making.trunk_bench import TrunkBench
 
         return TrunkBench(self.templates, self.photo_bench)
+
+    @cached_property
+    def cloud_bench(self):
+        """What stands in the points behind the drawing."""
+        from sketchtree.studio.making.cloud_bench import CloudBench
+
+        return CloudBench(self.templates)
 
     @cached_property
     def growths(self):
@@ -193,6 +202,18 @@ class Jobs:
     def _trunk_standing(self, number, watch, wish):
         return self.trunk_bench.standing(wish, watch)
 
+    def _points(self, number, watch, revision: int, wish):
+        return self.cloud_bench.frame(revision, wish, watch)
+
+    def _points_files(self, number, watch, wish, name: str, options: dict):
+        return self.cloud_bench.files(wish, name, options, watch)
+
+    def _points_standing(self, number, watch, wish):
+        return self.cloud_bench.standing(wish, watch)
+
+    def _points_strokes(self, number, watch, wish):
+        return self.cloud_bench.strokes(wish, watch)
+
     def _stand(self, number, watch, name: str, standing: bytes):
         self.growths.lay(name, standing)
 
@@ -204,17 +225,27 @@ class Jobs:
 
     _film = _moving
 
-    def _read(self, number, watch, data: bytes, name: str):
+    def _expect_points(self, number, watch, quick: bool):
+        """A drawing with points behind it: what its answers need is made ready, aside."""
+        from sketchtree.studio.making.warm import FOR_POINTS, warm_up
+
+        threading.Thread(target=lambda: warm_up(quick, self.desk.rests, FOR_POINTS, seen=True), daemon=True).start()
+
+    def _read(self, number, watch, data: bytes, name: str, tree: int | None):
+        from sketchtree.errors import SeveralTrees
         from sketchtree.studio.making.documents import document_of
 
-        return document_of(data, name)
+        try:
+            return document_of(data, name, tree)
+        except SeveralTrees as several:
+            return several.trees  # a choice to be made, not a trouble
 
     def _model(self, document: Document, watch, tree_options):
         from sketchtree.keys import root_key
         from sketchtree.pipeline import complete, draw_out
 
         key = root_key(document.seed)
-        drawn = draw_out(document.sketch, self.templates, key=key, options=document.reading, edits=document.edits, settled=document.settled, watch=watch)
+        drawn = draw_out(document.sketch, self.templates, key=key, options=document.reading, edits=document.edits, settled=document.settled, cloud=document.cloud, watch=watch)
         return complete(drawn, self.templates, key=key, options=tree_options, watch=watch)
 
     def _export(self, number, watch, document: Document, name: str, options: dict):
@@ -236,8 +267,8 @@ class Jobs:
             return {str(one.relative_to(folder)): one.read_bytes() for one in sorted(Path(folder).rglob("*")) if one.is_file()}
 
     def _project(self, number, watch, document: Document):
-        if document.strokes and not document.drawn.strokes:
-            return _scribbled_project(document)
+        if document.points.traced or not document.drawn.strokes and (document.strokes or document.cloud is not None):
+            return _undrawn_project(document)
         files = self._export(number, watch, document, "project.sketchtree", {})
         return files["project.sketchtree"]
 
@@ -260,16 +291,17 @@ class Jobs:
 def _written(document: Document, files: FileOptions) -> dict:
     """The options of a drawing, as its project keeps them."""
     written = options_as_dict(document.reading, document.tree, files, *([document.photo] if document.photo != PhotoOptions() else []))
-    return written | ({TRUNK: dataclasses.asdict(document.trunk)} if document.trunk != TrunkChoices() else {})
+    chosen = ((TRUNK, document.trunk, TrunkChoices()), (POINTS, document.points, CloudChoices()))
+    return written | {name: dataclasses.asdict(value) for name, value, usual in chosen if value != usual}
 
 
-def _scribbled_project(document: Document) -> bytes:
-    """Scribbles alone: their tree is not asked for, so that they can be kept before they tell one."""
-    from sketchtree.export.skeletons.hdf5 import write_scribbled
+def _undrawn_project(document: Document) -> bytes:
+    """Scribbles, or points, whose tree is not one of strokes: it is not asked for, so that they can be kept before they tell one."""
+    from sketchtree.export.skeletons.hdf5 import write_undrawn
 
     with tempfile.TemporaryDirectory() as folder:
         path = Path(folder) / "project.sketchtree"
-        write_scribbled(path, document, options=_written(document, FileOptions()))
+        write_undrawn(path, document, options=_written(document, FileOptions()))
         return path.read_bytes()
 
 

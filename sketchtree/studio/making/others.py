@@ -24,7 +24,7 @@ def alternatives(templates, revision: int, document: Document, watch: Watch) -> 
     front = dataclasses.replace(document.sketch, strokes=tuple(stroke for stroke in document.sketch.strokes if not is_turned(stroke)))
     options = dataclasses.replace(document.reading, alternatives=_WANTED)
     held = Edits(held=document.edits.held)
-    drawn = draw_out(front, templates, key=root_key(document.seed), options=options, edits=held, settled=document.settled, watch=watch)
+    drawn = draw_out(front, templates, key=root_key(document.seed), options=options, edits=held, settled=document.settled, cloud=document.cloud, watch=watch)
     graph = drawn.graph.above_ground()
     lines = LimbLines.of(graph)
     attached = {limb: one for limb, one in document.settled.limbs.items() if limb not in lines.of_limb}

@@ -2,6 +2,7 @@
 
 import dataclasses
 from collections.abc import Sequence
+from dataclasses import dataclass
 
 import numpy as np
 
@@ -20,10 +21,27 @@ from sketchtree.studio.making.work import material_of
 from sketchtree.watch import Watch
 
 
+@dataclass(frozen=True)
+class Frame:
+    """Where trees stand, and what is said of them."""
+
+    revision: int
+    scale: float  # metres a page unit
+    root: tuple[float, float]  # of the world's origin on the page, y down
+    template: str | None  # of the first tree
+    warnings: tuple[str, ...]
+
+
 def photo_frame(
     revision: int, similarity: Similarity, template: str | None, trees: Sequence[tuple[object, LeafyTree]], place: Place, photo: Photo, warnings: tuple[str, ...], watch: Watch
 ) -> tuple[bytes, dict[tuple[str, str], bytes]]:
-    """(the frame, maps of materials that it alone has). `similarity`: from the photo's pixels, y up; `template`: of the first tree; `trees`: each with its key."""
+    """(the frame of a photo's trees, maps of materials that it alone has). `similarity`: from the photo's pixels, y up; `template`: of the first tree; `trees`: each with its key."""
+    root = place.to_page(-np.asarray(similarity.translate)[None, :2] / similarity.scale, photo)[0]
+    return whole_frame(Frame(revision, similarity.scale / place.unit(photo), (float(root[0]), float(-root[1])), template, warnings), trees, watch)
+
+
+def whole_frame(frame: Frame, trees: Sequence[tuple[object, LeafyTree]], watch: Watch) -> tuple[bytes, dict[tuple[str, str], bytes]]:
+    """The same of trees that stand anywhere."""
     with watch("mesh"):
         each = [_chunks(key, tree, number, len(trees), watch) for number, (key, tree) in enumerate(trees)]
     arrays, chunks, materials = Arrays(), [], {}
@@ -35,16 +53,15 @@ def photo_frame(
         for column, (kind, values) in card.arrays.items():
             arrays.put(f"card{number}/{column}", kind, values)
     points = np.concatenate([tree.skeleton.tip for _, tree in trees])
-    root = place.to_page(-np.asarray(similarity.translate)[None, :2] / similarity.scale, photo)[0]
     worn = trees[0][1].dress
     head = messages.Tree(
-        revision=revision, phase="photo", scale=similarity.scale / place.unit(photo), root=[float(root[0]), float(-root[1])], owners=[chunk.owner for chunk in chunks],
+        revision=frame.revision, phase="photo", scale=frame.scale, root=list(frame.root), owners=[chunk.owner for chunk in chunks],
         chunks=chunks, cards=[messages.Card(name=name, array=f"card{number}/", material=card.wears) for number, (name, card) in enumerate(cards.items())],
         materials=[material_of(key, one) for key, one in materials.items()], limbs=[],
         segments=sum(tree.skeleton.segment_count for _, tree in trees), drawn=int(sum((tree.skeleton.kind == Kind.DRAWN).sum() for _, tree in trees)),
         leaves=sum(len(tree.leaves) for _, tree in trees), triangles=[sum(one.triangles[k] for one in each) for k in (0, 1)],
         height=max(tree.skeleton.height for _, tree in trees), low=list(points.min(axis=0)), high=list(points.max(axis=0)),
-        template=template, leaf=worn.leaf, bark=worn.bark, warnings=list(warnings), arrays=[],
+        template=frame.template, leaf=worn.leaf, bark=worn.bark, warnings=list(frame.warnings), arrays=[],
     )  # fmt: skip
     return arrays.frame(head), unnamed(materials)
 

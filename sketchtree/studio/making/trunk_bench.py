@@ -7,10 +7,8 @@ ask for no other.
 import base64
 import io
 import pickle
-import tempfile
 from collections.abc import Callable
 from dataclasses import dataclass, field, replace
-from pathlib import Path
 
 import numpy as np
 from jaxtyping import Float
@@ -18,16 +16,15 @@ from PIL import Image
 from skimage.measure import approximate_polygon
 
 from sketchtree.errors import OptionError
-from sketchtree.export.files import MESHES, SKELETONS, check_extension, check_program
 from sketchtree.growth_tree import FoundTrunk, GrowthOptions, GrownTree, grown_tree, of_picture
 from sketchtree.keys import root_key
 from sketchtree.matting.alpha import Matte
-from sketchtree.options import FileOptions
 from sketchtree.photo.photo import turned_over
 from sketchtree.pipeline import LeafyTree
 from sketchtree.scribbled_tree import Scribbled, growth_of, matte_of, on_photo, repainted, trunk_of
 from sketchtree.studio import messages
 from sketchtree.studio.making.growth import Standing, Still
+from sketchtree.studio.making.kept_files import files_of
 from sketchtree.studio.making.photo_asked import Place
 from sketchtree.studio.making.photo_bench import PhotoBench
 from sketchtree.studio.making.photo_frame import photo_frame
@@ -35,7 +32,7 @@ from sketchtree.studio.making.trunk_asked import TrunkWish
 from sketchtree.studio.making.watching import pulses
 from sketchtree.studio.making.work import signature
 from sketchtree.templates.store.database import Database
-from sketchtree.tree_output import Made, about_of, check_files, write_output
+from sketchtree.tree_output import Made, about_of
 from sketchtree.watch import Pulse, Watch
 
 _SIDE = 1024  # pixels of the longer side of the matte that pages get
@@ -65,18 +62,7 @@ class TrunkBench:
 
     def files(self, wish: TrunkWish, name: str, options: dict, watch: Watch) -> dict[str, bytes]:
         """The files that it becomes, by name: those that `sketchtree build` writes of the project. Raises SketchTreeError."""
-        tree = replace(wish.tree, **{key: options[key] for key in ("wood", "solid") if options.get(key)})
-        files = FileOptions(**{key: value for key, value in options.items() if key not in ("wood", "solid")})
-        with tempfile.TemporaryDirectory() as folder:
-            path = Path(folder) / name
-            check_extension(path, MESHES + SKELETONS)
-            check_program(path)
-            check_files(path, files, instead="Choose .glb.")
-            worn = self._grown(replace(wish, tree=tree), watch).model
-            with watch("export"):
-                watch.on_part(0.0)
-                write_output(worn, path, Made(wish.seed), files)
-            return {str(one.relative_to(folder)): one.read_bytes() for one in sorted(Path(folder).rglob("*")) if one.is_file()}
+        return files_of(lambda tree: self._grown(replace(wish, tree=tree), watch).model, wish.tree, wish.seed, name, options, watch)
 
     def _grown(self, wish: TrunkWish, watch: Watch, on_matte: Callable[[Matte], None] = lambda matte: None, on_trunk: Callable[[FoundTrunk], None] = lambda found: None) -> GrownTree:
         scribbled, key = self._scribbled(wish), root_key(wish.seed)

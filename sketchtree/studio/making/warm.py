@@ -1,7 +1,7 @@
 """What is slow only the first time? Compiling the programs of inference; it is done before the first stroke.
 
 Columns of drawings are padded to a few sizes (`mrf.padding`), and each size has a program, which is kept on disk. One little drawing of every size that is met every day is
-inferred with all but one limb held, as after a stroke; the sizes met first come first.
+inferred with all but one limb held, as after a stroke; the sizes met first come first. Points behind a drawing are a factor more, and so have programs of their own.
 """
 
 import dataclasses
@@ -9,9 +9,11 @@ from collections.abc import Callable
 
 import numpy as np
 
+from sketchtree.editing.seen import FACTOR
 from sketchtree.editing.settle import QUICK
 from sketchtree.keys import root_key
 from sketchtree.mrf.factor_graph import factor_graph
+from sketchtree.mrf.factors.seen_depths import SeenPoints
 from sketchtree.mrf.infer import infer
 from sketchtree.mrf.methods import solver_named
 from sketchtree.mrf.prior import Prior
@@ -20,16 +22,19 @@ from sketchtree.sketch.reading import sketch_graph
 from sketchtree.sketch.strokes import Sketch, Stroke
 
 _LIMBS = (4, 10, 20, 15, 40, 30)  # of drawings padded to 32 rows and 8 limbs, 32 and 16, 64 and 32, 64 and 16, 128 and 64, 128 and 32
+FOR_POINTS = (4, 10, 20)  # of them, over points
 
 
-def warm_up(quick: bool, before_each: Callable[[], None] = lambda: None, limbs: tuple[int, ...] = _LIMBS) -> None:
-    """Compile, or read what was compiled before: the programs of hurried answers, or of full ones. `before_each` may wait for a good moment."""
+def warm_up(quick: bool, before_each: Callable[[], None] = lambda: None, limbs: tuple[int, ...] = _LIMBS, *, seen: bool = False) -> None:
+    """Compile, or read what was compiled before: the programs of hurried answers, or of full ones. `before_each` may wait for a good moment; `seen`: those of drawings with points behind them."""
     for count in limbs:
         before_each()
         factors = factor_graph(sketch_graph(_little(count)))
         last = factors.limb_count - 1
         locked = {int(row): 0.0 for row in np.flatnonzero((factors.limb != last) & ~factors.is_base)}
         solver = dataclasses.replace(solver_named("elevation"), start=np.zeros(len(factors)), locked=locked, **(QUICK if quick else {}))
+        if seen:
+            solver = dataclasses.replace(solver, factors={FACTOR: SeenPoints(np.zeros((1, 3)), needed=False)})
         infer(factors, Prior(GENERIC), solver, key=root_key(0), max_steps=None if quick else 1, throw=False)
 
 

@@ -15,6 +15,8 @@ PHOTO = {"read": 0.1, "match": 0.15, "infer": 0.3, "propagate": 0.8, "foliage": 
 """The same of the tree in a photo."""
 SCRIBBLED = {"read": 0.5, "match": 0.52, "infer": 0.55, "propagate": 0.65, "foliage": 0.75, "mesh": 0.99, "export": 1.0}
 """The same of a tree that scribbles tell, whose matte takes longest."""
+TRACED = {"read": 0.1, "infer": 0.6, "propagate": 0.7, "foliage": 0.8, "mesh": 0.99, "export": 1.0}
+"""The same of a tree that is traced in points."""
 AGED = {"read": 0.02, "match": 0.03, "infer": 0.2, "propagate": 0.28, "foliage": 0.32, "mesh": 0.45, "grow": 0.9, "export": 1.0}
 """The same of a tree that grows."""
 FILMED = {"read": 0.005, "match": 0.01, "infer": 0.02, "propagate": 0.03, "foliage": 0.035, "mesh": 0.05, "grow": 0.1, "film": 1.0}

@@ -56,10 +56,10 @@ def signature(*parts: object) -> str:
 
 def drawn_tree(bench: Bench, document: Document, watch: Watch) -> DrawnTree:
     """The drawn limbs in space."""
-    at = signature(tuple(document.strokes.values()), document.edits, document.settled, document.reading, document.seed)
+    at = signature(tuple(document.strokes.values()), document.edits, document.settled, document.reading, document.cloud, document.seed)
     if bench.drawn is None or bench.drawn[0] != at:
         drawn = draw_out(
-            document.sketch, bench.templates, key=root_key(document.seed), options=document.reading, edits=document.edits, settled=document.settled, watch=watch
+            document.sketch, bench.templates, key=root_key(document.seed), options=document.reading, edits=document.edits, settled=document.settled, cloud=document.cloud, watch=watch
         )
         bench.drawn = at, drawn
     return bench.drawn[1]
@@ -134,7 +134,8 @@ def hurried(bench: Bench, document: Document, basis: Basis | None, watch: Watch)
     key = root_key(document.seed)
     similarity = None if basis is None else Similarity(basis.scale, basis.translate)
     drawn = draw_out(
-        document.sketch, bench.templates, key=key, options=document.reading, edits=document.edits, settled=document.settled, similarity=similarity, quick=True, watch=watch
+        document.sketch, bench.templates, key=key, options=document.reading, edits=document.edits, settled=document.settled, cloud=document.cloud, similarity=similarity, quick=True,
+        watch=watch,
     )
     touched = frozenset(drawn.settled.limbs) if basis is None else _moved(drawn, basis.settled)
     if len(touched) > _MOST:

@@ -22,12 +22,12 @@ from pathlib import Path
 
 from sketchtree.errors import SketchTreeError
 
-NEWEST = ("full", "quick", "ghost", "glance", "alternatives", "trace", "tint", "grow", "trunk")
+NEWEST = ("full", "quick", "ghost", "glance", "alternatives", "trace", "tint", "grow", "trunk", "points")
 LAST = ("picture",)
 KNOWN = ("find", "frame")
 
 _REST = 0.4  # seconds without a job, after which what nobody waits for goes on
-_NICE = {"quick": 0, "photo": 0, "foliage": 2, "grow": 3, "trunk": 3, "full": 4, "age": 4, "side": 8, "film": 9}  # what a pen waits for goes before what a tree waits for, and that before pictures; the tree of a photo stands in the place of the full one
+_NICE = {"quick": 0, "photo": 0, "foliage": 2, "grow": 3, "trunk": 3, "points": 3, "full": 4, "age": 4, "side": 8, "film": 9}  # what a pen waits for goes before what a tree waits for, and that before pictures; the tree of a photo stands in the place of the full one
 
 
 class Desk:
@@ -86,7 +86,7 @@ class Desk:
 
 
 def main(pipe: Connection, database: str | None, role: str) -> None:
-    """Work until the pipe closes, as one of the crew: quick, full, side, photo, foliage, grow, trunk, age or film."""
+    """Work until the pipe closes, as one of the crew: quick, full, side, photo, foliage, grow, trunk, points, age or film."""
     signal.signal(signal.SIGINT, signal.SIG_IGN)
     if hasattr(os, "nice"):
         os.nice(_NICE[role])
@@ -100,6 +100,8 @@ def main(pipe: Connection, database: str | None, role: str) -> None:
         jobs.growth  # noqa: B018 - what it needs is imported before there is another thread
     elif role == "trunk":
         jobs.trunk_bench  # noqa: B018 - as there
+    elif role == "points":
+        jobs.cloud_bench  # noqa: B018 - as there
     elif role in ("age", "film"):
         jobs.growths  # noqa: B018 - as there
     elif role != "side":

@@ -100,6 +100,25 @@ export interface Underlay {
   photo: boolean; // it shows the tree: strokes mark its crown and limbs, and its limbs are traced
 }
 
+/** Points of a scan behind the drawing; their bytes are at /cloud/<digest>: x, y, z of each as 32 bits (metres, y UP, the foot at the origin), then red, green, blue of each as 8, where coloured. */
+export interface Cloud {
+  digest: string;
+  x: number; // of the foot, page units
+  y: number;
+  unit: number; // page units a metre
+  count: number; // and what follows: the program says it
+  coloured: boolean;
+  height: number; // metres
+  remarks: string[]; // what was done to the points of the file
+}
+
+/** How they are seen, and used. */
+export interface Points {
+  shown: boolean;
+  size: number; // CSS pixels that a point is wide
+  traced: boolean; // the tree is the one that stands in them
+}
+
 /** The drawing, or what became different in it since `since` (0: everything; whatever the page has goes). */
 export interface Changed {
   type: "changed";
@@ -113,6 +132,9 @@ export interface Changed {
   trunk: Trunk | null; // None: as it was
   underlay: Underlay | null;
   underlay_changed: boolean;
+  cloud: Cloud | null;
+  cloud_changed: boolean;
+  points: Points | null; // None: as they were
   name: string | null;
   undo: string | null; // what undo takes back; None: nothing to undo
   redo: string | null;
@@ -135,6 +157,13 @@ export interface Trouble {
   remedy: string;
   stroke: string | null; // the stroke at fault
   about: "drawing" | "file" | "message" | "program";
+}
+
+/** Several trees stand in that point cloud of the folder: `Open` it again, with one of them. */
+export interface Several {
+  type: "several";
+  name: string;
+  trees: string[]; // each in words, the largest first
 }
 
 /** How like a template the drawing is. */
@@ -418,6 +447,38 @@ export interface ChooseTrunk {
   label?: string;
 }
 
+/** How they are seen, and used. */
+export interface SentPoints {
+  shown?: boolean;
+  size?: number; // CSS pixels that a point is wide
+  traced?: boolean; // the tree is the one that stands in them
+}
+
+/** See the points so, and use them so. A quick succession under one `label` makes one step of undo. */
+export interface ChoosePoints {
+  type: "choosepoints";
+  points: SentPoints;
+  label?: string;
+}
+
+/** Points of a scan behind the drawing; their bytes are at /cloud/<digest>: x, y, z of each as 32 bits (metres, y UP, the foot at the origin), then red, green, blue of each as 8, where coloured. */
+export interface SentCloud {
+  digest: string;
+  x: number; // of the foot, page units
+  y: number;
+  unit: number; // page units a metre
+  count?: number; // and what follows: the program says it
+  coloured?: boolean;
+  height?: number; // metres
+  remarks?: string[]; // what was done to the points of the file
+}
+
+/** Another place for the points behind the drawing; `None` takes them away. */
+export interface SetCloud {
+  type: "setcloud";
+  cloud?: SentCloud | null;
+}
+
 /** What would it look like with this template? Nothing is kept; a `Tree` of phase "glance" comes. `None`: back to the tree. */
 export interface Glance {
   type: "glance";
@@ -499,6 +560,7 @@ export interface Open {
   type: "open";
   name: string;
   example?: boolean;
+  tree?: number | null; // which of several in a point cloud, 1 the largest
 }
 
 /** The project, under this name in the folder. */
@@ -525,7 +587,7 @@ export interface SetUnderlay {
   underlay?: SentUnderlay | null;
 }
 
-/** The limbs that were traced in the photo become the drawing, in place of the strokes that mark them; the photo is a picture to trace over again. */
+/** The limbs that were traced in the photo, or in the points, become the drawing, in place of the strokes; the photo is a picture to trace over again, the points are there to draw over. */
 export interface UseTraced {
   type: "usetraced";
 }
@@ -541,5 +603,5 @@ export interface Propose {
   type: "propose";
 }
 
-export type Request = Hello | Strokes | Sketching | Choose | ChooseTrunk | Glance | Hold | Flip | Mirror | Lock | Delete | Settle | Readings | Pick | Undo | Redo | Cancel | New | Open | Save | SetUnderlay | UseTraced | Grow | Propose;
-export type Event = Welcome | Changed | Working | Trouble | Matches | Alternatives | Saved | Read | Traced | Foliage | Matte | Trunks | Proposed | Growing | Making | Tree | Ghost;
+export type Request = Hello | Strokes | Sketching | Choose | ChooseTrunk | ChoosePoints | SetCloud | Glance | Hold | Flip | Mirror | Lock | Delete | Settle | Readings | Pick | Undo | Redo | Cancel | New | Open | Save | SetUnderlay | UseTraced | Grow | Propose;
+export type Event = Welcome | Changed | Working | Trouble | Several | Matches | Alternatives | Saved | Read | Traced | Foliage | Matte | Trunks | Proposed | Growing | Making | Tree | Ghost;

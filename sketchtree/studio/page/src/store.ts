@@ -5,9 +5,10 @@
 // `known` mirrors what the program said last; `ui` is this page's own and is never sent.
 
 import type {
-  Alternatives, Changed, Edit, Event, Foliage, Ghost, Growing, Limb, Making, Matches, Matte, Options, Proposed, Read, Request, Stroke, Strokes, Traced, Tree, Trouble, Trunk, Trunks, Underlay,
-  Welcome, Working,
+  Alternatives, Changed, Cloud, Edit, Event, Foliage, Ghost, Growing, Limb, Making, Matches, Matte, Options, Points, Proposed, Read, Request, Several, Stroke, Strokes, Traced, Tree, Trouble,
+  Trunk, Trunks, Underlay, Welcome, Working,
 } from "./messages";
+import type { Scan } from "./draw/cloud/scan";
 import { Echo } from "./link/echo";
 import { STRAIGHT, type Ageing } from "./tree/growth/ageing";
 
@@ -23,6 +24,10 @@ export interface Known {
   options: Options | null;
   edits: Edit[];
   underlay: Underlay | null;
+  cloud: Cloud | null; // points behind the drawing
+  points: Points | null; // how they are seen, and used
+  scan: Scan | null; // the points themselves, once they are here
+  several: Several | null; // trees in a cloud that was asked for
   name: string | null;
   revision: number;
   undo: string | null;
@@ -77,7 +82,7 @@ type Listener = () => void;
 
 export class Store {
   readonly known: Known = {
-    welcome: null, connected: false, strokes: new Map(), options: null, edits: [], underlay: null, name: null, revision: 0, undo: null, redo: null,
+    welcome: null, connected: false, strokes: new Map(), options: null, edits: [], underlay: null, cloud: null, points: null, scan: null, several: null, name: null, revision: 0, undo: null, redo: null,
     saved: true, file: null, working: null, matches: null, alternatives: null, read: null, traced: null, foliage: null, proposed: null, growing: null, making: null,
     trunk: null, matte: null, trunks: null, found: null, tree: null, drawnTree: null, photoTree: null, limbs: [], trouble: null,
   };
@@ -88,6 +93,11 @@ export class Store {
   frame: { head: Tree; arrays: Arrays } | null = null; // the frame just come; listeners of "frame" take it at once
   ghost: { head: Ghost; arrays: Arrays } | null = null;
   send: (request: Request) => void = () => {}; // set by link/
+  bytes: (path: string) => Promise<ArrayBuffer> = async (path) => { // of the program ("/cloud/…")
+    const answer = await fetch(this.address(path), { credentials: "same-origin" });
+    if (!answer.ok) throw new Error(`${path}: ${answer.status}`);
+    return answer.arrayBuffer();
+  };
   address: (path: string) => string = (path) => path; // of a picture of the program ("/texture/…", "/underlay/…"); a notebook has no server, and others
 
   pending: Strokes[] = []; // sent and not confirmed yet; link/ keeps it
@@ -153,6 +163,7 @@ export class Store {
         if (known.trunk !== this.saidTrunk) { known.trunk = this.saidTrunk; this.tell("trunk"); } // it may be what was refused
         this.tell("trouble");
         break;
+      case "several": known.several = event; this.tell("several"); break;
       case "matches": known.matches = event; this.tell("matches"); break;
       case "alternatives": known.alternatives = event; this.tell("alternatives"); break;
       case "read": known.read = event; this.tell("read"); break;
@@ -185,6 +196,21 @@ export class Store {
     this.known.trunk = { ...this.known.trunk, ...change };
     this.tell("trunk");
     this.send({ type: "choosetrunk", trunk: this.known.trunk, label });
+  }
+
+  /** See the points behind the drawing so, and use them so; likewise. */
+  choosePoints(change: Partial<Points>, label: string): void {
+    if (!this.known.points) return;
+    this.known.points = { ...this.known.points, ...change };
+    this.tell("points");
+    this.send({ type: "choosepoints", points: this.known.points, label });
+  }
+
+  /** The points behind the drawing are here, or gone. */
+  scanned(scan: Scan | null): void {
+    if (this.known.scan === scan) return;
+    this.known.scan = scan;
+    this.tell("scan");
   }
 
   /** What is said of the trunk; the one that was found stays until there is another, or none. */
@@ -239,6 +265,8 @@ export class Store {
     if (event.edits) { known.edits = event.edits; topics.push("edits"); }
     if (event.trunk) { known.trunk = this.saidTrunk = event.trunk; topics.push("trunk"); }
     if (event.underlay_changed || event.since === 0) { known.underlay = event.underlay ?? null; topics.push("underlay"); }
+    if (event.cloud_changed || event.since === 0) { known.cloud = event.cloud ?? null; topics.push("cloud"); }
+    if (event.points) { known.points = event.points; topics.push("points"); }
     if (event.name != null) { known.name = event.name; topics.push("name"); }
     known.revision = event.revision;
     known.undo = event.undo ?? null;

@@ -7,7 +7,7 @@ const stroke = (id: string, x = 0): Stroke => ({ id, kind: "branch", xy: [x, 0, 
 const put = (...strokes: SentStroke[]): Request => ({ type: "strokes", label: "branch", put: strokes });
 const gone = (...ids: string[]): Request => ({ type: "strokes", label: "erase", gone: ids });
 const changed = (fields: Partial<Changed>): Changed => ({
-  type: "changed", since: 1, revision: 2, put: [], gone: [], order: null, options: null, edits: null, trunk: null, underlay: null, underlay_changed: false, name: null,
+  type: "changed", since: 1, revision: 2, put: [], gone: [], order: null, options: null, edits: null, trunk: null, underlay: null, underlay_changed: false, cloud: null, cloud_changed: false, points: null, name: null,
   undo: null, redo: null, saved: false, ...fields,
 });
 

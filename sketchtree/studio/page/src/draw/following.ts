@@ -1,6 +1,7 @@
 // What does the page do by itself? It shows all of a drawing that was opened, keeps what one draws where it is, and lights the stroke that made trouble.
 
 import type { PageCamera } from "./camera";
+import { reach } from "./cloud/seen";
 import { type Desk, isSamePage } from "./desk";
 import { photoHere } from "./photo";
 import type { Stroke } from "../messages";
@@ -44,6 +45,7 @@ export function followDrawing(desk: Desk): void {
     if (here !== null && here !== photo && fit()) for (const [name, size] of [["width", PEN], ["brush", BRUSH], ["paint", PAINT]] as const) store.set(name, Number((size / camera.scale).toPrecision(2)));
     photo = here;
   });
+  store.on("scan", () => { if (store.known.scan !== null && fit()) store.set("width", Number((PEN / camera.scale).toPrecision(2))); });
   store.on("turn", () => { if (camera.showsAll) fit(); }); // from another side a tree is wider, or narrower
   let wrongAt = -1;
   store.on("trouble", () => {
@@ -82,6 +84,8 @@ function everything(store: Store): ReturnType<typeof around> {
   const seen = [...strokes.values()].filter((stroke) => isSamePage(stroke.view_deg, store.ui.turn)).map(({ xy }) => ({ xy }));
   if (tree) for (const limb of limbs) if (!isSamePage(limb.view_deg, store.ui.turn)) seen.push({ xy: projected(limb, tree, store.ui.turn) });
   const photo = photoHere(store);
+  const points = store.known.points?.shown ? reach(store) : null;
+  if (points) seen.push({ xy: [points.left, points.top, points.left + points.width, points.top + points.height] });
   if (photo) seen.push({ xy: [photo.x, photo.y, photo.x + photo.width, photo.y + photo.height] });
   return around(seen.length ? seen : strokes.values());
 }

@@ -3,6 +3,8 @@
 import { element } from "../parts/element";
 import type { Store } from "../store";
 import { camera } from "./camera";
+import { CloudPicture } from "./cloud/picture";
+import { followScan } from "./cloud/scan";
 import type { Desk } from "./desk";
 import { followDrawing } from "./following";
 import { drawing } from "./hand/drawing";
@@ -37,6 +39,7 @@ export function mountDraw(root: HTMLElement, store: Store): void {
   const top = element("canvas", { class: "page-layer", testId: "page-canvas", tabindex: 0, role: "application", aria: { label: ABOUT } });
   let palette = readPalette(root);
   const picture = new Image();
+  const cloud = new CloudPicture();
   let tint: OffscreenCanvas | null = null;
   let mask: ImageBitmap | null = null;
   const desk: Desk = {
@@ -44,7 +47,7 @@ export function mountDraw(root: HTMLElement, store: Store): void {
     letGo: () => tools[store.ui.tool].cancel(), tellDeed: () => {}, repaint: () => surface.repaint(), repaintLive: () => surface.repaintLive(),
   };
   const surface = makeSurface(root, below, top, {
-    onPaint: () => paintDrawing(surface.drawing, surface.ratio(), desk, palette, picture.src ? picture : null, tint, mask),
+    onPaint: () => paintDrawing(surface.drawing, surface.ratio(), desk, palette, picture.src ? picture : null, tint, mask, cloud),
     onPaintLive: () => paintLive(surface.live, surface.ratio(), desk, palette),
     onSize: (width, height) => camera.resize(width, height),
   });
@@ -62,6 +65,7 @@ export function mountDraw(root: HTMLElement, store: Store): void {
   pairSelections(store);
   followDrawing(desk);
   followPhoto(store);
+  followScan(store);
   followWay(store);
   mountWheel(top, camera);
   mountTip(root, top, desk);
@@ -108,7 +112,7 @@ export function mountDraw(root: HTMLElement, store: Store): void {
     else picture.removeAttribute("src");
   });
   picture.addEventListener("load", desk.repaint);
-  store.on(["strokes", "read", "limbs", "tree", "selected", "selectedStrokes", "pointed", "turn", "layout", "underlay", "trouble", "traced", "tint"], desk.repaint);
+  store.on(["strokes", "read", "limbs", "tree", "selected", "selectedStrokes", "pointed", "turn", "layout", "underlay", "trouble", "traced", "tint", "cloud", "scan", "points"], desk.repaint);
   store.on(["trunk", "trunks", "matteView", "matteStrength", "skeleton"], desk.repaint);
   pen.showCursor();
 }

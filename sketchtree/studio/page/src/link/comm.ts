@@ -24,6 +24,10 @@ export function mountComm(store: Store, model: Model): () => void {
   const pictures = new Pictures(model);
   let last: Promise<void> = Promise.resolve(); // frames are taken in the order they came
   store.address = (path) => pictures.address(path);
+  store.bytes = async (path) => {
+    await pictures.fetch(path);
+    return (await fetch(pictures.address(path))).arrayBuffer();
+  };
   store.send = (request: Request) => model.send({ say: request });
 
   const hear = (message: unknown, buffers: DataView[]): void => {

@@ -13,6 +13,8 @@ import { hintCard } from "./first/hint";
 import { hintButton } from "./first/hint_button";
 import { turnedNote } from "./first/turned_note";
 import { welcomeBack } from "./first/welcome_back";
+import { cloudCard } from "./cloud/card";
+import { askWhichTree } from "./cloud/which_tree";
 import { photoCard } from "./photo/card";
 import { mountSide } from "./side/mount";
 import { mountStatus } from "./status/mount";
@@ -52,7 +54,7 @@ export function mountPanels(roots: PanelRoots, store: Store, views: Views): void
   const hint = hintCard(store, () => newPage(store));
   const words = document.createElement("div");
   words.className = "page-words";
-  words.append(goneBanner(store), troubleCard(store), hint.root, photoCard(store), trunkCard(store), turnedNote(store));
+  words.append(goneBanner(store), troubleCard(store), hint.root, photoCard(store), trunkCard(store), cloudCard(store), turnedNote(store));
   const hides = (): boolean => words.offsetHeight > 0 && roots.page.clientHeight > (way(store) === "scribbles" ? LOW_SCRIBBLED : LOW) && (store.ui.layout === "beside" || roots.page.clientWidth < WIDE);
   const covered = (): void => camera.cover("head", hides() ? words.offsetTop + words.offsetHeight : 0);
   new ResizeObserver(covered).observe(words);
@@ -61,7 +63,8 @@ export function mountPanels(roots: PanelRoots, store: Store, views: Views): void
   roots.page.append(emptyPage(store, { gallery: () => openDialog("gallery"), open: () => openDialog("open") }), words, hintButton(store, hint));
   roots.tree.append(emptyTree(store));
   welcomeBack(store, () => newPage(store));
-  mountDrop();
+  askWhichTree(store);
+  mountDrop(store);
 }
 
 /** Show one of the dialogs. */

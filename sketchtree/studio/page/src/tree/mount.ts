@@ -2,6 +2,8 @@
 
 import { element } from "../parts/element";
 import { camera as pageCamera } from "../draw/camera";
+import { stand as standOn } from "../draw/cloud/seen";
+import { ScanPoints } from "./cloud/scan_points";
 import type { Tree } from "../messages";
 import type { Store } from "../store";
 import { byHand } from "./eye/flight";
@@ -78,6 +80,7 @@ function fill(view: View, store: Store): TreeViews {
   const figure = new Figure(stage.scene);
   const ink = new Ink(stage.scene);
   const ghosts = new Ghosts(stage.scene);
+  const scan = new ScanPoints(stage.scene);
   const lighting: Lighting = { sky: new Sky(), marks: new Marks(), doubt: { value: 0 }, sunByGrid: stage.pace.software, leafShare: { value: 1 } };
   const textures = new Textures((key, kind) => store.address(`./texture/${key}/${kind}.png`), stage.pace.software ? 1 : Math.min(8, stage.renderer.capabilities.getMaxAnisotropy()));
   const scenery = new Scenery(lighting, new Wardrobe(lighting, textures, stage.pace.software, () => stage.shadows()), stage.pace.software, () => stage.shadows());
@@ -97,10 +100,11 @@ function fill(view: View, store: Store): TreeViews {
   followHand(view, store, chosen);
   sayChosen(view, store, chosen);
 
-  view.spots = () => [...scenery.spots, ...figure.ends, 0, 0, 0];
+  view.spots = () => [...scenery.spots, ...scan.spots, ...figure.ends, 0, 0, 0];
   view.top = () => topOf(scenery.spots);
-  followFrames(view, store, { scenery, chosen, weather, ground, figure, ghosts });
-  followLooks(view, store, { weather, ground, figure, ink, ghosts, lighting, scenery });
+  followFrames(view, store, { scenery, chosen, weather, ground, figure, ghosts, scan });
+  followLooks(view, store, { weather, ground, figure, ink, ghosts, lighting, scenery, scan });
+  followPoints(view, store, { scan, scenery, weather, ground, figure });
   followPage(view, store, ink);
   labels.renew();
   watchContext(view.root, stage.canvas, () => stage.shadows());
@@ -130,10 +134,11 @@ interface Standing {
   ground: Ground;
   figure: Figure;
   ghosts: Ghosts;
+  scan: ScanPoints;
 }
 
 /** What the program sends is shown. */
-function followFrames(view: View, store: Store, { scenery, chosen, weather, ground, figure, ghosts }: Standing): void {
+function followFrames(view: View, store: Store, { scenery, chosen, weather, ground, figure, ghosts, scan }: Standing): void {
   const plants = new Plants();
   let stood = false; // there was a tree before
   let scale = 0; // its metres a page unit
@@ -141,7 +146,8 @@ function followFrames(view: View, store: Store, { scenery, chosen, weather, grou
     if (stood && scale && of.scale !== scale) view.rescale(of.scale / scale);
     scale = of.scale;
     scenery.show(plant, of.phase === "quick");
-    view.box = scenery.box;
+    placeScan(view, store, scan);
+    view.box = scan.box?.union(scenery.box) ?? scenery.box;
     if (!scenery.box.isEmpty()) {
       weather.light(scenery.box);
       ground.under(scenery.box, trunkOf(store));
@@ -150,8 +156,8 @@ function followFrames(view: View, store: Store, { scenery, chosen, weather, grou
       if (of.phase !== "glance") view.follow(!stood);
     }
     stood = !scenery.box.isEmpty();
-    ground.bare = !stood;
-    if (!stood) figure.stands = false;
+    ground.bare = !stood && !scan.visible;
+    if (!stood && !scan.visible) figure.stands = false;
     if (store.ui.uncertainty) scenery.doubt(doubtColours(scenery.now, store.known.limbs));
     ghosts.show([], 0); // what was to come is there
     chosen.renew();
@@ -189,9 +195,9 @@ interface Looks extends Omit<Standing, "chosen"> {
 }
 
 /** Day and night, the person, doubt, and leaves that let one see the wood. */
-function followLooks(view: View, store: Store, { weather, ground, figure, ink, ghosts, lighting, scenery }: Looks): void {
+function followLooks(view: View, store: Store, { weather, ground, figure, ink, ghosts, lighting, scenery, scan }: Looks): void {
   const theme = (): void => {
-    [weather, ground, figure, ink, ghosts].forEach((part) => part.wear(store.ui.theme));
+    [weather, ground, figure, ink, ghosts, scan].forEach((part) => part.wear(store.ui.theme));
     view.stage.draw();
   };
   const doubt = (): void => scenery.doubt(store.ui.uncertainty ? doubtColours(scenery.now, store.known.limbs) : null);
@@ -208,12 +214,39 @@ function followLooks(view: View, store: Store, { weather, ground, figure, ink, g
   theme();
 }
 
+/** Where the points of a scan are, beside the tree that is shown. */
+function placeScan(view: View, store: Store, scan: ScanPoints): void {
+  const { known } = store;
+  scan.show(known.scan, known.cloud, standOn(store), known.points?.shown ?? true, known.points?.size ?? 2, view.stage.renderer.getPixelRatio());
+}
+
+/** Points come and go; alone they are what there is to see. */
+function followPoints(view: View, store: Store, { scan, scenery, weather, ground, figure }: Pick<Standing, "scan" | "scenery" | "weather" | "ground" | "figure">): void {
+  let before: string | null = null;
+  store.on(["scan", "cloud", "points"], () => {
+    placeScan(view, store, scan);
+    const box = scan.box?.union(scenery.box) ?? scenery.box;
+    view.box = box;
+    if (!box.isEmpty() && scenery.box.isEmpty()) {
+      weather.light(box);
+      ground.under(box, trunkOf(store));
+      figure.beside(box, scan.spots);
+    }
+    ground.bare = box.isEmpty();
+    figure.stands = !box.isEmpty();
+    const now = store.known.scan?.digest ?? null;
+    if (now !== before && !box.isEmpty()) view.follow(true);
+    before = now;
+    view.stage.shadows();
+  });
+}
+
 /** The drawing on its pages; the view turns with the page, and lies exactly under it where the page is over the tree. */
 function followPage(view: View, store: Store, ink: Ink): void {
-  const plane = () => ({ scale: store.known.tree?.scale ?? 1, root: store.known.tree?.root ?? [0, 0] });
+  const plane = () => standOn(store);
   let stale = true; // lines are made with the next frame, however many steps come before it
   store.on(["strokes", "tree"], () => { stale = true; view.stage.draw(); });
-  view.overPage = () => (store.ui.layout === "over" && store.known.tree ? { page: pageCamera, plane: plane(), azimuth: view.flight.moving ? view.eye.azimuth : store.ui.turn } : null);
+  view.overPage = () => (store.ui.layout === "over" && (store.known.tree ?? store.known.cloud) ? { page: pageCamera, plane: plane(), azimuth: view.flight.moving ? view.eye.azimuth : store.ui.turn } : null);
   view.stage.beforeDraw.push(() => {
     if (stale && store.known.tree) ink.show(store.known.strokes.values(), plane());
     stale = false;

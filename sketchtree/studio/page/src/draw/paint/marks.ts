@@ -34,13 +34,21 @@ export function doubtAt(marks: Mark[], camera: PageCamera, px: number, py: numbe
 }
 
 /** A limb that was drawn on another page, or adopted, as it is seen on this one. */
-export function paintGuide(on: CanvasRenderingContext2D, camera: PageCamera, palette: Palette, limb: Limb, xy: number[], selected: boolean): void {
+export function paintGuide(on: CanvasRenderingContext2D, camera: PageCamera, palette: Palette, limb: Limb, xy: number[], selected: boolean, cased: string | null = null): void {
   if (xy.length < 4) return;
   on.beginPath();
   on.moveTo(...camera.toScreen(xy[0]!, xy[1]!));
   for (let at = 2; at < xy.length; at += 2) on.lineTo(...camera.toScreen(xy[at]!, xy[at + 1]!));
   on.strokeStyle = selected ? palette.accent : palette.guide;
   on.lineWidth = (selected ? 3 : 2.5) / (1 + 0.3 * limb.order);
+  if (cased !== null) { // over points, in this colour
+    const [own, width] = [on.strokeStyle, on.lineWidth];
+    on.strokeStyle = cased;
+    on.lineWidth = width + 3;
+    on.stroke();
+    on.strokeStyle = own;
+    on.lineWidth = width;
+  }
   on.setLineDash(limb.strokes.length ? [] : [5, 4]);
   on.stroke();
   on.setLineDash([]);

@@ -1,6 +1,7 @@
 // What is on the page, from below to above? Paper, the picture to trace over, the ground, limbs of other pages, strokes, marks; and above all what is in hand.
 
 import type { Stroke } from "../../messages";
+import type { CloudPicture } from "../cloud/picture";
 import { type Desk, here, isSamePage } from "../desk";
 import { around } from "../line/nearness";
 import { outline, widths } from "../line/outline";
@@ -21,7 +22,7 @@ const DEFAULT_WIDTH = 0.006; // of the drawing's height: strokes that have no wi
 /** Everything that stays when the pen is lifted. */
 export function paintDrawing(
   on: CanvasRenderingContext2D, ratio: number, desk: Desk, palette: Palette, picture: HTMLImageElement | null, tint: CanvasImageSource | null,
-  mask: CanvasImageSource | null,
+  mask: CanvasImageSource | null, cloud: CloudPicture,
 ): void {
   const { camera, store } = desk;
   const over = store.ui.layout === "over";
@@ -31,6 +32,7 @@ export function paintDrawing(
   const under = underlay !== null && picture !== null && isSamePage(store.ui.turn, 0);
   const seen = under && over && store.known.photoTree ? { ...underlay, opacity: Math.min(underlay.opacity, BEHIND) } : underlay; // the tree is below it
   if (under && seen) paintUnderlay(on, camera, palette, seen, picture, desk.movesUnderlay);
+  if (!over) cloud.paint(on, ratio, camera, store, palette.paper); // else it stands beside the tree below
   const photo = photoHere(store);
   const scribbled = way(store) === "scribbles";
   if (photo && tint && store.ui.tint && !scribbled) paintTint(on, camera, underlay ?? photo, tint);
@@ -38,7 +40,7 @@ export function paintDrawing(
   if (photo && scribbled) return paintTrunk(on, ratio, desk, desk.underlay ?? photo, mask, palette);
   if (!isSamePage(store.ui.turn, 0) || turnedStrokes(desk)) paintGuides(on, desk, palette);
   on.setTransform(ratio * camera.scale, 0, 0, ratio * camera.scale, ratio * camera.x, ratio * camera.y);
-  const look: Look = { palette, scale: camera.scale, width: usualWidth(desk), cased: over || under };
+  const look: Look = { palette, scale: camera.scale, width: usualWidth(desk), cased: over || under || showsPoints(store) };
   const shownHere = here(store);
   const areasFirst = [...shownHere.filter((one) => one.kind !== "branch"), ...shownHere.filter((one) => one.kind === "branch")];
   const pointed = new Set(store.known.limbs.find((limb) => limb.id === store.ui.pointed)?.strokes);
@@ -115,8 +117,13 @@ function paintGuides(on: CanvasRenderingContext2D, desk: Desk, palette: Palette)
   for (const limb of limbs) {
     if (limb.strokes.length && isSamePage(limb.view_deg, store.ui.turn)) continue; // its ink is here
     if (store.ui.layout === "over" && limb.id !== store.ui.selected) continue; // the tree itself is below
-    paintGuide(on, camera, palette, limb, projected(limb, tree, store.ui.turn), limb.id === store.ui.selected);
+    paintGuide(on, camera, palette, limb, projected(limb, tree, store.ui.turn), limb.id === store.ui.selected, showsPoints(store) ? palette.paper : null);
   }
+}
+
+/** Points of a scan lie behind the strokes, and are seen. */
+function showsPoints({ known }: Desk["store"]): boolean {
+  return known.scan !== null && known.points?.shown === true;
 }
 
 /** Some were drawn on another page. */
@@ -134,8 +141,9 @@ export function marksHere(desk: Desk): NonNullable<Desk["store"]["known"]["read"
 
 /** Where the ground is: at the tree's root; before there is one, at the foot of the drawing, or of an empty page. */
 export function groundLevel(desk: Desk): number {
-  const { tree, strokes } = desk.store.known;
+  const { tree, strokes, cloud } = desk.store.known;
   if (tree && strokes.size) return tree.root[1] ?? 0;
+  if (cloud && !strokes.size) return cloud.y;
   const branches = [...strokes.values()].filter((stroke) => stroke.kind === "branch");
   const box = around(branches);
   return box ? box.top + box.height : 0;

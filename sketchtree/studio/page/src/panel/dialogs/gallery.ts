@@ -8,7 +8,7 @@ import type { Store } from "../../store";
 import { onList } from "../catalogue";
 import { roving } from "../roving";
 
-const PHOTO = /\.jpg$/;
+const PHOTO = /\.(jpg|ply)$/; // pictures that fill their frame
 
 export function gallery(store: Store): () => void {
   const box = dialog({ title: "Examples", testId: "gallery-dialog", wide: true });

@@ -8,7 +8,7 @@ import type { Store } from "../../store";
 import { roving } from "../roving";
 import { EXTENSION } from "./project_name";
 import { take } from "./take";
-import { isPicture, READABLE } from "./upload";
+import { isCloud, isPicture, READABLE } from "./upload";
 
 export function openFile(store: Store): () => void {
   const box = dialog({ title: "Open", testId: "open-dialog" });
@@ -25,7 +25,7 @@ export function openFile(store: Store): () => void {
     picker.value = ""; // the same file may be chosen again
     if (!file) return;
     box.close();
-    void take(file);
+    void take(file, store);
   });
   const choose = button({ label: "Choose a file …", icon: "open", look: "primary", testId: "open-choose", onPress: () => picker.click() });
   const fill = (): void => {
@@ -44,7 +44,7 @@ export function openFile(store: Store): () => void {
   };
   box.body.append(where, list, picker);
   box.foot.append(
-    element("p", { class: "hint foot-words" }, "SVG, Excalidraw, InkML, sketch JSON, pictures, projects. Undo brings back what is on the page now."),
+    element("p", { class: "hint foot-words" }, "SVG, Excalidraw, InkML, sketch JSON, pictures, point clouds, projects. Undo brings back what is on the page now."),
     choose,
   );
   store.on(["welcome", "name"], () => { if (box.root.open) fill(); });
@@ -56,7 +56,7 @@ export function openFile(store: Store): () => void {
 }
 
 function file(name: string, current: boolean, onPress: () => void): HTMLElement {
-  const kind = icon(name.endsWith(EXTENSION) ? "leaf" : isPicture(name) ? "picture" : "branch");
+  const kind = icon(name.endsWith(EXTENSION) ? "leaf" : isPicture(name) ? "picture" : isCloud(name) ? "cloud" : "branch");
   const note = current ? element("span", { class: "file-note" }, "open now") : null;
   const made = element("button", { class: "file", title: `Open ${name}`, data: { name } }, kind, element("span", {}, name), note);
   made.type = "button";

@@ -1,21 +1,51 @@
-// A file was chosen or dropped: what becomes of it? A drawing or project opens; for a picture it is asked what it is for.
+// A file was chosen or dropped: what becomes of it? A drawing or project opens; for a picture, and for points where there is a drawing, it is asked what they are for.
 
 import { toast } from "../../parts/toast";
+import type { Store } from "../../store";
 import { Refused } from "../ask";
+import { cloudDialog, treeDialog } from "./cloud";
 import { pictureDialog } from "./picture";
-import { isPicture, upload } from "./upload";
+import { isCloud, isPicture, upload } from "./upload";
+
+type Use = NonNullable<Parameters<typeof upload>[1]>;
+
+const DONE: Record<Use, ((name: string) => string) | null> = {
+  photo: null, // its card says it
+  underlay: (name) => `${name} lies under the page: trace over it.`,
+  cloud: (name) => `${name} lies behind the drawing.`,
+  drawing: (name) => `${name} is open.`,
+};
 
 /** Take the file in; true where it is there now. Whatever goes wrong is told. */
-export async function take(file: File): Promise<boolean> {
-  const as = isPicture(file.name) ? await pictureDialog(file) : "drawing";
+export async function take(file: File, store: Store): Promise<boolean> {
+  const as = await use(file, store);
   if (as === null) return false;
   try {
-    await upload(file, as);
+    if (!(await sent(file, as))) return false;
   } catch (error) {
     tell(error, file.name);
     return false;
   }
-  if (as !== "photo") toast(as === "underlay" ? `${file.name} lies under the page: trace over it.` : `${file.name} is open.`, { remedy: "Undo brings back what was there." });
+  const words = DONE[as]?.(file.name);
+  if (words) toast(words, { remedy: "Undo brings back what was there." });
+  return true;
+}
+
+async function use(file: File, store: Store): Promise<Use | null> {
+  if (isPicture(file.name)) return pictureDialog(file);
+  return isCloud(file.name) && store.known.strokes.size > 0 && !store.known.underlay?.photo ? cloudDialog() : "drawing";
+}
+
+/** False: several trees stand in it, and none was chosen. */
+async function sent(file: File, as: Use): Promise<boolean> {
+  try {
+    await upload(file, as);
+  } catch (error) {
+    if (!(error instanceof Refused) || error.trees.length === 0) throw error;
+    const tree = await treeDialog(file.name, error.trees);
+    if (tree === null) return false;
+    await upload(file, as, tree);
+  }
   return true;
 }
 

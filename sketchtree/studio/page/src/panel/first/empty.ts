@@ -21,11 +21,11 @@ export function emptyPage(store: Store, ways: Ways): HTMLElement {
   const root = element("div", { class: "empty", testId: "empty" }, element("div", { class: "empty-middle" },
     ghostDrawing(), element("div", { class: "empty-words" }, element("h2", {}, "Draw a tree"), steps, buttons)));
   const show = (): void => {
-    const { welcome, strokes, underlay, connected } = store.known;
-    root.hidden = !welcome || !connected || strokes.size > 0 || store.ui.turn !== 0 || (underlay?.photo ?? false);
+    const { welcome, strokes, underlay, connected, cloud } = store.known;
+    root.hidden = !welcome || !connected || strokes.size > 0 || store.ui.turn !== 0 || (underlay?.photo ?? false) || cloud !== null;
     root.classList.toggle("traced", underlay !== null); // a picture to trace says enough
   };
-  store.on(["welcome", "connected", "strokes", "underlay", "turn"], show);
+  store.on(["welcome", "connected", "strokes", "underlay", "turn", "cloud"], show);
   show();
   return root;
 }

@@ -29,9 +29,9 @@ export function hintCard(store: Store, newPage: () => void): Hint {
     root.hidden = before === 0; // the empty page says it itself
   };
   root.hidden = true;
-  store.on(["welcome", "strokes", "undo", "underlay"], () => {
-    const { strokes, undo, welcome, underlay } = store.known;
-    if (!welcome || strokes.size === 0 || underlay?.photo) {
+  store.on(["welcome", "strokes", "undo", "underlay", "cloud"], () => {
+    const { strokes, undo, welcome, underlay, cloud } = store.known;
+    if (!welcome || strokes.size === 0 || underlay?.photo || cloud) {
       root.hidden = true;
       return;
     }

@@ -14,6 +14,7 @@ import { editsList } from "../edits/list";
 import { barkPicker } from "../looks/bark_picker";
 import { leafPicker } from "../looks/leaf_picker";
 import { seasonPicker } from "../looks/season_picker";
+import { cloudSection } from "../cloud/section";
 import { way } from "../../draw/trunk/way";
 import { photoSection } from "../photo/section";
 import { alternatives } from "../readings/alternatives";
@@ -31,10 +32,10 @@ export function mountSide(root: HTMLElement, store: Store): void {
   const drawn = [generations, density, light, crownToggle, fill, planar, thetaMode].map((control) => control(store)); // a photo's tree grows in another way
   const [ofGenerations, ofDensity, ...others] = drawn;
   const tree = section("tree", "Tree", true, seed(store), ofGenerations!, ofDensity!, gravity(store), height(store), ...others).root;
-  root.append(photoSection(store), tree, part("looks", "Looks", seasonPicker, leafPicker, barkPicker), depth, hand.root);
+  root.append(photoSection(store), cloudSection(store), tree, part("looks", "Looks", seasonPicker, leafPicker, barkPicker), depth, hand.root);
   const show = (): void => {
-    const ofPhoto = store.known.photoTree !== null || way(store) === "scribbles";
+    const ofPhoto = store.known.photoTree !== null || way(store) === "scribbles" || (store.known.points?.traced ?? false);
     for (const one of [...drawn, depth, hand.root]) one.hidden = ofPhoto;
   };
-  store.on(["photoTree", "trunk", "underlay"], show);
+  store.on(["photoTree", "trunk", "underlay", "points"], show);
 }

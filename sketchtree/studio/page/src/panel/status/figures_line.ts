@@ -9,17 +9,18 @@ export function figuresLine(store: Store, trip: RoundTrip): HTMLElement {
   const root = element("span", { class: "figures" });
   let height = 0; // of the newest whole tree: what comes first is only a part of one
   const show = (): void => {
-    const { tree, strokes, welcome } = store.known;
+    const { tree, strokes, welcome, photoTree } = store.known;
+    const nothing = strokes.size === 0 && photoTree === null;
     if (tree?.phase === "glance") return;
-    if (!tree?.segments || strokes.size === 0) {
-      root.replaceChildren(element("span", {}, strokes.size === 0 ? "Nothing drawn yet" : "No tree yet"));
+    if (!tree?.segments || nothing) {
+      root.replaceChildren(element("span", {}, nothing ? "Nothing drawn yet" : "No tree yet"));
       return;
     }
     if (tree.phase !== "quick" || height === 0) height = tree.height;
     const title = welcome?.templates.find((one) => one.name === tree.template)?.title ?? tree.template;
     root.replaceChildren(...figures({ ...tree, height }, title, trip.last).map(figure));
   };
-  store.on(["tree", "strokes", "welcome"], show);
+  store.on(["tree", "strokes", "welcome", "photoTree"], show);
   show();
   return root;
 }

@@ -23,18 +23,24 @@ export function viewBar(view: View, store: Store, shown: Shown, changed: () => v
     press(made, shown[what]);
     return made;
   };
+  const points = button({ label: "Points", icon: "cloud", iconOnly: true, look: "quiet", testId: "show-points", hint: "The points of the scan", onPress: () => {
+    const is = store.known.points?.shown ?? true;
+    store.choosePoints({ shown: !is }, is ? "hide points" : "show points");
+  } });
   const top = side("Top", "3", 0, 89.5);
   const follow = (): void => {
     press(figure, store.ui.figure);
+    points.hidden = store.known.cloud === null;
+    press(points, store.known.points?.shown ?? true);
     block(top, store.ui.layout === "over" ? "not while the page lies over the tree" : null);
   };
-  store.on(["figure", "layout"], follow);
+  store.on(["figure", "layout", "cloud", "points"], follow);
   follow();
   const bar = element("div", { class: "tree-bar", role: "toolbar", "aria-label": "View" },
     side("Front", "1", 0, 4), side("Side", "2", 90, 4), top,
     button({ label: "Whole tree", icon: "fit", iconOnly: true, look: "quiet", key: "Home", testId: "view-whole", onPress: () => view.showAll() }),
     element("span", { class: "tree-bar-gap" }),
-    toggle("ink", "Drawing", "branch", "The drawing, as it lies on the tree"), toggle("grid", "Metres", "gallery", "Lines a metre apart on the ground"), figure);
+    toggle("ink", "Drawing", "branch", "The drawing, as it lies on the tree"), toggle("grid", "Metres", "gallery", "Lines a metre apart on the ground"), points, figure);
   view.root.append(bar);
   new ResizeObserver(() => { view.foot = view.root.clientHeight - bar.offsetTop; }).observe(bar);
   return bar;
