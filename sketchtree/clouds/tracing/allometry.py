@@ -38,10 +38,10 @@ def radii(
 ) -> tuple[Float[np.ndarray, " node"], float]:
     """(radius of every node, metres; γ). `step`: metres from its parent; `width`: of its layer, metres; `thinnest`: metres, of any twig; `foot`: radius there, metres, where it is known."""
     borne = np.log(sum_to_root(parent, step) + 0.5 * width)
-    noise = _noise(seen, limb)
-    radius = np.sqrt(np.maximum(np.nan_to_num(seen.radius) ** 2 - noise**2, 0.0))
+    scatter = noise(seen, limb)
+    radius = np.sqrt(np.maximum(np.nan_to_num(seen.radius) ** 2 - scatter**2, 0.0))
     typical = np.nan_to_num(seen.off, nan=np.inf)
-    known = seen.known & (radius > _THICK * noise) & (typical < np.clip(_LIKE * noise, _CLEAR * radius, _BLURRED * radius)) & (seen.seen >= 0.5)
+    known = seen.known & (radius > _THICK * scatter) & (typical < np.clip(_LIKE * scatter, _CLEAR * radius, _BLURRED * radius)) & (seen.seen >= 0.5)
     log = np.log(np.where(known, radius, 1.0))
     spread = np.where(known, _SURE / np.maximum(seen.seen, 0.1) + typical / np.maximum(radius, 1e-9) / 4, np.inf)
     goes_back = _goes_back(parent, known)
@@ -56,7 +56,7 @@ def radii(
     return np.maximum(np.exp(best), thinnest), gamma
 
 
-def _noise(seen: Measured, limb) -> float:
+def noise(seen: Measured, limb) -> float:
     """Metres that points lie off the bark, typically, where the stem was seen."""
     stem = seen.known & (limb == limb[0])
     return float(np.median(seen.off[stem])) if stem.any() else 0.0

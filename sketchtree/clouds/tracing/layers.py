@@ -29,10 +29,14 @@ class Nodes:
     end: Float[np.ndarray, "node 3"]  # its point that is farthest from the foot
 
 
-def layers(xyz: Float[np.ndarray, "point 3"], graph: Joined, way: Ways, width: Float[np.ndarray, " point"]) -> Nodes:
-    """The nodes of layers that are so wide at each point, metres."""
+def layers(
+    xyz: Float[np.ndarray, "point 3"], graph: Joined, way: Ways, width: Float[np.ndarray, " point"], apart: Float[np.ndarray, " point"] | None = None
+) -> Nodes:
+    """The nodes of layers that are so wide at each point, metres. `apart`: neighbours that are farther from one another, metres, are of two twigs; without it none are."""
     layer = np.floor(way.summed(way.step / width)).astype(np.int64)
     together = (layer[graph.one] == layer[graph.other]) & (way.foot[graph.one] == way.foot[graph.other])
+    if apart is not None:
+        together &= graph.length <= np.minimum(apart[graph.one], apart[graph.other])
     walks = np.flatnonzero((way.before != NULL) & (layer[way.before] == layer))
     at_foot = [np.flatnonzero((way.before == NULL) & (way.foot == foot)) for foot in range(way.foot.max() + 1)]
     one = np.concatenate([graph.one[together], walks, *(points[1:] for points in at_foot)])

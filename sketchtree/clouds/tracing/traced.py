@@ -11,11 +11,12 @@ import numpy as np
 from jaxtyping import Float, Int
 
 from sketchtree.axes import NULL
-from sketchtree.clouds.tracing.allometry import radii
+from sketchtree.clouds.tracing.allometry import noise, radii
 from sketchtree.clouds.tracing.joined import Joined, joined
 from sketchtree.clouds.tracing.layers import layers
 from sketchtree.clouds.tracing.limbs import bumps, limbs_of, steps
 from sketchtree.clouds.tracing.smoothed import led_back, smoothed, straightened
+from sketchtree.clouds.tracing.spurs import spurs
 from sketchtree.clouds.tracing.thickness import measured
 from sketchtree.clouds.tracing.ways import Ways, ways
 from sketchtree.skeleton import Kind, TreeSkeleton
@@ -24,6 +25,7 @@ from sketchtree.traverse import generations, is_tip
 
 _LAYER = 0.006  # of the height
 _WIDE, _FINE, _THICK = 2.0, 0.35, 1.2  # a first layer is at least so many spacings wide; a second so many of the spacing there, and so many radii
+_ACROSS, _BESIDE = 2.0, 0.75  # radii, spacings: points of a second layer that are farther from one another are of two twigs
 _STRAIGHT = 1.2  # power of steps for the first layers, which find out how thick the wood is
 THINNEST = 0.00015  # of the height: the radius of a twig
 
@@ -60,12 +62,15 @@ def traced(xyz: Float[np.ndarray, "point 3"], feet: list[Int[np.ndarray, " start
 
 def _wood(xyz, graph: Joined, way: Ways, width, thinnest: float, foot: float | None, thick=None) -> _Wood:
     """Limbs and their thickness, by layers that are so wide at each point. `thick`: about how thick the wood is there, if that is known."""
-    found = layers(xyz, graph, way, width)
+    found = layers(xyz, graph, way, width, None if thick is None else np.maximum(_ACROSS * thick, _BESIDE * graph.spacing))
     parent, of_point, width, end = found.parent, found.of_point, found.width, found.end
     limb = limbs_of(parent, found.centre)
     about = None if thick is None else np.bincount(of_point, thick, len(parent)) / found.size
     seen = measured(xyz, of_point, parent, found.centre, limb, width, about)
     part_of = bumps(parent, seen.centre, limb, np.nan_to_num(seen.radius), width)
+    if thick is not None:
+        spacing = np.bincount(of_point, graph.spacing, len(parent)) / found.size
+        part_of = _without(part_of, spurs(parent, seen.centre, end, limb, np.where(seen.known, seen.radius, about), spacing, noise(seen, limb)))
     kept = np.flatnonzero(part_of == np.arange(len(parent)))
     above = np.where(parent[kept] == NULL, NULL, part_of[parent[kept]])
     place = np.full(len(parent) + 1, NULL)
@@ -82,6 +87,14 @@ def _wood(xyz, graph: Joined, way: Ways, width, thinnest: float, foot: float | N
     centre[tips] = end[tips]  # a layer's middle would leave half of it out
     radius, gamma = radii(parent, steps(parent, centre), limb, seen, width, thinnest, foot)
     return _Wood(parent, straightened(parent, centre, limb, radius), radius, limb, of_point, gamma)
+
+
+def _without(part_of, spur):
+    """Both together: what is part of a spur is part of what that is part of; NULL where that is nothing."""
+    both, ends = np.where(part_of != np.arange(len(part_of)), part_of, spur), np.append(spur, NULL)
+    while (ends[both] != both).any():
+        both = ends[both]
+    return both
 
 
 def _skeleton(wood: _Wood) -> TreeSkeleton:
