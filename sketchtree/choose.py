@@ -38,8 +38,8 @@ def _best(matches: list[Match], before: str | None, limbs: int) -> str:
 
 
 def leaf_model(wanted: str | None, habit: Habit, templates: Database | None) -> str | None:
-    """The leaf model to use; None for no leaves. `wanted` is a model, an exemplar or "none"."""
-    if wanted is None:
+    """The leaf model to use; None for no leaves. `wanted` is a model, an exemplar, "auto" for the habit's own, or "none"."""
+    if wanted is None or wanted == "auto":
         return habit.leaf
     if wanted == "none":
         return None

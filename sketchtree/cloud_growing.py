@@ -38,7 +38,7 @@ def variation(tree: CloudTree, change: Change, watch: Watch | None = None) -> Va
     grows, watch = _grows(tree), watch or Watch()
     with watch("infer"):
         other = growth(tree.prepared, tree.feet, tree.trunks, change.of(grows.species), tree.finish.key)
-    found = Found(other.skeleton, tree.trunks, other.species, None, other)
+    found = Found(other.skeleton, tree.trunks, other.species, tree.leafy, None, other)
     return Variation(change, whole_tree(found, tree.prepared, tree.feet, tree.wanted, tree.finish, watch))
 
 

@@ -41,6 +41,7 @@ def _cloud(tree: CloudTree) -> dict:
         "up_sure": prepared.up_sure,
         "ground": prepared.ground,
         "trees": prepared.trees,
+        "leaves": {"in_leaf": tree.leafy.in_leaf, "share": tree.leafy.share, "area": float(tree.leafy.area.sum()), "green": tree.leafy.green},
         "pieces": tree.pieces,
         "feet": [{"place": place.tolist(), "diameter": thick} for place, thick in zip(feet.place, trunks, strict=True)],
         "species": {"name": tree.species.name, "internode": tree.species.internode, "roll": tree.species.roll, "branching": tree.species.branching, "gamma": tree.species.gamma},

@@ -1,11 +1,11 @@
 """A point cloud in, the tree that stands in it out: every stage in order.
 
-    file → points in metres → upright, one tree, clean → feet, trunk's thickness → traced | grown → what nobody saw → collapsed, smoothed → leaves, meshes
+    file → points in metres → upright, one tree, clean → feet, trunk's thickness → leaves told from wood → traced | grown → twigs to leaves, what nobody saw → leaves, meshes
 
 *traced* (the default, ours): the wood runs where the points are. *grown* (Guo et al. 2018, §5): a tree of a species grows toward the points.
 """
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from functools import reduce
 from pathlib import Path
 
@@ -22,11 +22,14 @@ from sketchtree.clouds.growing.filled import filled
 from sketchtree.clouds.growing.grown import Grown, grown
 from sketchtree.clouds.growing.hull_fill import unseen_inside
 from sketchtree.clouds.growing.species import Species, species
+from sketchtree.clouds.leafy.bearing import bearing
+from sketchtree.clouds.leafy.covering import Covering
+from sketchtree.clouds.leafy.leafiness import Leafiness, check_in_leaf, leafiness, off_bark
 from sketchtree.clouds.prepared.prepare import POINTS, Prepared, prepare
 from sketchtree.clouds.standing.feet import Feet, feet
 from sketchtree.clouds.standing.stems import breast_height
 from sketchtree.clouds.standing.trunk import Trunk, trunk
-from sketchtree.clouds.tracing.traced import traced
+from sketchtree.clouds.tracing.traced import Traced, traced
 from sketchtree.errors import OptionError
 from sketchtree.growth_tree import GrowthOptions, Worn, grown_tree, of_skeleton
 from sketchtree.keys import stage_key
@@ -52,11 +55,13 @@ class CloudOptions:
     species: str = "auto"  # of `clouds.growing.species.names()`, or a recipe of one's own, a .toml file; auto: estimated from the points
     figures: tuple[str, ...] = ()  # of the species and its growth that are to be others: NAME=VALUE (`clouds.growing.figures`)
     roots: int | None = None  # feet; None: as many as there are stems
+    in_leaf: str = "auto"  # auto | yes | no: whether some of the points are leaves
     inside: bool | None = None  # branches inside a crown that was seen from outside only; None: where the points leave it out
 
     def __post_init__(self):
         if self.method not in METHODS:
             raise OptionError(f"There is no method called {self.method!r}.", remedy=f"Choose one of: {', '.join(METHODS)}.")
+        check_in_leaf(self.in_leaf)
         if not 100 <= self.points <= 10_000_000:
             raise OptionError(f"`--points {self.points}` is out of range.", remedy="Give 100 to 10,000,000.")
         if self.species != "auto":
@@ -76,10 +81,12 @@ class Finish:
     tree: TreeOptions = TreeOptions()  # noqa: RUF009 (frozen)
     templates: Database | None = None
     template: str | None = None  # the exemplar whose leaves and bark it wears
+    leafing: Covering | None = None  # puts leaves where some were seen; None of a plant that isn't in leaf
 
     def __call__(self, wood: TreeSkeleton, watch: Watch | None = None) -> tuple[Worn, tuple[str, ...]]:
         """(the finished tree, what a person should know about it)."""
-        begun = of_skeleton(wood, self.tree, self.templates, key=self.key, template=self.template)
+        tree = replace(self.tree, leaf="none") if self.tree.leaf == "auto" and self.leafing is None else self.tree
+        begun = replace(of_skeleton(wood, tree, self.templates, key=self.key, template=self.template), leafing=self.leafing)
         model = grown_tree(begun, GrowthOptions(levels=0), self.tree, watch=watch).model
         return model, (*begun.warnings, *model.warnings)
 
@@ -92,9 +99,10 @@ class CloudTree:
     feet: Feet
     trunks: tuple[Trunk | None, ...]  # of each foot; None where its thickness can't be told
     species: Species
+    leafy: Leafiness
     pieces: int | None  # that the points fell into; None of one that was grown
     grows: Grown | None  # how it came to be; None of one that was traced
-    seen: int  # rows that were seen, the first ones; the others fill the inside
+    seen: int  # rows that were seen, the first ones; the others bear leaves, or fill the inside
     model: Worn
     wanted: CloudOptions
     finish: Finish
@@ -123,7 +131,7 @@ def cloud_to_tree(
         stands = feet(prepared.cloud.xyz, prepared.above, count="auto" if wanted.roots is None else wanted.roots)
     with watch("infer"):
         found = _wood(prepared, stands, wanted, key)
-    return whole_tree(found, prepared, stands, wanted, Finish(key, tree, templates, template), watch)
+    return whole_tree(found, prepared, stands, wanted, Finish(key, tree, templates, template, found.leafing(prepared)), watch)
 
 
 def whole_tree(found: "Found", prepared: Prepared, stands: Feet, wanted: CloudOptions, finish: Finish, watch: Watch) -> CloudTree:
@@ -132,7 +140,7 @@ def whole_tree(found: "Found", prepared: Prepared, stands: Feet, wanted: CloudOp
         wood, seen = _whole(found, prepared, wanted, finish.key)
     model, told = finish(wood, watch)
     told = (*prepared.remarks, *_remarks(found, stands), *told)
-    return CloudTree(prepared, stands, found.trunks, found.species, found.pieces, found.grows, seen, model, wanted, finish, tuple(dict.fromkeys(told)))
+    return CloudTree(prepared, stands, found.trunks, found.species, found.leafy, found.pieces, found.grows, seen, model, wanted, finish, tuple(dict.fromkeys(told)))
 
 
 def _prepared(given: str | Path | Placed | PointCloud, wanted: CloudOptions) -> Prepared:
@@ -147,8 +155,14 @@ class Found:
     tree: TreeSkeleton
     trunks: tuple[Trunk | None, ...]
     species: Species
+    leafy: Leafiness
     pieces: int | None
     grows: Grown | None = None
+
+    def leafing(self, prepared: Prepared) -> Covering | None:
+        """What puts leaves where some were seen."""
+        leaf = self.leafy.leaf
+        return Covering(prepared.cloud.xyz[leaf], self.leafy.area[leaf]) if leaf.any() else None
 
 
 def _wood(prepared: Prepared, stands: Feet, wanted: CloudOptions, key) -> Found:
@@ -156,13 +170,15 @@ def _wood(prepared: Prepared, stands: Feet, wanted: CloudOptions, key) -> Found:
     xyz = prepared.cloud.xyz
     trunks = tuple(trunk(xyz[rows], breast_height(prepared.cloud.height)) for rows in stands.stems)
     known = trunks[0].root / 2 if len(trunks) == 1 and trunks[0] is not None else None
-    found = traced(xyz, stands.rows, foot_radius=known) if wanted.method == "traced" or wanted.species == "auto" else None
+    leafy = leafiness(xyz, stands.rows, prepared.cloud.colour, wanted.in_leaf)
+    found = _traced(xyz, stands.rows, leafy, known) if wanted.method == "traced" or wanted.species == "auto" else None
+    leafy = leafy if found is None else off_bark(leafy, xyz, found.skeleton)
     kind = estimated(xyz, species(GENERAL), found.skeleton, found.gamma) if wanted.species == "auto" else species(wanted.species)
     if wanted.method == "traced":
-        return Found(_refined(found.skeleton), trunks, kind, found.pieces)
+        return Found(_refined(found.skeleton), trunks, kind, leafy, found.pieces)
     kind = reduce(lambda kind, said: changes(said)[0].of(kind), wanted.figures, kind)
     grows = growth(prepared, stands, trunks, kind, key)
-    return Found(grows.skeleton, trunks, kind, None, grows)
+    return Found(grows.skeleton, trunks, kind, leafy, None, grows)
 
 
 def growth(prepared: Prepared, stands: Feet, trunks: tuple[Trunk | None, ...], kind: Species, key: Key[Array, ""]) -> Grown:
@@ -171,12 +187,24 @@ def growth(prepared: Prepared, stands: Feet, trunks: tuple[Trunk | None, ...], k
     return grown(prepared.cloud.xyz, stands.rows, kind, key=stage_key(key, "toward points"), radius=thick)
 
 
+def _traced(xyz, rows, leafy: Leafiness, foot_radius: float | None) -> Traced:
+    """The wood among the points, what isn't leaves."""
+    if not leafy.in_leaf:
+        return traced(xyz, rows, foot_radius=foot_radius)
+    wood = np.flatnonzero(~leafy.leaf)
+    place = np.cumsum(~leafy.leaf) - 1
+    return traced(xyz[wood], [place[foot] for foot in rows], foot_radius=foot_radius)
+
+
 def _whole(found: Found, prepared: Prepared, wanted: CloudOptions, key) -> tuple[TreeSkeleton, int]:
     """(the tree with what nobody saw, how many of its rows were seen)."""
     tree, xyz = found.tree, prepared.cloud.xyz
+    seen = len(tree)
+    if found.leafy.in_leaf and found.grows is None:
+        tree = bearing(tree, xyz, xyz[found.leafy.leaf], found.species, key=stage_key(key, "to leaves"))
     if wanted.inside is False or (wanted.inside is None and not unseen_inside(xyz)):
-        return tree, len(tree)
-    return filled(tree, xyz, found.species, key=stage_key(key, "inside")), len(tree)
+        return tree, seen
+    return filled(tree, xyz, found.species, key=stage_key(key, "inside")), seen
 
 
 def _refined(tree: TreeSkeleton) -> TreeSkeleton:
@@ -187,7 +215,7 @@ def _refined(tree: TreeSkeleton) -> TreeSkeleton:
 
 
 def _remarks(found: Found, stands: Feet) -> list[str]:
-    told = []
+    told = [found.leafy.remark] if found.leafy.remark else []
     if found.pieces is not None and found.pieces > 1:
         told.append(f"The points fall into {found.pieces:,} pieces; gaps between them were bridged where they are narrow.")
     if len(stands.rows) > 1:

@@ -125,6 +125,7 @@ class Beginning:
     templates: Database | None = None
     obstacles: tuple = ()
     warnings: tuple[str, ...] = ()
+    leafing: pipeline.Leafing | None = None  # what makes its leaves and blossoms, where that is not `foliage`
     levels: int | None = None  # of grafts, as its project says; None: 3 on a picture's trunk, 0 on what is a tree already
 
 
@@ -288,7 +289,7 @@ def _worn(skeleton: TreeSkeleton, beginning: Beginning, key: Key[Array, ""], tol
     """Leaves and meshes, as `pipeline.finish` makes them."""
     dress = beginning.dress
     with watch("foliage"):
-        leaves, flowers = pipeline.foliage(skeleton, dress, key=key)
+        leaves, flowers = pipeline.foliage(skeleton, dress, key=key) if beginning.leafing is None else beginning.leafing(skeleton, dress, key)
         if leaves.kept < 1:
             told += (f"Only {leaves.kept:.1%} of the leaves were kept (at most {len(leaves)}), each larger, so that their area is right.",)
         if dress.leaf is not None and dress.season != "bare" and not len(leaves):

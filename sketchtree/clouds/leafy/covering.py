@@ -1,11 +1,11 @@
 """How many leaves does the tree wear, and where? As many as the points say, where they say.
 
 Leaves are made as on any tree (`foliage.populate`), at tips and along young wood, by the model's arrangement, angle and size; on wood that no leaf was seen near none stays. In cubes of the crown
-so many stay that their area is that of the leaves that were seen:
+so many stay that their area is that of the leaves that were scanned:
 
-    share kept in a cube = min(1, hidden · Σ a_i / Σ A)        a_i  area that a point of a leaf stands for (`leafiness.leaf_area`)        A  area of a leaf that was made
+    share kept in a cube = min(1, Σ a_i / Σ A)        a_i  area that a point of a leaf stands for (`Leafiness.area`)        A  area of a leaf that was made
 
-Where the species bears too few, they stand closer. `HIDDEN`: how many times more leaf there is than scanners see, measured on trees of ours (`benchmarks.cloud_leaves`).
+Where the species bears too few, they stand closer.
 """
 
 from dataclasses import dataclass, replace
@@ -23,7 +23,6 @@ from sketchtree.foliage.triangles import drawn_area
 from sketchtree.keys import numpy_generator, stage_key
 from sketchtree.skeleton import TreeSkeleton
 
-HIDDEN = 2.0
 _CUBE = 0.06  # of the cloud's longest side
 _REACH, _SPACINGS = 0.015, 2.0  # of that side, or so many spacings of the points: how near a leaf that was made is to one that was seen
 _DENSEST, _THINNEST = 4.0, 1.05  # times the species' density: the most, and what is not worth asking for
@@ -43,7 +42,7 @@ class Covering:
             return Leaves.none(dress.habit.leaf), None
         how = {"key": key, "model": dress.leaf, "season": dress.season}
         leaves = self._near(populate(tree, dress.habit, **how))
-        wanted, made = HIDDEN * self.area.sum(), leaf_area_of(leaves).sum()
+        wanted, made = self.area.sum(), leaf_area_of(leaves).sum()
         if len(leaves) and wanted > _THINNEST * made:
             leaves = self._near(populate(tree, dress.habit, density=float(min(wanted / made, _DENSEST)), **how))
         flowers = blossom(tree, dress.habit, **how)
@@ -69,7 +68,7 @@ class Covering:
         every = np.floor((np.concatenate([self.place, leaves.position]) - low) / edge).astype(np.int64)
         _, cube = np.unique(every, axis=0, return_inverse=True)
         cube = cube.ravel()
-        seen = np.bincount(cube[: len(self.place)], HIDDEN * self.area, cube.max() + 1)
+        seen = np.bincount(cube[: len(self.place)], self.area, cube.max() + 1)
         made = np.bincount(cube[len(self.place) :], leaf_area_of(leaves), cube.max() + 1)
         share = np.minimum(seen / np.maximum(made, 1e-12), 1.0)
         draw = numpy_generator(stage_key(key, "as many")).random(len(leaves))

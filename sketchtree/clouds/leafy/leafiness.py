@@ -1,40 +1,47 @@
 """Is the plant in leaf, and which points are its leaves?
 
-First the cloud as a whole. *Ends* are points on which next to nothing hangs (b < 3, `borne`). It is in leaf where ends are many and fill space (`turning.filling`), or are green where its
-wood is not (`green`):
+First the cloud as a whole, thinned to 20,000 points so that it is looked at as coarsely as any. *Ends* are points on which next to nothing hangs (b < 3, `borne`). It is in leaf where ends are
+many and fill space (`turning.filling`), or are green where its wood is not (`green`):
 
-    ends ≥ 0.62 of the points  and  median D of the ends ≥ 1.95
+    ends ≥ 0.66 of the points  and  median D of the ends ≥ 2.05
 
-Our trees in leaf have 0.66-0.79 and 2.05-2.8, bare ones 0.32-0.54 and 1.5-2.1; five scans of others that came with no leaves 0.43-0.66 and 1.8-2.3, none of them enough of both. If it isn't, all points are wood.
+Six trees of ours in leaf have 0.73-0.78 and 2.1-2.7, bare ones 0.37-0.53 and 1.5-2.0; five scans of others that came with no leaves 0.43-0.66 and 1.8-2.3, none of them enough of both.
+If it isn't, all points are wood.
 
-Then each point, by b, κ (`turning`) and colour where that tells:
+Then each point of at most 100,000, by b, κ (`turning`) and colour where that tells; the others are what the nearest of these is:
 
     log odds of a leaf = 4.33 − 0.95 b + 0.42 log(κ + 0.003) [+ 2 green]
 
-fitted on two trees of ours, an apple and a birch, scanned at 100,000 and 25,000 points, wood and leaves weighed alike; the others are what `benchmarks.cloud_leaves` measures. What stands on a way
+fitted on two trees of ours, an apple and a birch, scanned at 100,000 and 25,000 points, wood and leaves weighed alike; `benchmarks.cloud_leaves` measures it on others. What stands on a way
 to wood that is sure is wood too, so that limbs don't fall into pieces where leaves hide them.
 """
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
+from typing import NamedTuple
 
 import numpy as np
 from jaxtyping import Bool, Float, Int
+from scipy.spatial import cKDTree
 
 from sketchtree.axes import NULL
 from sketchtree.clouds.leafy.borne import borne
 from sketchtree.clouds.leafy.green import green_odds
 from sketchtree.clouds.leafy.turning import filling, turning
-from sketchtree.clouds.tracing.joined import Joined
-from sketchtree.clouds.tracing.ways import Ways
+from sketchtree.clouds.tracing.joined import joined
+from sketchtree.clouds.tracing.ways import Ways, ways
+from sketchtree.clouds.voxels import voxel_rows, voxel_size
 from sketchtree.errors import OptionError
+from sketchtree.skeleton import TreeSkeleton
 
 IN_LEAF = ("auto", "yes", "no")
-ENDS, ENDS_SHARE, FILLS = 3.0, 0.62, 1.95
+ENDS, ENDS_SHARE, FILLS = 3.0, 0.66, 2.05
 _GREEN_SHARE = 0.55  # of the points are ends at least, where they are green
 _BASE, _BORNE, _TURNING, _NEVER_FLAT, _GREEN = 4.33, 0.95, 0.42, 0.003, 2.0
 _SURE, _BEARS = -1.0, 5.0  # log odds of wood that is sure; b of what bears much
 _FEWEST = 300  # points that leaves may be told among
-_AREA = 0.9  # of the square of their spacing, that a point of a surface stands for: π d² / 3.5, d the distance to the third or fourth nearest
+_TWIG, _BARK = 0.003, 1.3  # of the height: radius of a twig; radii within which points are bark
+_COARSE, _FINE = 20_000, 100_000  # points that the whole is looked at by, and that leaves are told among
+_AREA = 0.28  # of the square of their spacing: the leaf behind a point, seen or hidden; 0.17-0.57 on six trees of ours at 12,000 to 550,000 points
 
 
 @dataclass(frozen=True, eq=False)
@@ -42,6 +49,7 @@ class Leafiness:
     """What of a cloud is leaves."""
 
     leaf: Bool[np.ndarray, " point"]
+    area: Float[np.ndarray, " point"]  # m² of leaf that each stands for, seen or hidden; 0 of wood
     in_leaf: bool
     ends: float  # share of the points on which next to nothing hangs
     fills: float  # median D of those
@@ -58,27 +66,75 @@ class Leafiness:
         return f"About {100 * self.share:.0f} % of the points are leaves; they are no wood." if self.in_leaf else None
 
 
-def leafiness(
-    xyz: Float[np.ndarray, "point 3"], graph: Joined, way: Ways, feet: list[Int[np.ndarray, " start"]], colour: Float[np.ndarray, "point 3"] | None = None, wanted: str = "auto"
-) -> Leafiness:
-    """Which points are leaves. `way`: ways along `graph` from `feet`; `wanted`: of `IN_LEAF`, whether the plant is in leaf. Raises OptionError."""
+def check_in_leaf(wanted: str) -> None:
+    """Refuse what is not of `IN_LEAF`. Raises OptionError."""
     if wanted not in IN_LEAF:
-        raise OptionError(f"A plant isn't in leaf {wanted!r}.", remedy=f"Choose one of: {', '.join(IN_LEAF)}.")
-    bare = np.zeros(len(xyz), bool)
+        raise OptionError(f"Whether a plant is in leaf can't be {wanted!r}.", remedy=f"Choose one of: {', '.join(IN_LEAF)}.")
+
+
+def leafiness(xyz: Float[np.ndarray, "point 3"], feet: list[Int[np.ndarray, " start"]], colour: Float[np.ndarray, "point 3"] | None = None, wanted: str = "auto") -> Leafiness:
+    """Which points of a plant on its feet are leaves. `wanted`: of `IN_LEAF`, whether it is in leaf. Raises OptionError."""
+    check_in_leaf(wanted)
+    bare = np.zeros(len(xyz), bool), np.zeros(len(xyz))
     if wanted == "no" or len(xyz) < _FEWEST:
-        return Leafiness(bare, False, 0.0, 0.0, False)
-    hangs = borne(xyz, way)
-    ends = hangs < ENDS
+        return Leafiness(*bare, False, 0.0, 0.0, False)
+    whole = _seen(xyz, feet, colour, _COARSE)
+    ends = whole.hangs < ENDS
     share = float(np.mean(ends))
-    fills = float(np.median(filling(xyz, xyz[ends]))) if ends.any() else 0.0
-    green = green_odds(colour, hangs > _BEARS, ends)
-    found = (share >= ENDS_SHARE and fills >= FILLS) or (green is not None and share >= _GREEN_SHARE)
+    fills = float(np.median(filling(whole.xyz, whole.xyz[ends]))) if ends.any() else 0.0
+    found = (share >= ENDS_SHARE and fills >= FILLS) or (whole.green is not None and share >= _GREEN_SHARE)
     if wanted == "auto" and not found:
-        return Leafiness(bare, False, share, fills, green is not None)
-    odds = _BASE - _BORNE * hangs + _TURNING * np.log(turning(xyz) + _NEVER_FLAT) + (0.0 if green is None else _GREEN * green)
-    wood = _led_to(odds < _SURE, way) | (odds < 0)
-    wood[np.concatenate(feet)] = True
-    return Leafiness(~wood, True, share, fills, green is not None)
+        return Leafiness(*bare, False, share, fills, whole.green is not None)
+    fine = _seen(xyz, feet, colour, _FINE)
+    odds = _BASE - _BORNE * fine.hangs + _TURNING * np.log(turning(fine.xyz) + _NEVER_FLAT) + (0.0 if fine.green is None else _GREEN * fine.green)
+    wood = _led_to(odds < _SURE, fine.way) | (odds < 0)
+    wood[np.concatenate(fine.feet)] = True
+    nearest = cKDTree(fine.xyz).query(xyz)[1]
+    leaf = ~wood[nearest]
+    area = np.where(leaf, (_AREA * fine.spacing**2 / np.maximum(np.bincount(nearest, minlength=len(fine.xyz)), 1))[nearest], 0.0)
+    return Leafiness(leaf, area, True, share, fills, fine.green is not None)
+
+
+def off_bark(found: Leafiness, xyz: Float[np.ndarray, "point 3"], wood: TreeSkeleton) -> Leafiness:
+    """The same, once the wood is known: points on the bark of limbs thicker than twigs are no leaves, however they look."""
+    thick = np.flatnonzero((wood.radius > _TWIG * np.ptp(xyz[:, 1])) & ~wood.is_base)
+    leaf = np.flatnonzero(found.leaf)
+    if not len(thick) or not len(leaf):
+        return found
+    count = np.ceil(2.0 * wood.length[thick] / wood.radius[thick]).astype(np.int64) + 1  # places half a radius apart
+    of = np.repeat(thick, count)
+    share = (np.arange(len(of)) - np.repeat(np.cumsum(count) - count, count)) / np.repeat(count, count)
+    far, near = cKDTree(wood.start[of] + share[:, None] * wood.vector[of]).query(xyz[leaf])
+    bark = leaf[far < _BARK * wood.radius[of[near]]]
+    still, area = found.leaf.copy(), found.area.copy()
+    still[bark], area[bark] = False, 0.0
+    return replace(found, leaf=still, area=area)
+
+
+class _Seen(NamedTuple):
+    """A plant by fewer points."""
+
+    xyz: Float[np.ndarray, "point 3"]
+    feet: list[Int[np.ndarray, " start"]]
+    way: Ways
+    spacing: Float[np.ndarray, " point"]  # metres
+    hangs: Float[np.ndarray, " point"]  # b
+    green: Float[np.ndarray, " point"] | None
+
+
+def _seen(xyz, feet, colour, most: int) -> _Seen:
+    """The plant by at most about so many points, all of its feet among them."""
+    kept = np.ones(len(xyz), bool)
+    if len(xyz) > most:
+        kept[:] = False
+        kept[voxel_rows(xyz, voxel_size(xyz, most))] = True
+        kept[np.concatenate(feet)] = True
+    place = np.cumsum(kept) - 1
+    some, start = xyz[kept], [place[rows] for rows in feet]
+    graph = joined(some)
+    way = ways(some, graph, start)
+    hangs = borne(some, way)
+    return _Seen(some, start, way, graph.spacing, hangs, green_odds(None if colour is None else colour[kept], hangs > _BEARS, hangs < ENDS))
 
 
 def _led_to(sure: Bool[np.ndarray, " point"], way: Ways) -> Bool[np.ndarray, " point"]:
@@ -89,7 +145,3 @@ def _led_to(sure: Bool[np.ndarray, " point"], way: Ways) -> Bool[np.ndarray, " p
             on[before[point]] = True
     return np.array(on)
 
-
-def leaf_area(graph: Joined, leaf: Bool[np.ndarray, " point"]) -> Float[np.ndarray, " point"]:
-    """Square metres of leaf that each point stands for; 0 of wood."""
-    return np.where(leaf, _AREA * graph.spacing**2, 0.0)
