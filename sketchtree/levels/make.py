@@ -11,6 +11,7 @@ import numpy as np
 
 from sketchtree.asset import Level
 from sketchtree.dressing import Dress
+from sketchtree.errors import OptionError
 from sketchtree.foliage.leaves import Leaves
 from sketchtree.geometry.mesh import Mesh
 from sketchtree.levels.impostor import impostor
@@ -21,6 +22,9 @@ from sketchtree.skeleton import TreeSkeleton
 
 SHARES = (0.5, 0.2, 0.06)
 """Most triangles of LOD1, LOD2, LOD3, as shares of LOD0's."""
+
+FEWEST = 12
+"""Triangles that a whole tree may be asked to have."""
 
 _SIDES, _PIXELS = 4, 512  # every other of so many sides is looked at for the coverages
 
@@ -40,6 +44,15 @@ def level_of_detail(model: Model, number: int) -> tuple[Mesh, ...]:
     if number == 0:
         return tuple(model.meshes)
     return _budget(model).meshes(_most(model, number))
+
+
+def within_triangles(model: Model, triangles: int) -> tuple[Mesh, ...]:
+    """The meshes with so many triangles at most, in the order of `level_of_detail`; the model's own where they have no more. Raises OptionError for fewer than `FEWEST`."""
+    if triangles < FEWEST:
+        raise OptionError(f"{triangles:,} triangles are too few for a tree.", remedy=f"Give {FEWEST} or more.")
+    if sum(mesh.triangle_count for mesh in model.meshes) <= triangles:
+        return tuple(model.meshes)
+    return _budget(model).meshes(triangles)
 
 
 def make_levels(model: Model, *, pixel_error: float = 1.0, with_impostor: bool = True) -> tuple[Level, ...]:

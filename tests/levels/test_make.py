@@ -8,12 +8,13 @@ import pytest
 from benchmarks.levels import leaf_area
 from sketchtree import keys
 from sketchtree.dressing import Dress
+from sketchtree.errors import OptionError
 from sketchtree.foliage.cards import leaf_mesh
 from sketchtree.foliage.populate import populate
 from sketchtree.geometry.wood import wood_meshes
 from sketchtree.levels import make, spend
 from sketchtree.levels.impostor import impostor
-from sketchtree.levels.make import SHARES, level_of_detail, make_levels
+from sketchtree.levels.make import FEWEST, SHARES, level_of_detail, make_levels, within_triangles
 from sketchtree.levels.outline_error import overlap, views_round
 from sketchtree.levels.raster import silhouette
 from tests.foliage.trees import HABIT, crown
@@ -46,6 +47,18 @@ def test_each_level_keeps_its_budget_and_uses_most_of_it(made):
     assert len(levels) == 5 and full == sum(mesh.triangle_count for mesh in model.meshes)
     for share, level in zip(SHARES, levels[1:4], strict=True):
         assert 0.7 * share * full < level.triangle_count <= share * full
+
+
+def test_a_tree_is_to_be_had_with_so_many_triangles_at_most(made):
+    model, _ = made
+    full = sum(mesh.triangle_count for mesh in model.meshes)
+    some = within_triangles(model, full // 3)
+    assert 0.6 * full // 3 < sum(mesh.triangle_count for mesh in some) <= full // 3
+    assert some[0].name == "wood"
+    assert within_triangles(model, full) == model.meshes
+    with pytest.raises(OptionError) as told:
+        within_triangles(model, FEWEST - 1)
+    assert str(told.value) == "11 triangles are too few for a tree. Give 12 or more."
 
 
 def test_outlines_stay_the_trees(made):
