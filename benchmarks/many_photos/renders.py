@@ -1,6 +1,6 @@
 """Photos of a tree that is known: pyvista draws it from a ring of cameras whose poses are told, with its bark, light and ground."""
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from pathlib import Path
 
 import numpy as np
@@ -36,6 +36,14 @@ class Rendered:
         """Of the tree, metres."""
         return float(np.ptp(self.corner[..., 1]))
 
+    def smaller(self, pixels: int) -> "Rendered":
+        """The same pictures, `pixels` high and as wide."""
+        views = []
+        for view in self.views:
+            rgb = np.stack([np.asarray(Image.fromarray(view.rgb[..., k]).resize((pixels, pixels), Image.Resampling.BOX)) for k in range(3)], axis=2)
+            views.append(replace(view, camera=view.camera.resized((pixels, pixels)), rgb=rgb, seen=np.ones((pixels, pixels), bool)))
+        return replace(self, views=views)
+
     def save(self, folder: Path) -> Path:
         """The pictures as PNG."""
         folder.mkdir(parents=True, exist_ok=True)
@@ -44,8 +52,13 @@ class Rendered:
         return folder
 
 
-def rendered(glb: Path, place: Path, *, count: int = 24, pixels: int = 400, arc: float = 360.0, elevation: float = 8.0, ground: bool = True) -> Rendered:
-    """`count` pictures of a GLB, evenly over so many degrees, `pixels` high and as wide; drawn in the folder `place`."""
+PRINT = 4096  # texels across the printed ground
+
+
+def rendered(
+    glb: Path, place: Path, *, count: int = 24, pixels: int = 400, arc: float = 360.0, elevation: float = 8.0, ground: bool = True, printed: bool = False
+) -> Rendered:
+    """`count` pictures of a GLB, evenly over so many degrees, `pixels` high and as wide; drawn in the folder `place`. `printed`: the ground has a print, for structure from motion to hold on to."""
     meshes = [mesh for mesh in read_glb(glb) if len(mesh.triangle)]
     points = np.vstack([mesh.position[np.unique(mesh.triangle)] for mesh in meshes])
     shift = footing(points)
@@ -55,6 +68,8 @@ def rendered(glb: Path, place: Path, *, count: int = 24, pixels: int = 400, arc:
     place.mkdir(parents=True, exist_ok=True)
     angles = [(arc * k / count, elevation + 6.0 * (k % 2)) for k in range(count)]
     request = request_of(meshes, angles, (pixels, pixels), around=around, ground=ground, supersample=2)
+    if ground and printed:
+        request["ground"] = _printed(request["ground"])
     drawn, why = draw_in_child(request, place / "sheet.png", 600.0)
     if not drawn:
         raise RuntimeError(why)
@@ -65,6 +80,17 @@ def rendered(glb: Path, place: Path, *, count: int = 24, pixels: int = 400, arc:
         rgb = np.ascontiguousarray(sheet[y : y + pixels, x : x + pixels])
         views.append(View(f"{k:03d}.png", camera_of(pose, pixels), rgb, np.ones((pixels, pixels), bool)))
     return Rendered(views, corner)
+
+
+def _printed(light: np.ndarray) -> np.ndarray:
+    """The light on the ground times a print: flecks of every size from two texels to a sixteenth of the page, by chance."""
+    chance, ink = np.random.default_rng(8), np.zeros((PRINT, PRINT), np.float32)
+    for cells in (32, 64, 128, 256, 512, 1024, 2048):
+        flecks = Image.fromarray(chance.uniform(-1, 1, (cells, cells)).astype(np.float32))
+        ink += np.asarray(flecks.resize((PRINT, PRINT), Image.Resampling.BICUBIC))
+    paper = 0.62 + 0.38 * np.tanh(1.2 * ink)
+    own = np.asarray(Image.fromarray(light[..., 0]).resize((PRINT, PRINT), Image.Resampling.BILINEAR), np.float32)
+    return np.repeat(np.round(own * paper).astype(np.uint8)[..., None], 3, axis=2)
 
 
 def camera_of(pose: Float[np.ndarray, " 10"], pixels: int) -> Camera:

@@ -86,5 +86,6 @@ def _told(found) -> dict:
         "placed": list(found.placed),
         "left_out": list(found.left_out),
         "error": None if found.error is None else round(float(found.error), 4),
+        "confirmed": None if found.confirmed is None else round(found.confirmed, 4),
         "seconds": {name: round(value, 3) for name, value in found.seconds.items()},
     }

@@ -36,6 +36,12 @@ class Gathered:
     size: float  # of a pixel at the median depth, world units
 
 
+def confirmed(levels: list[Level]) -> float:
+    """Share of the used pixels whose depth other photos confirm."""
+    sure = sum(int((level.used & (level.likely >= LEAST) & (level.agreeing >= AGREE)).sum()) for level in levels)
+    return sure / max(sum(int(level.used.sum()) for level in levels), 1)
+
+
 def gathered(levels: list[Level], agree: int = AGREE, least: float = LEAST, outlines: bool = True) -> Gathered:
     """The places of all depth maps that count; `outlines`: without those that photos look past. Raises ViewsError where none do."""
     columns, sizes = [], []

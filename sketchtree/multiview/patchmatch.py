@@ -17,6 +17,7 @@ from sketchtree.multiview.cost import SIDE, mean_of_best, patch_of, source_cost
 
 PRIOR = 0.15  # λ
 REACH = 0.01  # of the range: as far off the segment's plane as counts
+SAME = 2e-6  # of the range: a neighbour's plane that is no other, handed on before
 STEEPEST = 2.5  # tangent of a plane's slant
 NEIGHBOURS = np.array([(1, 0), (-1, 0), (0, 1), (0, -1), (5, 0), (-5, 0), (0, 5), (0, -5)])
 
@@ -60,6 +61,7 @@ def sweep(colour, first, last, grey, used, plane, energy, prior, low, high, foca
             total, mean, variance = patch_of(grey, x, y, step, weight, value)
             own = prior[y, x, 0]
             r0, a0, d0 = plane[y, x, 0], plane[y, x, 1], plane[y, x, 2]
+            same = SAME * (high - low)
             e0 = energy_of(x, y, r0, a0, d0, low, high, focal, own, transfers, others, sizes, step, best, weight, value, total, mean, variance, costs)
             for k in range(8 + 1 + 2 + fresh):
                 if k < 8:
@@ -68,6 +70,8 @@ def sweep(colour, first, last, grey, used, plane, energy, prior, low, high, foca
                         continue
                     a, d = plane[ny, nx, 1], plane[ny, nx, 2]
                     r = plane[ny, nx, 0] + a * (x - nx) + d * (y - ny)
+                    if abs(r - r0) < same and abs(a - a0) < 0.2 * same and abs(d - d0) < 0.2 * same:
+                        continue
                 elif k == 8:
                     if own <= 0.0:
                         continue

@@ -1,17 +1,19 @@
 """A folder of photos becomes a cloud; what can't be used is named."""
 
 import json
+from dataclasses import replace
 
 import numpy as np
 import pytest
 import written_poses
 from PIL import Image
 from ring import camera_at, distance_to_surface, painted_room, rendered
+from scipy.spatial.transform import Rotation
 
 from sketchtree.errors import OptionError, ViewsError
 from sketchtree.keys import root_key
 from sketchtree.multiview import sfm
-from sketchtree.multiview.photos_cloud import photos_cloud
+from sketchtree.multiview.photos_cloud import FEW, photos_cloud
 from sketchtree.watch import Watch
 
 CAMERAS = [camera_at(14.0 * k, size=(90, 90)) for k in range(4)]
@@ -39,12 +41,24 @@ def test_photos_and_poses_are_a_cloud_in_metres_with_y_up(scene):
     found = photos_cloud(scene[0], poses=scene[1], key=root_key(0), watch=watch, up=(0, 1, 0))
     assert found.metric and len(found.placed) == 4 and not found.left_out
     assert np.median(distance_to_surface(found.cloud.xyz + [0, 0.5, 0])) < 0.02  # the place looked at is the origin
+    assert found.confirmed > 0.45 and not found.notices
     assert list(found.seconds) == ["cameras", "photos", "patchmatch", "coherence", "filter", "fuse", "ground"]
 
 
 def test_a_height_makes_it_as_high(scene):
     found = photos_cloud(scene[0], poses=scene[1], key=root_key(0), height=7.0, up=(0, 1, 0))
     assert found.cloud.height == pytest.approx(7.0)
+
+
+def test_poses_that_are_off_are_doubted(scene, tmp_path):
+    turns = Rotation.from_rotvec(np.random.default_rng(0).normal(0, 0.1, (4, 3))).as_matrix()
+    off = [replace(camera, rotation=turn @ camera.rotation) for camera, turn in zip(CAMERAS, turns, strict=True)]
+    written_poses.transforms(tmp_path / "transforms.json", off)
+    found = photos_cloud(scene[0], poses=tmp_path / "transforms.json", key=root_key(0), up=(0, 1, 0))
+    assert found.confirmed < FEW and found.notices[0] == (
+        f"Only {found.confirmed:.0%} of the depths in the photos are confirmed by others: cameras may be wrong, or the plant moved. "
+        "Check that poses belong to these photos, and that there was no wind."
+    )
 
 
 def test_masks_are_carved(tmp_path):
