@@ -16,6 +16,7 @@ from sketchtree.clouds.cloud import PointCloud
 from sketchtree.clouds.files.placed import Placed
 from sketchtree.clouds.files.read_cloud import read_placed
 from sketchtree.clouds.growing.collapse import collapsed, kept
+from sketchtree.clouds.growing.ends import gone_on
 from sketchtree.clouds.growing.estimated import estimated
 from sketchtree.clouds.growing.figures import changes
 from sketchtree.clouds.growing.filled import filled
@@ -57,8 +58,11 @@ class CloudOptions:
     roots: int | None = None  # feet; None: as many as there are stems
     in_leaf: str = "auto"  # auto | yes | no: whether some of the points are leaves
     inside: bool | None = None  # branches inside a crown that was seen from outside only; None: where the points leave it out
+    pixel: float | None = None  # metres of the plant that a pixel of its photos is: what is thinner goes on beyond the points; None, 0: it ends with them
 
     def __post_init__(self):
+        if self.pixel is not None and not 0 <= self.pixel < 10:
+            raise OptionError(f"`--pixel {self.pixel:g}` is out of range.", remedy="Give metres of the plant that one pixel of its photos is, 0.005 say, or 0: then twigs end where the points end.")
         if self.method not in METHODS:
             raise OptionError(f"There is no method called {self.method!r}.", remedy=f"Choose one of: {', '.join(METHODS)}.")
         check_in_leaf(self.in_leaf)
@@ -202,6 +206,8 @@ def _whole(found: Found, prepared: Prepared, wanted: CloudOptions, key) -> tuple
     seen = len(tree)
     if found.leafy.in_leaf and found.grows is None:
         tree = bearing(tree, xyz, xyz[found.leafy.leaf], found.species, key=stage_key(key, "to leaves"))
+    elif wanted.pixel:
+        tree = gone_on(tree, wanted.pixel / 2, found.species.gamma)
     if wanted.inside is False or (wanted.inside is None and not unseen_inside(xyz)):
         return tree, seen
     return filled(tree, xyz, found.species, key=stage_key(key, "inside")), seen

@@ -11,7 +11,7 @@ from pathlib import Path
 
 from benchmarks.twenty_views.models import NAMES, Model, model
 from benchmarks.twenty_views.scored import scored
-from benchmarks.twenty_views.seen import seen
+from benchmarks.twenty_views.seen import pixel, seen
 from benchmarks.twenty_views.sheet import sheet
 from benchmarks.twenty_views.told import lines, table
 from benchmarks.twenty_views.ways import WAYS, made
@@ -46,7 +46,7 @@ def _rows(one: Model, asked) -> dict[str, dict[str, float]]:
     others = [scored(one, other, placed=False) for other in one.others]
     rows["another seed"] = max(others, key=lambda row: row["S_T"])
     for way in wanted:
-        trees[way], seconds = made(cloud, way)
+        trees[way], seconds = made(cloud, way, pixel(one, asked.pixels))
         rows[way] = scored(one, trees[way]) | {"seconds": seconds}
     kept.parent.mkdir(parents=True, exist_ok=True)
     kept.write_text(json.dumps(rows, indent=1))

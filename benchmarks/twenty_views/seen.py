@@ -40,10 +40,7 @@ def seen(model: Model, folder: Path, pixels: int) -> PointCloud:
 
 def pictures(model: Model, sheet: Path, pixels: int) -> list[View]:
     """The model from twenty sides, as high and as wide; all are drawn on one sheet."""
-    place = np.asarray(model.mesh.position, float)
-    reach, high = np.hypot(place[:, 0], place[:, 2]).max(), place[:, 1].max()
-    turn = np.arange(48) * np.pi / 24
-    around = np.concatenate([np.stack([reach * np.cos(turn), np.full(48, level), reach * np.sin(turn)], axis=1) for level in (0.0, high)])  # from every side the same
+    around = _around(model)
     angles = [(360.0 * k / VIEWS, (LOW, HIGH)[k % 2]) for k in range(VIEWS)]
     if not sheet.exists():
         drawn, why = draw_in_child(request_of([model.mesh], angles, (pixels, pixels), around=around, ground=True, supersample=2), sheet, 3000.0)
@@ -55,6 +52,21 @@ def pictures(model: Model, sheet: Path, pixels: int) -> list[View]:
         y, x = pixels * (k // columns), pixels * (k % columns)
         views.append(View(f"{k:03d}.png", camera_of(pose, pixels), np.ascontiguousarray(whole[y : y + pixels, x : x + pixels]), np.ones((pixels, pixels), bool)))
     return views
+
+
+def pixel(model: Model, pixels: int) -> float:
+    """How much of the model a pixel is, at its middle, metres."""
+    around = _around(model)
+    camera = camera_of(frame_camera(around, 0.0, LOW, 1.0), pixels)
+    return float(camera.project(around.mean(axis=0)[None])[1][0] / camera.matrix[0, 0])
+
+
+def _around(model: Model) -> np.ndarray:
+    """What has to be in every picture: places on a cylinder, from every side the same."""
+    place = np.asarray(model.mesh.position, float)
+    reach, high = np.hypot(place[:, 0], place[:, 2]).max(), place[:, 1].max()
+    turn = np.arange(48) * np.pi / 24
+    return np.concatenate([np.stack([reach * np.cos(turn), np.full(48, level), reach * np.sin(turn)], axis=1) for level in (0.0, high)])
 
 
 def cloud_of(views: list[View], pixels: int) -> tuple[PointCloud, list[Level]]:

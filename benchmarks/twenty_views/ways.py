@@ -1,4 +1,4 @@
-"""Which trees are made of a cloud? Ours, traced and grown, as `sketchtree cloud` makes them, and plain space colonisation on the same points, feet and stems.
+"""Which trees are made of a cloud? Ours, traced and grown, as `sketchtree views` makes them, and plain space colonisation on the same points, feet and stems.
 
 Plain: points all alike, a constant influence distance of 5 or 10 internodes (Guo et al. 2018, Figures 5-6), nothing of ours; the better of the two counts.
 """
@@ -26,11 +26,11 @@ INTERNODES = dict(zip(PLAIN, (5.0, 10.0), strict=True))
 WAYS = (*OURS, *PLAIN)
 
 
-def made(cloud: PointCloud, way: str) -> tuple[TreeSkeleton, float]:
-    """(the tree of one way where the cloud is, CPU seconds)."""
+def made(cloud: PointCloud, way: str, pixel: float) -> tuple[TreeSkeleton, float]:
+    """(the tree of one way where the cloud is, CPU seconds). `pixel`: of the pictures, metres of the plant."""
     began = time.process_time()
     if way in OURS:
-        found = cloud_to_tree(cloud, key=root_key(0), wanted=CloudOptions(up="y", method=way), tree=TreeOptions(leaf="none"))
+        found = cloud_to_tree(cloud, key=root_key(0), wanted=CloudOptions(up="y", method=way, pixel=pixel), tree=TreeOptions(leaf="none"))
         tree, placement = found.skeleton, found.prepared.placement
     else:
         tree, placement = _plain(cloud, INTERNODES[way])

@@ -1,0 +1,59 @@
+"""How far does wood go on where photos no longer show it? (ours)
+
+A twig that is thinner than a pixel leaves no points, so every limb that was found ends where it became so thin. By Eq. 5 of Guo et al. 2018, d = d_root (l / l_root)^γ, wood of the
+radius r that just shows bears
+
+    l = l_root (r / r_root)^(1/γ)
+
+metres more, and l_root is longer by the same at every end. A limb goes on by so much, the way it went, and tapers; what shows is no thinner than that. One that ends thick was broken
+or cut: it ends there.
+"""
+
+import numpy as np
+
+from sketchtree.axes import NULL
+from sketchtree.skeleton import Kind, TreeSkeleton
+from sketchtree.traverse import is_tip
+
+_BROKEN = 4.0  # times the radius that just shows: thicker ends are ends (thin wood comes out too thick)
+_MOST = 0.5  # of l_root, that all ends may have together
+_TIP = 1 / 3  # radius at the new end over that which just shows
+
+
+def gone_on(tree: TreeSkeleton, shows: float, gamma: float) -> TreeSkeleton:
+    """The tree whose ends go on; the new rows are the last, kind GROWN. `shows`: radius of the thinnest wood that shows, metres."""
+    ends = np.flatnonzero(is_tip(tree.parent) & (tree.parent != NULL) & (tree.radius <= _BROKEN * shows))
+    far = _length(tree, ends, shows, gamma)
+    way = np.array([_course(tree, row, length) for row, length in zip(ends, far, strict=True)]).reshape(-1, 3)
+    kept = far > 0
+    ends, far, way = ends[kept], far[kept], way[kept]
+    if not len(ends):
+        return tree
+    more = {"parent": ends, "tip": tree.tip[ends] + far[:, None] * way, "radius": np.full(len(ends), _TIP * shows)}
+    more |= {name: getattr(tree, name)[ends] for name in ("limb", "order", "tree")} | {"kind": np.full(len(ends), int(Kind.GROWN))}
+    return tree.replace(radius=np.maximum(tree.radius, shows)).append(more)
+
+
+def _length(tree: TreeSkeleton, ends, shows: float, gamma: float):
+    """Metres that each end goes on."""
+    base = np.flatnonzero(tree.parent == NULL)
+    at = {tree.tree[row]: row for row in base[::-1]}
+    long, count = np.bincount(tree.tree, tree.length), np.bincount(tree.tree[ends], minlength=tree.tree.max() + 1)
+    far = np.zeros(len(ends))
+    for name, row in at.items():
+        share = min((shows / tree.radius[row]) ** (1.0 / gamma), _MOST / max(count[name], 1))  # l / l_root
+        far[tree.tree[ends] == name] = share * long[name] / (1.0 - share * count[name])
+    return far
+
+
+def _course(tree: TreeSkeleton, row: int, length: float):
+    """Which way a limb goes at its end: from so many metres before it, on the same limb."""
+    end, back, at = tree.tip[row], 0.0, row
+    while tree.parent[at] != NULL and tree.limb[tree.parent[at]] == tree.limb[row] and back < length:
+        back += tree.length[at]
+        at = tree.parent[at]
+    if at == row:
+        at = tree.parent[row]
+    chord = end - tree.tip[at]
+    size = np.linalg.norm(chord)
+    return chord / size if size > 0 else tree.vector[row] / max(tree.length[row], 1e-12)
