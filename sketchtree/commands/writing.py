@@ -181,7 +181,8 @@ def conclude(record: dict, output: Path, progress) -> None:
 def summary(record: dict, output: Path) -> str:
     """One line for the user: what was written, from what, in how long."""
     drawn, total = record["segments"]["drawn"], record["segments"]["total"]
-    parts = [f"{output}: {drawn} drawn segments"]
+    seen = "segments that were seen" if "cloud" in record else "drawn segments"
+    parts = [f"{output}: {drawn} {seen}"]
     if record["triangles"]:
         parts.append(f"{total} in all, {record['leaves']} leaves, {sum(record['triangles'].values())} triangles")
     trees = record.get("trees")

@@ -2,7 +2,7 @@
 
 The plan is cut into cells; the lowest point of each is ground, if it lies on a plane that few points are below. The rule, in full:
 
-    plane      of all planes through three lowest points, no steeper than 35°, the one that most lowest points lie on (within 1.5 % of the height), less those below it
+    plane      of all planes through three lowest points, no steeper than 35°, the one that most lowest points lie on (within 1.5 % of the height, or of a twentieth of the width), less those below it
     there is   ground if half the cells or more lie on it and no more than 1 % of the points are below: the underside of a crown is no plane, and has a trunk below
     surface    in each cell the median of the points that are near the plane; where there are none, that of the nearest cell
     removed    is what is lower than 3 (robust) standard deviations of those points above the surface: as little of the trunk's foot as can be
@@ -18,6 +18,7 @@ _CELLS = 30  # along the wider side of the plan
 _NEAR = 0.015  # of the height
 _STEEPEST = np.tan(np.radians(35.0))
 _TRIPLES = 400
+_FLAT = 0.05  # of the width: a cloud that is lower may be nothing but ground
 _LEAST, _BELOW = 0.5, 0.01  # share of the cells on the plane, of the points below it
 _FEWEST = 30  # cells: fewer make no plane
 _SPREADS = 3.0
@@ -44,9 +45,9 @@ def ground(xyz: Float[np.ndarray, "point 3"]) -> Ground | None:
     lowest = xyz[order[np.r_[True, np.diff(cell[order]) > 0]]]
     if len(lowest) < _FEWEST:
         return None
-    near = _NEAR * height
+    near = _NEAR * max(height, _FLAT * float(plan.max()))
     plane = _plane(lowest, near)
-    if plane is None:
+    if plane is None or np.hypot(plane[0], plane[1]) > _STEEPEST:
         return None
     off = xyz[:, 1] - _on(plane, xyz)
     share = float((np.abs(lowest[:, 1] - _on(plane, lowest)) <= near).mean())

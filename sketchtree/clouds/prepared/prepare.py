@@ -23,7 +23,7 @@ from sketchtree.errors import SketchError
 
 POINTS = 300_000
 _FEWEST = 100  # points that may be a tree
-_FLAT = 0.001  # of the width: what is no higher lies
+_FLAT = 0.005  # of the width: what is no higher lies
 _TALLEST, _LOWEST = 150.0, 0.05  # metres: a tree that isn't between them has other units
 
 
@@ -64,7 +64,7 @@ def prepare(given: Placed | PointCloud, *, up: Literal["auto", "y", "z"] = "auto
         cloud, above = cloud.select(rows), above[rows]
     lost = outliers(cloud.xyz)
     if lost.any():
-        remarks.append(f"{lost.sum():,} points belong to nothing; they were left out.")
+        remarks.append(_said(int(lost.sum()), "point belongs to nothing; it was left out.", "points belong to nothing; they were left out."))
         cloud, above = cloud.select(~lost), above[~lost]
     _check(len(cloud))
     _check_height(cloud)
@@ -77,7 +77,7 @@ def prepare(given: Placed | PointCloud, *, up: Literal["auto", "y", "z"] = "auto
 def _single(cloud: PointCloud, remarks: list[str]) -> PointCloud:
     rows = single_rows(cloud.xyz)
     if len(rows) < len(cloud):
-        remarks.append(f"{len(cloud) - len(rows):,} points were there twice; they were merged.")
+        remarks.append(_said(len(cloud) - len(rows), "point was there twice; both were merged.", "points were there twice; they were merged."))
     return cloud if len(rows) == len(cloud) else cloud.select(rows)
 
 
@@ -114,7 +114,11 @@ def _in_file(placement: Placement, x: float, z: float) -> str:
 
 def _left_out(found: Plants) -> list[str]:
     count = int((found.of_point == NULL).sum())
-    return [f"{count:,} points are of low plants, or of what lies on the ground; they were left out."] if count else []
+    return [_said(count, "point is of a low plant, or of what lies on the ground; it was left out.", "points are of low plants, or of what lies on the ground; they were left out.")] if count else []
+
+
+def _said(count: int, of_one: str, of_more: str) -> str:
+    return f"One {of_one}" if count == 1 else f"{count:,} {of_more}"
 
 
 def _foot(xyz, above):
@@ -128,4 +132,4 @@ def _foot(xyz, above):
 def _units(height: float) -> list[str]:
     if _LOWEST <= height <= _TALLEST:
         return []
-    return [f"The tree would be {height:.3g} m high: the cloud is probably not in metres."]
+    return [f"The tree would be {f'{height:,.0f}' if height > 1 else f'{height:.2g}'} m high: the cloud is probably not in metres (`--unit 0.001` for millimetres, 0.3048 for feet)."]

@@ -215,7 +215,7 @@ def test_columns_go_along_with_their_points():
 def test_a_cloud_that_is_not_in_metres_is_told():
     found = prepare(PointCloud(TREE * 100))
     assert found.remarks[-1].startswith("The tree would be ")
-    assert found.remarks[-1].endswith(" m high: the cloud is probably not in metres.")
+    assert found.remarks[-1].endswith(" m high: the cloud is probably not in metres (`--unit 0.001` for millimetres, 0.3048 for feet).")
 
 
 def test_too_few_points_are_named():
@@ -228,6 +228,14 @@ def test_ground_alone_is_no_tree():
     with pytest.raises(SketchError) as error:
         prepare(PointCloud(tree() * [1.0, 0.0, 1.0]), up="y")
     assert str(error.value) == "None of the points of the cloud may be a tree. Give a cloud with more points, or one with a tree in it."
+
+
+def test_uneven_ground_alone_is_no_tree_whichever_axis_is_up():
+    chance = np.random.default_rng(0)
+    level = np.c_[chance.uniform(-3, 3, 4000), chance.normal(0, 0.005, 4000), chance.uniform(-3, 3, 4000)]
+    for xyz in (level, level[:, [0, 2, 1]]):
+        with pytest.raises(SketchError, match=r"^The points lie 6 m wide and 0\.01\d m high: nothing stands there\."):
+            prepare(PointCloud(xyz))
 
 
 def test_points_that_all_lie_at_one_height_are_no_tree():
