@@ -14,19 +14,23 @@ from jaxtyping import Array, Float, Key
 from sketchtree.cloud_tree import CloudTree, cloud_to_tree
 from sketchtree.clouds.cloud import PointCloud
 from sketchtree.clouds.files.placed import Placement
-from sketchtree.clouds.prepared.prepare import Prepared
+from sketchtree.clouds.files.read_cloud import read_placed
+from sketchtree.clouds.prepared.prepare import Prepared, prepare
 from sketchtree.editing.laid_cloud import LaidCloud
+from sketchtree.editing.laid_cloud import laid as laid_behind
 from sketchtree.editing.project import laid_cloud
 from sketchtree.editing.settled import MEASURED, Depths, Settled, course_of
 from sketchtree.limb_ids import stroke_limb_id
-from sketchtree.options import ReadingOptions, TreeOptions
+from sketchtree.options import DrawingOptions, ReadingOptions, TreeOptions
 from sketchtree.sketch.files.project import column, holds_traced
+from sketchtree.sketch.formats import read_sketch
 from sketchtree.sketch.strokes import Stroke
 from sketchtree.skeleton import TreeSkeleton
 from sketchtree.templates.store.database import Database
 from sketchtree.watch import Watch
 
 _LIMBS = 60  # that become strokes, at most
+_SHORT = 0.04  # of the height: shorter limbs become none
 _NONE = ("auto", "none")  # templates that name no leaves
 _LEAST = 1e-3  # of the height: points of a stroke are no nearer to one another
 
@@ -59,7 +63,13 @@ def tree_of(wanted: Laid, templates: Database | None, *, key: Key[Array, ""], wa
     return cloud_to_tree(prepared, templates, key=key, tree=wanted.tree, template=template, watch=watch)
 
 
-def read_laid(path: str | Path, reading: ReadingOptions = ReadingOptions()) -> Laid | None:
+def read_behind(points: str | Path, sketch: str | Path, tree: int | None = None, limits: DrawingOptions = DrawingOptions()) -> LaidCloud:
+    """The points of a file behind the drawing of another: their foot at its foot, and as high. `tree`: which of several, 1 the largest. Raises SketchError, OptionError."""
+    cloud = prepare(read_placed(points), tree=tree)
+    return laid_behind(cloud, read_sketch(sketch, max_strokes=limits.max_strokes, max_mb=limits.max_mb, max_megapixels=limits.max_megapixels).strokes)
+
+
+def read_laid(path: str | Path, reading: ReadingOptions = ReadingOptions(), tree: TreeOptions = TreeOptions()) -> Laid | None:
     """The points of a project whose tree is traced in them; None for any other file. `reading` says otherwise than the project where it says anything. Raises SketchError."""
     if not holds_traced(path):
         return None
@@ -68,11 +78,12 @@ def read_laid(path: str | Path, reading: ReadingOptions = ReadingOptions()) -> L
     with h5py.File(path, "r") as file:
         said = json.loads(column(file, "options").tobytes())
     template = said.get("template", "auto") if reading.template == "auto" else reading.template
-    return Laid(laid_cloud(path), replace(reading, template=template, height=reading.height or said.get("height")))
+    return Laid(laid_cloud(path), replace(reading, template=template, height=reading.height or said.get("height")), tree)
 
 
-def as_strokes(tree: TreeSkeleton, laid: Laid) -> tuple[dict[str, Stroke], Settled]:
-    """(its stoutest limbs as strokes by name, the trunk first; where their depths lie)."""
+def as_strokes(found: CloudTree, laid: Laid) -> tuple[dict[str, Stroke], Settled]:
+    """(the stoutest of the limbs that were seen, as strokes by name, the trunk first; where their depths lie)."""
+    tree = found.skeleton.select(np.arange(len(found.skeleton)) < found.seen)
     strokes, settled, name_of = {}, {}, {}
     for number, (limb, rows) in enumerate(_stoutest(tree)):
         line, radius = _course(tree, rows, laid)
@@ -90,10 +101,12 @@ def _stoutest(tree: TreeSkeleton) -> list[tuple[int, np.ndarray]]:
     """(id, rows) of the limbs with most wood, each after the one it grows on."""
     rows = np.flatnonzero(~tree.is_base)
     ids, first, of = np.unique(tree.limb[rows], return_index=True, return_inverse=True)
-    wood = np.bincount(of, tree.length[rows] * tree.radius[rows] ** 2)
+    wood, long = (np.bincount(of, tree.length[rows] * weight) for weight in (tree.radius[rows] ** 2, 1.0))
     above = [int(tree.limb[tree.parent[rows[k]]]) if not tree.is_base[tree.parent[rows[k]]] else None for k in first]
     number, kept = {int(name): k for k, name in enumerate(ids)}, set()
     for k in np.argsort(-wood, kind="stable"):
+        if long[k] < _SHORT * tree.height and kept:
+            continue
         way = [int(k)]
         while (on := above[way[-1]]) is not None:
             way.append(number[on])

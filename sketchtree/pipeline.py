@@ -15,6 +15,7 @@ from sketchtree.choose import bark_model, leaf_model
 from sketchtree.drawn_tree import DrawnTree, draw_out
 from sketchtree.dressing import Dress
 from sketchtree.editing.clearing import cleared
+from sketchtree.editing.laid_cloud import LaidCloud
 from sketchtree.foliage.blossom import blossom
 from sketchtree.foliage.cards import leaf_mesh
 from sketchtree.foliage.leaves import Leaves
@@ -64,14 +65,15 @@ def sketch_to_tree(
     key: Key[Array, ""],
     reading: ReadingOptions = ReadingOptions(),
     tree: TreeOptions = TreeOptions(),
+    cloud: LaidCloud | None = None,
     watch: Watch | None = None,
 ) -> TreeModel:
-    """Every stage in order (Chen et al. 2008, Figure 2). `sketch` may be a path to a file."""
+    """Every stage in order (Chen et al. 2008, Figure 2). `sketch` may be a path to a file; `cloud`: points that it was drawn over, if not those of its project."""
     watch = watch or Watch()
     leaf_model(tree.leaf, Habit(), templates), bark_model(tree.bark, Habit())  # refuse a wrong name before the work
     Prune(tree.prune), check_wood(tree.wood, tree.solid)  # and a mesh that can't be used, and what isn't installed
     obstacles = read_obstacles(tree)
-    drawn = draw_out(sketch, templates, key=key, options=reading, watch=watch)
+    drawn = draw_out(sketch, templates, key=key, options=reading, cloud=cloud, watch=watch)
     return complete(drawn, templates, key=key, options=tree, obstacles=obstacles, watch=watch)
 
 

@@ -38,13 +38,13 @@ def _built(order: TreeOrder) -> dict:
     """The report of a tree that has been written."""
     began = time.perf_counter()
     from sketchtree import pipeline
-    from sketchtree.commands import scribbled, writing
+    from sketchtree.commands import made_anew, writing
     from sketchtree.keys import root_key
     from sketchtree.templates.store.database import Database
     from sketchtree.watch import Watch
 
     manner, watch = order.manner, Watch()
-    scribbled.refuse((order.at(order.sketch),), "batch", "`sketchtree build {name} -o TREE.glb` makes its tree.")
+    made_anew.refuse((order.at(order.sketch),), "batch")
     run = writing.Run("batch", manner.seed, time.perf_counter() - began, began, watch, options_as_dict(manner.reading, manner.tree, manner.files))
     templates = None if manner.db is None and manner.reading.template == "none" else Database.open(manner.db and order.at(manner.db))
     tree = _found_from_anywhere(manner.tree, order)

@@ -33,14 +33,14 @@ def convert(source: Path, target: Path, seed: int, quiet: bool, json_log: bool, 
     imported = time.perf_counter() - began
     progress = Progress(("read", "mesh", "export"), quiet=quiet, json_log=json_log)
     from sketchtree.export.read import read_contents
-    from sketchtree.sketch.files.project import holds_scribbles
+    from sketchtree.commands import made_anew
     from sketchtree.watch import Watch
 
     watch = Watch(progress, progress.part)
     with progress.running():
-        made = holds_scribbles(source)
+        made = made_anew.is_made_anew(source)
         with watch("read"):
-            contents, told, seed = _of_scribbles(source, seed, db, wanted) if made else (read_contents(source), (), seed)
+            contents, told, seed = _made_anew(source, seed, db, wanted) if made else (read_contents(source), (), seed)
         bare = contents.asset is None
         if target.suffix.lower() in SKELETONS:
             _refuse_dress(wanted, target, "a skeleton wears nothing")
@@ -63,16 +63,16 @@ def convert(source: Path, target: Path, seed: int, quiet: bool, json_log: bool, 
     progress.say(f"{target}: {said}, {seconds['total']:.1f} s", event="done")
 
 
-def _of_scribbles(source: Path, seed: int, db: Path | None, wanted: dict):
-    """(what a project of scribbles is made into, what a person should know of that, the seed in use)."""
-    from sketchtree.commands import scribbled
+def _made_anew(source: Path, seed: int, db: Path | None, wanted: dict):
+    """(what a project that keeps no tree is made into, what a person should know of that, the seed in use)."""
+    from sketchtree.commands import made_anew
     from sketchtree.export.read import Contents
     from sketchtree.options import TreeOptions
     from sketchtree.tree_output import Made, asset_of
 
     chosen = click.get_current_context().get_parameter_source("seed") is not ParameterSource.DEFAULT
     tree = TreeOptions(leaf=wanted["leaf"], bark=wanted["bark"], season=wanted["season"] or "summer")
-    grown, seed = scribbled.grown(source, db, seed=seed, seed_chosen=chosen, season_chosen=wanted["season"] is not None, tree=tree)
+    grown, seed = made_anew.grown(source, db, seed=seed, seed_chosen=chosen, season_chosen=wanted["season"] is not None, tree=tree)
     asset = asset_of(grown.model, Made(seed))
     return Contents(asset, asset.skeleton, {"units": "metres", "frame": "world", "seed": seed}), grown.warnings, seed
 

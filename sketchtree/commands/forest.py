@@ -20,7 +20,7 @@ from sketchtree.commands.progress import Progress
 def forest(sketches: tuple[Path, ...], output: Path, spacing: float | None, seed: int, quiet: bool, json_log: bool, report, db, **wanted) -> None:
     """Turn every SKETCH into a tree, in a row, all competing for space and light. The same one again is another tree."""
     began = time.perf_counter()
-    from sketchtree.commands import scribbled, writing
+    from sketchtree.commands import made_anew, writing
     from sketchtree.planting import check_stand
 
     check_stand(len(sketches), spacing)
@@ -28,7 +28,7 @@ def forest(sketches: tuple[Path, ...], output: Path, spacing: float | None, seed
 
     (files,) = writing.split_options(wanted, choices.FileOptions)
     writing.check_outputs(sketches, output, report, wanted["skeleton"], wanted["preview"], files=files)
-    scribbled.refuse(sketches, "forest", "`sketchtree build {name} -o TREE.glb` makes its tree.")
+    made_anew.refuse(sketches, "forest")
     writing.check_files(output, files)
     from sketchtree import pipeline
     from sketchtree.forest import sketches_to_forest

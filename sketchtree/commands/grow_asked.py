@@ -10,7 +10,7 @@ from sketchtree.animation.wanted import LEAST_JOINTS, LIMIT_JOINTS
 from sketchtree.commands.series import check_series
 from sketchtree.errors import ExportError, OptionError
 from sketchtree.export.files import MESHES, PROJECTS, SKELETONS
-from sketchtree.sketch.files.project import holds_scribbles
+from sketchtree.sketch.files.project import holds_scribbles, holds_traced
 
 ANIMATED = (".glb", ".gltf", ".usd", ".usda", ".usdc", ".usdz")
 PICTURES = (".png", ".jpg", ".jpeg", ".tif", ".tiff", ".webp", ".bmp", ".gif", ".heic", ".avif")
@@ -18,8 +18,8 @@ ROWS = (".swc", ".mtg", ".h5", ".npz", ".csv", ".txt")
 _OF_PICTURE = ("scribbles", "use_matte", "matting", "edit_matte", "vertices", "gap", "root", "lift", "matte", "trunk")
 _OF_DRAWING = ("theta", "method", "planar", "crown", "max_strokes", "generations", "fill", "density", "light", "obstacle", "sag", "shed", "shed_twigs", "untangle")
 _OF_FILE = ("max_mb", "max_megapixels")
-_UNUSED = {"scribbled": (*_OF_PICTURE[:-2], *_OF_DRAWING), "picture": _OF_DRAWING, "drawing": _OF_PICTURE, "skeleton": (*_OF_PICTURE, *_OF_DRAWING, *_OF_FILE)}
-_IS = {"scribbled": "keeps a photo with what is scribbled on it", "picture": "is a picture with a tree in it", "drawing": "is a drawing", "skeleton": "holds a tree already"}
+_UNUSED = {"traced": (*_OF_PICTURE, *_OF_DRAWING, *_OF_FILE), "scribbled": (*_OF_PICTURE[:-2], *_OF_DRAWING), "picture": _OF_DRAWING, "drawing": _OF_PICTURE, "skeleton": (*_OF_PICTURE, *_OF_DRAWING, *_OF_FILE)}
+_IS = {"traced": "keeps points with a tree in them", "scribbled": "keeps a photo with what is scribbled on it", "picture": "is a picture with a tree in it", "drawing": "is a drawing", "skeleton": "holds a tree already"}
 
 
 def given(context: click.Context) -> set[str]:
@@ -28,10 +28,12 @@ def given(context: click.Context) -> set[str]:
 
 
 def kind_of(source: Path, wanted: dict) -> str:
-    """picture, drawing or skeleton: by the extension, of JSON by what it says; scribbled: a project whose tree is taken from scribbles on its photo. Raises SketchError, ExportError."""
+    """picture, drawing or skeleton: by the extension, of JSON by what it says; scribbled, traced: a project whose tree is taken from scribbles on its photo, or from points. Raises SketchError, ExportError."""
     suffix = source.suffix.lower()
     if suffix in PROJECTS and holds_scribbles(source):
         return "scribbled"
+    if suffix in PROJECTS and holds_traced(source):
+        return "traced"
     if suffix in PICTURES:
         return "picture"
     if suffix in (*ROWS, *PROJECTS, *ANIMATED):

@@ -6,6 +6,7 @@ from pathlib import Path
 import click
 from click.core import ParameterSource
 
+from sketchtree.commands.own_looks import with_own_looks
 from sketchtree.errors import ExportError, SketchError
 from sketchtree.export.files import PROJECTS
 
@@ -17,10 +18,10 @@ def read(kind: str, source: Path, wanted: dict, templates, *, seed: int, seed_ch
 
     if kind == "picture":
         return _of_picture(source, wanted, templates, key=root_key(seed), reading=reading, tree=tree, trunk=trunk, watch=watch), seed
-    if kind == "scribbled":
-        from sketchtree.commands.scribbled import begun
+    if kind in ("scribbled", "traced"):
+        from sketchtree.commands import scribbled, traced
 
-        return begun(source, templates, seed=seed, seed_chosen=seed_chosen, season_chosen=_season_chosen(), reading=reading, tree=tree, watch=watch)
+        return {"scribbled": scribbled, "traced": traced}[kind].begun(source, templates, seed=seed, seed_chosen=seed_chosen, season_chosen=_season_chosen(), reading=reading, tree=tree, watch=watch)
     if kind == "drawing":
         return of_drawing(source, templates, key=root_key(seed), reading=reading, tree=tree, watch=watch), seed
     with watch("read"):
@@ -60,10 +61,7 @@ def _of_skeleton(source: Path, wanted: dict, templates, *, seed: int, seed_chose
         from sketchtree.errors import TemplateError
 
         raise TemplateError(f"There is no template called “{template}”.", remedy=f"Choose auto, none or one of: {', '.join(templates.names if templates else ())}.")
-    own = {name: told[name] for name in ("leaf", "bark", "wood") if getattr(tree, name) is None and told.get(name) is not None}
-    own |= {"season": told["season"]} if not _season_chosen() and told.get("season") else {}
-    own |= {"solid": True} if told.get("solid") and not tree.solid else {}
-    begun = of_skeleton(skeleton, dataclasses.replace(tree, **own), templates, key=root_key(seed), template=template or None, height=reading.height)
+    begun = of_skeleton(skeleton, with_own_looks(tree, told, season_chosen=_season_chosen()), templates, key=root_key(seed), template=template or None, height=reading.height)
     return dataclasses.replace(begun, warnings=(*units, *begun.warnings)), seed
 
 

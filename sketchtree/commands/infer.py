@@ -21,11 +21,11 @@ from sketchtree.commands.progress import Progress
 def infer(sketch: Path, output: Path, frame: str, seed: int, quiet: bool, json_log: bool, report: Path | None, db: Path | None, posterior: Path | None, **wanted) -> None:
     """Infer the depths of the strokes in SKETCH and write the drawn branches as a skeleton."""
     began = time.perf_counter()
-    from sketchtree.commands import scribbled, writing
+    from sketchtree.commands import made_anew, writing
 
     others = writing.other_readings(output, wanted["alternatives"])
     writing.check_outputs(sketch, output, report, posterior=posterior, others=others, kinds=writing.SKELETONS)
-    scribbled.refuse((sketch,), "infer", "`sketchtree grow {name} -o TRUNK.swc --levels 0` writes its trunk in 3D.")
+    made_anew.refuse((sketch,), "infer", "`sketchtree grow {name} -o TRUNK.swc --levels 0` writes its trunk in 3D.")
     from sketchtree import options as choices
     from sketchtree import pipeline
     from sketchtree.editing.settled import Settled

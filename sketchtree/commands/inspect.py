@@ -19,10 +19,10 @@ KINDS = (".png", ".svg")
 def inspect(sketch: Path, output: Path, seed: int, quiet: bool, json_log: bool, report: Path | None, db: Path | None, **wanted) -> None:
     """Show how SKETCH is read: strokes, junctions, root, crown and doubts in colours. Nothing is inferred."""
     began = time.perf_counter()
-    from sketchtree.commands import scribbled, writing
+    from sketchtree.commands import made_anew, writing
 
     writing.check_outputs(sketch, output, report, kinds=KINDS)
-    scribbled.refuse((sketch,), "inspect", "`sketchtree grow {name} -o TREE.glb --matte MATTE.png --trunk TRUNK.swc` writes what is found in it.")
+    made_anew.refuse((sketch,), "inspect", "`sketchtree grow {name} -o TREE.glb --matte MATTE.png --trunk TRUNK.swc` writes what is found in it.")
     from sketchtree import options as choices
     from sketchtree.overlay.legend import counts
     from sketchtree.drawing import read_drawing

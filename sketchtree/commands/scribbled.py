@@ -3,15 +3,7 @@
 import dataclasses
 from pathlib import Path
 
-from sketchtree.errors import OptionError
-from sketchtree.sketch.files.project import holds_scribbles
-
-
-def refuse(sketches: tuple[Path, ...], command: str, remedy: str) -> None:
-    """Refuse such projects, of commands that read drawings alone; `{name}` in the remedy is the project's. Raises OptionError."""
-    for path in sketches:
-        if holds_scribbles(path):
-            raise OptionError(f"The tree of {path.name} is taken from scribbles on its photo, and `{command}` reads drawings.", remedy=remedy.format(name=path.name))
+from sketchtree.commands.own_looks import with_own_looks
 
 
 def begun(source: Path, templates, *, seed: int, seed_chosen: bool, season_chosen: bool, reading, tree, watch=None):
@@ -25,13 +17,10 @@ def begun(source: Path, templates, *, seed: int, seed_chosen: bool, season_chose
     with watch("read"):
         wanted, told = read_scribbled(source, reading), read_choices(source)
     seed = seed if seed_chosen else told["seed"]
-    own = {name: told[name] for name in ("leaf", "bark", "wood") if getattr(tree, name) is None and told.get(name) is not None}
-    own |= {"season": told["season"]} if not season_chosen and told.get("season") else {}
-    own |= {"solid": True} if told.get("solid") and not tree.solid else {}
     said = wanted.reading
     reading = dataclasses.replace(reading, template=said.template if reading.template == "auto" else reading.template, height=reading.height or said.height)
     templates = None if reading.template == "none" else templates
-    found = beginning_of(wanted, templates, key=root_key(seed), reading=reading, tree=dataclasses.replace(tree, **own), watch=watch)
+    found = beginning_of(wanted, templates, key=root_key(seed), reading=reading, tree=with_own_looks(tree, told, season_chosen=season_chosen), watch=watch)
     return dataclasses.replace(found, levels=wanted.choices.levels), seed
 
 

@@ -21,7 +21,7 @@ from sketchtree.commands.progress import Progress
 @click.option("--level", type=click.IntRange(0), default=0, show_default=True, help="Level of detail to show, where the file holds several.")
 @options.common
 def view(tree: Path, screenshot: Path | None, turntable: Path | None, seed: int, quiet: bool, json_log: bool, report: Path | None, db: Path | None, **wanted) -> None:
-    """Show the tree in a file: a mesh (.glb .gltf .usd .obj .ply .stl) as it is, a skeleton (.swc .mtg .json .h5 .sketchtree) as bare wood, a project of scribbles as the tree that is made of them."""
+    """Show the tree in a file: a mesh (.glb .gltf .usd .obj .ply .stl) as it is, a skeleton (.swc .mtg .json .h5 .sketchtree) as bare wood, a project of scribbles, or of points that are traced, as the tree that is made of them."""
     began = time.perf_counter()
     _check(tree, screenshot, turntable, report, wanted)
     size = _size(wanted["size"], (1200, 900) if turntable is None else (640, 640))
@@ -73,15 +73,13 @@ def _meshes(tree: Path, level: int, seed: int, db: Path | None):
     """The meshes to show."""
     from sketchtree.errors import OptionError
     from sketchtree.export.read import read_contents
-    from sketchtree.sketch.files.project import holds_scribbles
+    from sketchtree.commands import made_anew
 
-    if holds_scribbles(tree):
-        from sketchtree.commands import scribbled
-
+    if made_anew.is_made_anew(tree):
         if level:
             raise OptionError(f"The tree of {tree} is made anew, in one level of detail, and there is none numbered {level}.", remedy="Leave `--level` out.")
         chosen = click.get_current_context().get_parameter_source("seed") is not ParameterSource.DEFAULT
-        return list(scribbled.grown(tree, db, seed=seed, seed_chosen=chosen)[0].model.meshes)
+        return list(made_anew.grown(tree, db, seed=seed, seed_chosen=chosen)[0].model.meshes)
     contents = read_contents(tree)
     if contents.asset is None:
         from sketchtree.dressing import Dress, dressed

@@ -8,6 +8,7 @@ import sketchtree as st
 from sketchtree.errors import InferenceError
 from sketchtree.mrf.assignment import page
 from sketchtree.mrf.depths import depth_of, elevation_of
+from sketchtree.mrf.factors.own import is_ours
 from sketchtree.mrf.factors.seen_depths import SecondView, SeenPoints
 
 TURNS = np.radians([40, 140, 60, 125, 50, 130])  # where laterals leave the trunk, seen from above
@@ -120,3 +121,12 @@ def test_what_tells_no_depth_is_refused(graph):
 def test_depths_and_elevations_are_each_others_inverse(graph):
     z = 0.1 * np.sin(np.arange(len(graph))) * ~graph.is_base
     assert depth_of(graph, elevation_of(graph, z)) == pytest.approx(z)
+
+
+def test_where_points_are_not_needed_strokes_away_from_them_are_left_to_the_prior(graph):
+    silent = SeenPoints(scan() + [50.0, 0, 0], needed=False)(graph)
+    assert not np.asarray(silent.log_potential(assignment(graph, true_depth(graph)), None)).any()
+
+
+def test_it_is_a_factor_of_ours_whose_program_may_be_kept():
+    assert is_ours(SeenPoints(scan())) and not is_ours(test_it_is_a_factor_of_ours_whose_program_may_be_kept)

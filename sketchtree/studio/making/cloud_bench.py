@@ -45,7 +45,7 @@ class CloudBench:
 
     def strokes(self, wish: CloudWish, watch: Watch) -> tuple[dict[str, Stroke], Settled]:
         """(its stoutest limbs as strokes on the page, where their depths lie)."""
-        return as_strokes(self._traced(wish, watch).skeleton, _laid(wish))
+        return as_strokes(self._traced(wish, watch), _laid(wish))
 
     def _traced(self, wish: CloudWish, watch: Watch) -> CloudTree:
         at = signature(wish.cloud.digest, wish.reading, wish.tree, wish.seed)

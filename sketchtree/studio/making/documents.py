@@ -14,8 +14,10 @@ from sketchtree.errors import SketchError, SketchTreeError
 from sketchtree.options import ReadingOptions, TreeOptions
 from sketchtree.photo.wanted import PhotoOptions
 from sketchtree.propagate.after.shears import plane
-from sketchtree.sketch.files.project import POINTS, SIGNATURE, TRUNK, column
+from sketchtree.sketch.files.project import POINTS, SIGNATURE, TRUNK, column, drawing_in_project, holds_cloud
+from sketchtree.sketch.files.sketch_json import read_sketch_json
 from sketchtree.sketch.formats import read_sketch
+from sketchtree.sketch.strokes import Sketch
 from sketchtree.studio.cloud_files import is_cloud
 from sketchtree.trunk.wanted import TrunkChoices
 
@@ -31,7 +33,8 @@ def document_of(data: bytes, name: str, tree: int | None = None) -> Document:
         path = Path(folder) / (Path(name).name or "drawing")
         path.write_bytes(data)
         try:
-            sketch = read_sketch(path)
+            drawn = _over_points(data, path)
+            sketch = read_sketch(path) if drawn is None else drawn
             by_hand = _by_hand(path) if data.startswith(SIGNATURE) else {}
         except SketchTreeError as error:
             raise type(error)(error.message.replace(f"{folder}/", ""), remedy=error.remedy) from error
@@ -43,6 +46,12 @@ def document_of(data: bytes, name: str, tree: int | None = None) -> Document:
         return _with_choices(document.replace(**by_hand), data, name)
     except (OSError, RuntimeError, ValueError, TypeError, KeyError, AttributeError, RecursionError) as error:
         raise SketchError(f"{name} is damaged ({error}).", remedy="Open an older copy of it.") from error
+
+
+def _over_points(data: bytes, path: Path) -> Sketch | None:
+    """The drawing of a project with points behind it, which may have no stroke yet; None of any other file."""
+    drawing = drawing_in_project(data, path.name) if holds_cloud(path) else None
+    return None if drawing is None else read_sketch_json(drawing, path.name)
 
 
 def _of_points(data: bytes, name: str, tree: int | None) -> Document:

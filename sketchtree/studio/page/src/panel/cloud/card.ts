@@ -13,7 +13,7 @@ export function cloudCard(store: Store): HTMLElement {
   const bar = element("progress", { aria: { label: "How far the tree is" }, testId: "cloud-progress" });
   bar.max = 1;
   const shown = toggle({ label: "Points", on: true, hint: "The points, on the page and beside the tree", testId: "cloud-shown", onSwitch: (on) => store.choosePoints({ shown: on }, on ? "show points" : "hide points") });
-  const trace = button({ label: "Trace it", icon: "play", testId: "cloud-trace", hint: "The tree that stands in the points, traced", onPress: () => store.choosePoints({ traced: true }, "trace points") });
+  const trace = button({ label: "Trace it", icon: "play", testId: "cloud-trace", hint: "The tree that stands in the points, traced", onPress: () => (store.known.points?.traced ? store.send({ type: "grow", on: true }) : store.choosePoints({ traced: true }, "trace points")) });
   const stop = button({ label: "Stop", icon: "stop", testId: "cloud-stop", hint: "Stop; the drawing is as it was", onPress: () => store.choosePoints({ traced: false }, "strokes") });
   const use = button({ label: "Use its limbs", testId: "cloud-use", look: "primary", hint: "The stoutest limbs become strokes, to be edited one by one; their depths stay, the rest grows", onPress: () => store.send({ type: "usetraced" }) });
   const back = button({ label: "My strokes", testId: "cloud-back", hint: "Back to the tree of your strokes", onPress: () => store.choosePoints({ traced: false }, "strokes") });
@@ -31,7 +31,7 @@ export function cloudCard(store: Store): HTMLElement {
     bar.hidden = !works;
     bar.value = growing?.done ?? 0;
     shown.set(points?.shown ?? true);
-    trace.hidden = traced;
+    trace.hidden = traced && (works || ready);
     stop.hidden = !works;
     use.hidden = !ready;
     back.hidden = !traced || works || (ready && strokes.size === 0);
