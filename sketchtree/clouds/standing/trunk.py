@@ -1,5 +1,7 @@
 """How thick is a trunk, and how sure is that? Ours: by several slices across its axis, from the ground to a bit above breast height, that share one taper (`tapered`).
 
+Branches that hang round the stem are left out first: a trunk's points lie above one another, so it is where the projected density is high (`density`), and next to that.
+
 The lowest slices are left out, since roots flare there. The diameter at the root, d_root of Eq. 5, is what the taper comes to at the foot: the stem's own, without the flare. The error
 that is stated says how much the result would change without one slice or another (a jackknife), with the scatter of the points: not what a scan can't tell, such as a trunk that
 isn't round behind. `cross_section` is the paper's way, by one slice at the root.
@@ -9,13 +11,16 @@ from dataclasses import dataclass, replace
 
 import numpy as np
 from jaxtyping import Float
+from scipy.ndimage import binary_dilation, label
 
 from sketchtree.clouds.standing.cross_section import CrossSection, across, cross_section, plane_points
+from sketchtree.clouds.standing.density import HIGHER, density
 from sketchtree.clouds.standing.tapered import Tapered, tapered
 
 _MOST, _FEWEST, _PER = 10, 3, 12  # slices, and points of each
 _FLARE = 0.25  # of the stem's length: what is lower isn't looked at
 _CAP = 150  # points of a slice that are looked at
+_HEIGHTS = 8.0  # breast heights that a plant is high: so wide are the cells of density
 _ROUNDS = 2  # slices say where the axis is, the axis how to slice
 _WIDE = 3.0  # times a slice's typical distance from its middle: farther points are no bark
 _ROUND = 0.35  # of the radius: circles that points lie farther from are none
@@ -36,6 +41,7 @@ class Trunk:
 
 def trunk(stem: Float[np.ndarray, "low 3"], breast_height: float) -> Trunk | None:
     """The trunk that a stem's points, up to a bit above breast height, lie round. None where they are too few, or lie round nothing."""
+    stem = _column(stem, breast_height)
     base, axis = _begun(stem)
     for _ in range(_ROUNDS):
         slices = _slices(stem, base, axis)
@@ -54,6 +60,16 @@ def trunk(stem: Float[np.ndarray, "low 3"], breast_height: float) -> Trunk | Non
     error = float(np.hypot(2 * found.error, np.sqrt((len(far) - 1) / len(far) * np.sum(np.square(far)))))
     section = cross_section(plane_points(stem, base + low * axis, axis, 2.0 * float(s[1] - s[0])))
     return Trunk(float(root), float(breast), error, base + low * axis, axis, _seen(parts, found, s), section)
+
+
+def _column(stem, breast_height: float):
+    """The points of a stem that stand where most lie above one another; all, where those are too few to say more."""
+    found = density(stem, _HEIGHTS * breast_height)
+    name, _ = label(found.value > HIGHER * found.value.max(), np.ones((3, 3)))
+    dense = binary_dilation(name == name[np.unravel_index(found.value.argmax(), name.shape)], np.ones((3, 3)))
+    cell = np.floor((stem[:, [0, 2]] - found.corner) / found.size).astype(np.int64)
+    kept = dense[cell[:, 0], cell[:, 1]]
+    return stem[kept] if kept.sum() >= _FEWEST * _PER else stem
 
 
 def _without(parts, s, k: int, found: Tapered) -> Tapered:

@@ -42,6 +42,14 @@ def test_a_thin_stem_is_measured_too():
     assert trunk(stem(0.03, 0.3, noise=0.001, taper=0.0, count=300), 0.24).breast == pytest.approx(0.03, rel=0.06)
 
 
+def test_branches_that_hang_round_a_stem_are_no_trunk():
+    chance, turn = np.random.default_rng(0), 0.9 + 0.7 * np.repeat(np.arange(9), 140)  # nine branches, more to one side than to the other
+    far = chance.uniform(0.2, 1.6, len(turn))
+    branches = np.c_[far * np.cos(turn / 2), 0.2 + np.repeat(0.14 * np.arange(9), 140) + 0.15 * far, far * np.sin(turn / 2)] + chance.normal(0.0, 0.02, (len(turn), 3))
+    points = np.concatenate([stem(count=900), branches])
+    assert trunk(points, BREAST).breast == pytest.approx(0.3 - 0.02 * BREAST, rel=0.04)
+
+
 def test_the_base_is_inside_the_trunk_and_the_axis_along_it():
     found = trunk(stem(seen=0.5, lean=0.2), BREAST)
     np.testing.assert_allclose(found.base, 0.0, atol=0.03)
