@@ -22,6 +22,7 @@ from sketchtree.multiview.upright import moved_upright
 from sketchtree.watch import Pulse, Watch, no_pulse
 
 QUALITIES = ("preview", "full")
+SOUGHT = {"preview": {"longest": 1000, "details": 4096}, "full": {"longest": 1600, "details": 8192}}  # by structure from motion; matching takes the square of details
 FEW = 0.3  # of the pixels; of true cameras 45 % and more are confirmed, of cameras that look some pixels aside 10-30 %
 DOUBTFUL = (
     "Only {:.0%} of the depths in the photos are confirmed by others: cameras may be wrong, or the plant moved. Check that poses belong to these photos, and that "
@@ -91,7 +92,7 @@ def _placed(folder, poses, quality, key, watch, pulse) -> tuple[Poses, tuple[str
     from sketchtree.multiview.sfm import structure_from_motion
 
     seed = int(numpy_generator(stage_key(key, "cameras")).integers(0, 2**31))
-    found = structure_from_motion(folder, longest=1000 if quality == "preview" else 1600, seed=seed, part=watch.on_part, pulse=pulse)
+    found = structure_from_motion(folder, **SOUGHT[quality], seed=seed, part=watch.on_part, pulse=pulse)
     return found.poses, found.left_out, list(found.notices)
 
 

@@ -43,9 +43,9 @@ class Found:
 
 
 def structure_from_motion(
-    folder, *, longest: int = 1600, seed: int = 0, part: Callable[[float], None] | None = None, pulse: Pulse = no_pulse
+    folder, *, longest: int = 1600, details: int = 8192, seed: int = 0, part: Callable[[float], None] | None = None, pulse: Pulse = no_pulse
 ) -> Found:
-    """Cameras of the photos in a folder, at most `longest` pixels a side. Raises ViewsError where too few belong together."""
+    """Cameras of the photos in a folder, at most `longest` pixels a side, from about so many `details` of each. Raises ViewsError where too few belong together."""
     colmap = _colmap()
     files = photo_files(folder)
     if len(files) < LEAST:
@@ -55,7 +55,7 @@ def structure_from_motion(
         place = Path(place)
         unsharp = blurred(files)
         shrunk, groups, silent = _copied(files, place / "photos", longest, shared(part, 0.0, 0.1), pulse)
-        _matched(colmap, place, groups, seed, part, pulse)
+        _matched(colmap, place, groups, details, seed, part, pulse)
         poses, pairs = _mapped(colmap, place, len(files), seed, shared(part, 0.5, 1.0), pulse)
     return _found(poses, pairs, files, shrunk, unsharp, silent)
 
@@ -100,11 +100,11 @@ def _focal_only(told: Image.Exif) -> Image.Exif:
     return kept
 
 
-def _matched(colmap, place: Path, groups: list[list[str]], seed: int, part, pulse: Pulse) -> None:
+def _matched(colmap, place: Path, groups: list[list[str]], details: int, seed: int, part, pulse: Pulse) -> None:
     colmap.set_random_seed(seed)
     extraction, reader = colmap.FeatureExtractionOptions(), colmap.ImageReaderOptions()
     extraction.use_gpu, reader.camera_model = False, "SIMPLE_RADIAL"
-    extraction.sift.darkness_adaptivity = True
+    extraction.sift.darkness_adaptivity, extraction.sift.max_num_features = True, details
     for k, names in enumerate(groups):
         colmap.extract_features(
             place / "points.db", place / "photos", names, camera_mode=colmap.CameraMode.SINGLE, reader_options=reader, extraction_options=extraction, device=colmap.Device.cpu
