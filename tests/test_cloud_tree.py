@@ -66,6 +66,13 @@ def test_a_tree_grows_toward_the_points_where_that_is_wanted(points):
     assert found.skeleton.height == pytest.approx(4.1, abs=0.2)
 
 
+def test_twigs_of_photos_go_on_beyond_their_points(points, tree):
+    found = cloud_to_tree(PointCloud(points), key=KEY, wanted=CloudOptions(pixel=0.01))
+    assert found.seen == tree.seen < len(found.skeleton)
+    assert found.skeleton.length[: tree.seen] == pytest.approx(tree.skeleton.length[: tree.seen])
+    assert (found.skeleton.kind[found.seen :] == int(Kind.GROWN)).all()
+
+
 def test_the_source_gives_the_skeleton(points, tree):
     assert CloudSource()(PointCloud(points), key=KEY).tip == pytest.approx(tree.skeleton.tip)
 

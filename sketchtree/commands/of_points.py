@@ -1,7 +1,7 @@
 """What `cloud` and `views` do alike: what was asked of a tree that stands in points, and its files and report."""
 
 from collections.abc import Callable
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from pathlib import Path
 
 from sketchtree.cloud_report import cloud_report
@@ -13,7 +13,7 @@ from sketchtree.options import FileOptions, TreeOptions, options_as_dict
 from sketchtree.templates.store.database import Database
 from sketchtree.watch import Watch
 
-_HOW = ("method", "species", "figures", "roots", "in_leaf", "inside")
+_HOW = ("method", "species", "figures", "roots", "in_leaf", "inside", "pixel")
 
 
 @dataclass(frozen=True)
@@ -32,6 +32,10 @@ class Asked:
     distances: Path | None
     report: Path | None
     beside: cloud_growth.Beside
+
+    def with_pixel(self, metres: float) -> "Asked":
+        """The same of photos whose pixels are so much of the plant."""
+        return replace(self, how=replace(self.how, pixel=metres))
 
 
 def asked(wanted: dict, *, given: tuple[Path, ...], output: Path, report: Path | None, seed: int, db: Path | None, **how) -> Asked:

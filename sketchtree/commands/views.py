@@ -50,7 +50,9 @@ def views(folder: Path, output: Path, seed: int, quiet: bool, json_log: bool, re
         how = {name: wanted[name] for name in ("poses", "quality", "height", "keep_ground", "engine")}
         with watch("read"):
             found = photos_cloud(folder, key=stage_key(root_key(seed), "photos"), watch=Watch(progress, progress.part), **how)
-            points, told = _sized(found)
+            points, pixel, told = _sized(found)
+        if wanted["pixel"] is None:
+            asked = asked.with_pixel(0.0 if "carve" in found.seconds else pixel)  # a hull ends where shadows end
         tree = of_points.made(points, asked, watch)
         record = of_points.written(
             tree, asked, "views", watch, began=began, imported=imported, given=given, options=how | {"poses": None if how["poses"] is None else str(how["poses"])},
@@ -70,14 +72,14 @@ _HIGH = 10.0  # metres, where nothing says how large the plant is
 
 
 def _sized(found):
-    """(the points in metres, what should be known about their size)."""
+    """(the points in metres, what a pixel is there, what should be known about their size)."""
     from sketchtree.clouds.cloud import PointCloud
 
     if found.metric:
-        return found.cloud, ()
+        return found.cloud, found.size, ()
     scale = _HIGH / max(found.cloud.height, 1e-12)
     told = f"Photos don't tell how large the plant is: it was made {_HIGH:g} m high. `--height METRES` says how high it is."
-    return PointCloud(scale * found.cloud.xyz, found.cloud.colour, found.cloud.normal), (told,)
+    return PointCloud(scale * found.cloud.xyz, found.cloud.colour, found.cloud.normal), scale * found.size, (told,)
 
 
 def _told(found) -> dict:

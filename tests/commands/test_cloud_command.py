@@ -62,6 +62,7 @@ def test_the_same_cloud_and_seed_give_the_same_bytes(scan, tmp_path):
         (["--template", "no_such"], "no_such"),
         (["--species", "beech"], "No species 'beech' is known for growth toward points."),
         (["--tree", "3"], "3"),
+        (["--pixel", "-1"], "`--pixel -1` is out of range."),
         (["--unit", "0"], "`unit` is 0.0. Say how many metres 1 in the file means: 0.001 for millimetres."),
     ],
 )

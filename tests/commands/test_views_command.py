@@ -39,6 +39,7 @@ def test_photos_become_a_tree_with_their_points_and_a_report(masks, tmp_path):
     assert told["command"] == "views" and len(told["views"]["placed"]) == 13 and "carve" in told["views"]["seconds"]
     assert read_cloud(cloud).height == pytest.approx(5.0, abs=0.01)
     assert told["height"] == pytest.approx(5.0, abs=0.4) and told["options"]["engine"] == "auto"
+    assert told["options"]["pixel"] == 0  # masks: a hull has no thin twigs to go on
     assert out.stat().st_size > 5_000
 
 
