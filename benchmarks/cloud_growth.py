@@ -21,6 +21,7 @@ from trimesh.triangles import closest_point
 from benchmarks.cloud_sheets.grown_here import Here, here
 from benchmarks.cloud_sheets.own_clouds import own_cloud
 from sketchtree.clouds.files.read_cloud import read_cloud
+from sketchtree.clouds.growing.estimated import KILL
 from sketchtree.clouds.growing.wanted import Growing, plain
 from sketchtree.clouds.tracing.traced import traced
 from sketchtree.fidelity.recall import recall
@@ -29,24 +30,27 @@ from sketchtree.keys import root_key
 from sketchtree.skeleton import TreeSkeleton
 from sketchtree.traverse import limb_chains
 
+OURS = Growing(kill=KILL)
 AS_PRINTED = dataclasses.replace(plain(5.0), influence=None, weighted=True)
 OVER_GAPS = dataclasses.replace(AS_PRINTED, persists=True)
 WAYS = {
     "traced": None,
-    "grown": Growing(),
-    "grown, tropism up": Growing(tropism=(0.0, 1.0, 0.0)),
-    "grown, no weights": Growing(weighted=False),
-    "grown, always 5 l": Growing(influence=5.0),
-    "grown, always 10 l": Growing(influence=10.0),
+    "grown": OURS,
+    "grown, d_k 0.5 d_i": dataclasses.replace(OURS, kill=Growing().kill, holds=False),
+    "grown, d_k 0.35 d_i": dataclasses.replace(OURS, holds=False),
+    "grown, tropism up": dataclasses.replace(OURS, tropism=(0.0, 1.0, 0.0)),
+    "grown, no weights": dataclasses.replace(OURS, weighted=False),
+    "grown, always 5 l": dataclasses.replace(OURS, influence=5.0),
+    "grown, always 10 l": dataclasses.replace(OURS, influence=10.0),
     "as printed": AS_PRINTED,
     "plain 5 l": plain(5.0),
     "plain 10 l": plain(10.0),
-    "printed, over gaps": OVER_GAPS,
-    "  no weights": dataclasses.replace(OVER_GAPS, weighted=False),
-    "  always 5 l": dataclasses.replace(OVER_GAPS, influence=5.0),
-    "  always 10 l": dataclasses.replace(OVER_GAPS, influence=10.0),
-    "  5 l, no weights": dataclasses.replace(plain(5.0), persists=True),
-    "  10 l, no weights": dataclasses.replace(plain(10.0), persists=True),
+    "gaps: as printed": OVER_GAPS,
+    "gaps: no weights": dataclasses.replace(OVER_GAPS, weighted=False),
+    "gaps: 5 l": dataclasses.replace(OVER_GAPS, influence=5.0),
+    "gaps: 10 l": dataclasses.replace(OVER_GAPS, influence=10.0),
+    "gaps: plain 5 l": dataclasses.replace(plain(5.0), persists=True),
+    "gaps: plain 10 l": dataclasses.replace(plain(10.0), persists=True),
 }
 """What is compared: all of ours; parts of it left out; the paper's method with nothing of ours; space colonisation without weights and logistic distance (the paper's Figures 5 and 6 take
 those away). The paper's buds end where they see no point; over gaps they look on, as ours do, so that what is taken away is all that differs."""

@@ -13,10 +13,15 @@ from sketchtree.watch import Watch
 
 
 def cycles(tree: CloudTree, count: int) -> Int[np.ndarray, " tree"]:
-    """So many cycles of its growth, from the first after which something stands to the last, as even as they can be; some several times where it grew in fewer."""
+    """So many cycles of its growth, from the first after which something stands to the last: where all its wood is as long as the square of an even time, so that it becomes higher evenly
+    though the last twigs take many cycles. Some come several times where it grew in few."""
     grows = _grows(tree)
     first = next((cycle for cycle in range(1, grows.cycles) if grows.at(cycle).length.sum() > 0), grows.cycles)
-    return np.rint(np.linspace(first, grows.cycles, count)).astype(int)
+    step = grows.wood.step()
+    length = np.array([step[grows.wood.standing(cycle)].sum() for cycle in range(grows.cycles + 1)])
+    most = np.maximum.accumulate(length)
+    found = np.searchsorted(most, np.linspace(0.0, 1.0, count) ** 2 * most[-1])
+    return np.clip(np.append(found[:-1], grows.cycles), first, grows.cycles)
 
 
 def after(tree: CloudTree, cycle: int) -> Worn:

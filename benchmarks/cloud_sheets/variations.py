@@ -12,8 +12,8 @@ from sketchtree.keys import root_key
 from sketchtree.options import TreeOptions
 from sketchtree.templates.store.database import Database
 
-TREE, POINTS = "apple", 20_000
-VARIED = ("internode=2x", "alpha=0.3x", "tropism=up", "gamma=0.8x", "most=20")
+TREE, POINTS = "apple", 12_000
+VARIED = ("internode=2x", "alpha=0.2x", "tropism=up", "gamma=0.75x")
 
 
 def sheet(path: Path) -> None:

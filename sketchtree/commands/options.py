@@ -56,7 +56,7 @@ _POINTS = (
     click.option("--template", metavar="NAME", help="Exemplar whose leaves and bark it wears (default: bare, unless `--leaf` names some)."),
     click.option("--set", "figures", multiple=True, metavar="NAME=VALUE", help="Another figure of what is `grown`: branching=55, internode=0.8x (so many times), tropism=up (docs/clouds.md). Repeatable."),
     click.option("--vary", multiple=True, metavar="NAME=V1,V2", help="Write what is `grown` with each of these values too: TREE_NAME_V1.glb ... Repeatable."),
-    click.option("--series", type=click.Path(path_type=Path), metavar="DIR", help="Write what is `grown` at even cycles of its growth too: TREE_0000.glb ... in this folder."),
+    click.option("--series", type=click.Path(path_type=Path), metavar="DIR", help="Write what is `grown` from its first shoot on too: TREE_0000.glb ... in this folder."),
     click.option("--frames", type=click.IntRange(2, 720), metavar="N", help="Trees of the series (default 24)."),
     click.option("--distances", type=click.Path(path_type=Path), metavar="D.ply", help="Write the points too, each with its distance from the tree as a colour and a number."),
 )  # fmt: skip

@@ -64,7 +64,7 @@ def test_a_recipes_growth_is_what_grows(tmp_path):
 @pytest.mark.parametrize(
     ("growing", "message"),
     [
-        ("alpah = 2", f"Recipe mine.toml: `growing.alpah` is not known. Leave it out; known are: {', '.join(RANGES)}, tropism, influence, weighted, steered, decided, settles, sheds, dominant, direct, persists."),
+        ("alpah = 2", f"Recipe mine.toml: `growing.alpah` is not known. Leave it out; known are: {', '.join(RANGES)}, tropism, influence, weighted, steered, decided, settles, sheds, dominant, direct, holds, persists."),
         ("theta = 200", "Recipe mine.toml: `growing.theta` is 200. Give a number from 1 to 180."),
         ('influence = "far"', "Recipe mine.toml: `growing.influence` is 'far'. Give a number from 1 to 1000, internodes, or \"logistic\"."),
         ("tropism = [0, 1]", "Recipe mine.toml: `growing.tropism` is [0, 1]. Give \"up\", \"down\" or three numbers from -1 to 1: x, y, z."),

@@ -6,6 +6,7 @@ from scipy.spatial import cKDTree
 
 from sketchtree.axes import NULL
 from sketchtree.clouds.growing.collapse import collapsed, kept
+from sketchtree.clouds.growing.colonise import takes
 from sketchtree.clouds.growing.heading import ALPHA, BETA, decided, headed, optimal
 from sketchtree.clouds.growing.hermite import curve, smoothed
 from sketchtree.clouds.growing.logistic import Constant, Logistic, growth_units, length_at
@@ -61,6 +62,14 @@ def test_buds_look_four_internodes_when_young_and_old_and_twelve_in_between():
 
 def test_a_constant_influence_never_changes():
     assert {Constant(5.0)(t) for t in range(30)} == {5.0}
+
+
+def test_what_is_taken_does_not_follow_how_far_buds_look_though_it_does_as_printed():
+    looked = Logistic(200.0)
+    assert {takes(t, looked, Growing()) for t in range(60)} == {0.5 * 4.0}
+    printed = [takes(t, looked, Growing(holds=False)) for t in range(60)]
+    assert (min(printed), max(printed)) == (0.5 * 4.0, 0.5 * 12.0)
+    assert takes(9, Constant(5.0), Growing(influence=5.0)) == 2.5
 
 
 # Eq. 8: weights
@@ -276,7 +285,7 @@ def test_a_turn_of_less_than_twenty_degrees_stays_as_it_is():
 def test_plain_space_colonisation_has_neither_weights_nor_anything_of_ours():
     given = plain(5.0)
     assert given.influence == 5.0
-    assert not (given.weighted or given.steered or given.decided or given.sheds or given.direct or given.dominant or given.settles or given.persists)
+    assert not (given.weighted or given.steered or given.decided or given.sheds or given.direct or given.dominant or given.settles or given.holds or given.persists)
 
 
 @pytest.mark.parametrize(

@@ -57,7 +57,7 @@ def colonise(
     l, cycle, last, patience = species.internode, 0, 0, Patience(influence, wanted)  # noqa: E741 (the paper's letter)
     while cycle < _CYCLES and len(buds) and alive.any():
         pulse()
-        look, known, rows = patience.look(cycle) * l, wanted.kill * influence(cycle) * l, np.flatnonzero(alive)
+        look, known, rows = patience.look(cycle) * l, takes(cycle, influence, wanted) * l, np.flatnonzero(alive)
         detour = Detour(buds.length, wood.place[buds.root], patience.detour)
         holder = perceived(markers.xyz[rows], buds.place, buds.heading, np.maximum(look, _LOOKS * buds.thick), wanted.theta, detour)
         grow, seen = pairs(holder, markers.xyz[rows], markers.weight[rows], patience.least)
@@ -81,6 +81,11 @@ def colonise(
     if wanted.sheds:
         wood, _ = _tidied(wood, buds, root, species, wanted, cycle + _TIDIES, begun)
     return Colonised(wood, last, int(alive.sum()))
+
+
+def takes(cycle: int, influence: Influence, wanted: Growing) -> float:
+    """d_k, internodes: points so near to new wood are taken."""
+    return wanted.kill * (wanted.least if wanted.holds and wanted.influence is None else influence(cycle))
 
 
 def _tidied(wood: Wood, buds: Buds, root, species: Species, wanted: Growing, cycle: int, begun: int) -> tuple[Wood, Buds]:
@@ -114,5 +119,3 @@ def _hopeful(buds: Buds, xyz, far: float) -> Buds:
         return buds.select(np.zeros(len(buds), bool))
     distance, _ = cKDTree(xyz).query(buds.place, distance_upper_bound=max(far, _LOOKS * float(buds.thick.max(initial=0.0))), workers=workers(len(buds)))
     return buds.select(np.isfinite(distance))
-
-

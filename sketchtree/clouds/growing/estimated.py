@@ -5,7 +5,7 @@ points, where there is one:
 
     l = 1.5 s, but H / 250 ≤ l ≤ H / 100      s   median distance to the nearest point: buds that look 4 l at least see the next ones
     ψ = median angle between a limb's first course and what bears it        φ = median turn about a limb from lateral to lateral
-    d_k = 0.35 d_i, at least 1.4 l or two spacings: points farther than that from wood tell of other wood. The paper's 0.5 is meant for markers spread in space
+    d_k = 0.35 d_i, 1.4 l or two spacings: points farther than that from wood tell of other wood. The paper's 0.5 is meant for markers spread in space
 """
 
 import dataclasses

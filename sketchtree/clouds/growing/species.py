@@ -23,7 +23,7 @@ FIGURES = {"internode": (0.005, 0.5), "roll": (0.0, 360.0), "branching": (0.0, 1
 TROPISM = {"down": (0.0, -1.0, 0.0), "up": (0.0, 1.0, 0.0)}
 """V_tropism by word; down is what the paper prints."""
 
-_SWITCHES = ("weighted", "steered", "decided", "settles", "sheds", "dominant", "direct", "persists")
+_SWITCHES = ("weighted", "steered", "decided", "settles", "sheds", "dominant", "direct", "holds", "persists")
 
 
 @dataclass(frozen=True)

@@ -52,6 +52,7 @@ class Growing:
     sheds: bool = True  # branches within the wood that bears them fall off while the tree grows
     dominant: bool = True  # of buds that would grow to the same place in one cycle only one does
     direct: bool = True  # a point goes to a bud that is hardly a detour from the root before it goes to another
+    holds: bool = True  # what is taken does not follow a logistic d_i: d_k is a share of the least, so that reaching far while young takes no detail
     persists: bool = True  # where growth has ended, buds look farther once more, up to 12 l
 
     def __post_init__(self):
@@ -66,4 +67,4 @@ class Growing:
 
 def plain(internodes: float) -> Growing:
     """Plain space colonisation: points all alike, a constant influence distance, and none of what is ours. What the paper's Figures 5 and 6 are held against."""
-    return Growing(influence=internodes, weighted=False, steered=False, decided=False, settles=False, dominant=False, sheds=False, direct=False, persists=False)
+    return Growing(influence=internodes, weighted=False, steered=False, decided=False, settles=False, dominant=False, sheds=False, direct=False, holds=False, persists=False)
