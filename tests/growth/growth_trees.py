@@ -1,5 +1,7 @@
 """Small trees whose growth is known, and a larger one."""
 
+from functools import cache
+
 import numpy as np
 
 from sketchtree.growth.grafting import Graft
@@ -37,6 +39,7 @@ def bare_trunk() -> TreeSkeleton:
     return TreeSkeleton.from_columns(parent, np.array(tip), radius, limb=limb, order=order, kind=np.full(len(parent), int(Kind.DRAWN)))
 
 
+@cache
 def crown(levels: int = 2, seed: int = 0) -> TreeSkeleton:
     """The bare trunk with branches grafted on."""
     return Graft(levels)(bare_trunk(), key=root_key(seed))

@@ -154,8 +154,8 @@ def test_a_crown_begins_with_a_limb_not_with_a_twig():
 
 
 def test_the_same_key_gives_the_same_tree_and_another_another():
-    assert same(crown(2, seed=1), crown(2, seed=1))
-    assert not same(crown(2, seed=1), crown(2, seed=2))
+    once, again, other = (Graft(2)(bare_trunk(), key=root_key(seed)) for seed in (1, 1, 2))
+    assert same(once, again) and not same(once, other)
 
 
 def test_variations_are_different_crowns_on_one_trunk():

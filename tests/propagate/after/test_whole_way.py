@@ -24,6 +24,12 @@ def drawn():
     return draw_out(APPLE, key=KEY, options=ReadingOptions(method="okabe"))
 
 
+@pytest.fixture(scope="module")
+def plain(drawn):
+    """The wood with all at its default."""
+    return build(drawn, leaf="none")
+
+
 def build(drawn, **options):
     return complete(drawn, key=KEY, options=TreeOptions(**({"generations": 3} | options)))
 
@@ -38,18 +44,18 @@ def test_without_untangling_and_all_else_at_its_default_the_tree_is_what_grew_to
     grown = stage.run(drawn.skeleton, key=stage_key(KEY, "propagate"))
     radius = np.full(len(grown.skeleton), np.nan)
     radius[grown.drawn_row] = drawn.radius
-    assert same(PipeRadii(drawn.habit, radius)(grown.skeleton), build(drawn, untangle=False).skeleton)
+    assert same(PipeRadii(drawn.habit, radius)(grown.skeleton), build(drawn, untangle=False, leaf="none").skeleton)
 
 
 @pytest.mark.parametrize("options", [{"untangle": False}, {"sag": 2.0}, {"shed": 0.4}, {"shed_twigs": 1.5}, {"prune": ("y<2.5",)}, {"generations": 2.5}])
-def test_every_option_changes_the_tree_and_the_same_one_gives_the_same_tree(drawn, options):
-    one, two = build(drawn, **options).skeleton, build(drawn, **options).skeleton
-    assert same(one, two) and not same(one, build(drawn).skeleton)
+def test_every_option_changes_the_tree_and_the_same_one_gives_the_same_tree(drawn, plain, options):
+    one, two = (build(drawn, leaf="none", **options).skeleton for _ in range(2))
+    assert same(one, two) and not same(one, plain.skeleton)
 
 
 @pytest.mark.parametrize("options", [{"sag": 5.0}, {"shed": 0.9, "shed_twigs": 5.0}, {"generations": 1.4, "sag": 1.0, "shed": 0.3}])
 def test_only_pruning_touches_what_was_drawn(drawn, options):
-    tree = build(drawn, **options).skeleton
+    tree = build(drawn, leaf="none", **options).skeleton
     kept = {tuple(tip) for tip in tree.tip[tree.kind == Kind.DRAWN]}
     assert {tuple(tip) for tip in drawn.skeleton.tip} <= kept
 
@@ -60,10 +66,10 @@ def test_less_than_1_percent_of_the_undrawn_segments_run_through_others_in_the_e
     assert before[1] > 0.01 and max(after) < 0.01
 
 
-def test_pruning_tells_how_many_strokes_it_cut(drawn):
+def test_pruning_tells_how_many_strokes_it_cut(drawn, plain):
     model = build(drawn, prune=("y<2.5",))
     assert any(warning.startswith("Pruning cut ") and warning.endswith(" drawn strokes.") for warning in model.warnings)
-    assert not any("Pruning" in warning for warning in build(drawn).warnings)
+    assert not any("Pruning" in warning for warning in plain.warnings)
 
 
 def test_thick_cut_ends_bear_no_leaves(drawn):
@@ -76,7 +82,7 @@ def test_thick_cut_ends_bear_no_leaves(drawn):
 
 
 def test_radii_never_grow_towards_the_tips(drawn):
-    tree = build(drawn, generations=2.5, sag=2.0, shed=0.4, shed_twigs=1.0).skeleton
+    tree = build(drawn, generations=2.5, sag=2.0, shed=0.4, shed_twigs=1.0, leaf="none").skeleton
     rows = np.flatnonzero(~tree.is_base)
     assert (tree.radius[rows] <= tree.radius[tree.parent[rows]] * (1 + 1e-12)).all()
 

@@ -30,8 +30,10 @@ def open_below(mesh: trimesh.Trimesh) -> trimesh.Trimesh:
 
 
 def meets(start, end, mesh) -> np.ndarray:
-    """Which segments meet a triangle of the mesh (Möller & Trumbore 1997, one triangle after the other)."""
-    way, found = end - start, np.zeros(len(start), bool)
+    """Which segments meet a triangle of the mesh (Möller & Trumbore 1997, one triangle after the other; those apart from the mesh's box meet none)."""
+    low, high = mesh.bounds + [[-1e-6], [1e-6]]
+    near = ((np.maximum(start, end) >= low) & (np.minimum(start, end) <= high)).all(axis=1)
+    start, way, found = start[near], (end - start)[near], np.zeros(near.sum(), bool)
     for a, b, c in np.asarray(mesh.triangles):
         p = np.cross(way, c - a)
         det = p @ (b - a)
@@ -40,4 +42,6 @@ def meets(start, end, mesh) -> np.ndarray:
         q = np.cross(start - a, b - a)
         v, t = scale * np.einsum("si,si->s", way, q), scale * (q @ (c - a))
         found |= (scale != 0) & (u >= 0) & (v >= 0) & (u + v <= 1) & (t >= 0) & (t <= 1)
-    return found
+    met = np.zeros(len(near), bool)
+    met[near] = found
+    return met
