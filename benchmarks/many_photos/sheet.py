@@ -10,8 +10,8 @@ from sketchtree.multiview.cameras import Camera
 from sketchtree.multiview.fuse import LEAST
 from sketchtree.multiview.workplace import Level
 
-SIDE, GAP, LINE = 440, 8, 30  # pixels of the sheet: a picture, between two, a line of text
-PART = (0.52, 0.30, 0.26)  # middle across, middle down and width of the part shown below, of the picture
+SIDE, GAP, LINE = 400, 8, 30  # pixels of the sheet: a picture, between two, a line of text
+PART = (0.27, 0.40, 0.24)  # middle across, middle down and width of the part shown below, of the picture
 _INK = (40, 44, 40)
 
 
@@ -67,7 +67,7 @@ def sheet(photo: np.ndarray, camera: Camera, columns: list[Shown]) -> Image.Imag
     part = picture.crop((*map(round, corner), *(round(side + width * photo.shape[1]) for side in corner)))
     rows = [("photo", picture.resize((SIDE, SIDE), Image.Resampling.LANCZOS), part.resize((SIDE, SIDE), Image.Resampling.BICUBIC))]
     for words, xyz, colour, dot in columns:
-        rows.append((words, *(Image.fromarray(points_picture(xyz, colour, one, dot * by)) for one, by in ((camera.resized((SIDE, SIDE)), 1), (of_part(camera, SIDE), 2)))))
+        rows.append((words, *(Image.fromarray(points_picture(xyz, colour, one, dot * by)) for one, by in ((camera.resized((SIDE, SIDE)), 1), (of_part(camera, SIDE), 3)))))
     for k, (words, whole, piece) in enumerate(rows):
         left = GAP + k * (SIDE + GAP)
         pen.text((left + 2, GAP), words, _INK, font)
@@ -81,4 +81,4 @@ def sheet(photo: np.ndarray, camera: Camera, columns: list[Shown]) -> Image.Imag
 def save(picture: Image.Image, path: Path) -> None:
     """As PNG, of few colours."""
     path.parent.mkdir(parents=True, exist_ok=True)
-    picture.quantize(200, dither=Image.Dither.NONE).save(path, optimize=True)
+    picture.quantize(128, dither=Image.Dither.NONE).save(path, optimize=True)

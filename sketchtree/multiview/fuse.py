@@ -2,9 +2,9 @@
 
 A pixel's place counts if its likelihood (Eq. 3) is at least `LEAST`, at least `AGREE` other views agree with it, and more views agree with it than see through
 it: a view sees through a place where its own depth map, likely there, shows something more than `BEHIND` farther away. What photos look past is no place of the
-plant (`outline`): so thin limbs are as thin as they look. What is left is gathered in voxels of the size of a pixel at the median depth: middle, mean colour,
-mean normal, each counted by likelihood and, squared, by how much of its pixel the plant fills. A voxel with fewer than `COMPANY` others within `NEAR`
-voxels is a stray.
+plant (`outline`), nor is what a pixel shows that the plant fills less than `OWN` of: so thin limbs are as thin as they look. What is left is gathered in voxels
+of the size of a pixel at the median depth: middle, mean colour, mean normal, each counted by likelihood and, squared, by how much of its pixel the plant fills. A
+voxel with fewer than `COMPANY` others within `NEAR` voxels is a stray.
 """
 
 from dataclasses import dataclass
@@ -22,6 +22,7 @@ from sketchtree.multiview.workplace import Level
 LEAST = 0.25
 AGREE = 2  # other views
 BEHIND = 0.02  # of the depth
+OWN = 0.35
 COMPANY, NEAR = 4, 3.0
 
 
@@ -56,6 +57,7 @@ def gathered(levels: list[Level], agree: int = AGREE, least: float = LEAST, outl
         open_sky = seen_through(xyz, level, levels)
         keep = open_sky < level.agreeing[y, x]
         if outlines:
+            keep &= alpha[row][y, x] >= OWN
             xyz[keep], keep[keep] = brought_in(xyz[keep], level.camera.centre, 1.0 / level.camera.matrix[0, 0], shown)
         trust = level.likely[y, x] * (alpha[row][y, x] ** 2 + 0.01 if outlines else 1.0)
         columns.append((xyz[keep], level.rgb[y, x][keep], normals_of(level.camera, pixel, plane)[keep], trust[keep]))

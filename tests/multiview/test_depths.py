@@ -8,6 +8,7 @@ from ring import distance_to_surface, rendered, ring
 
 from sketchtree.errors import ViewsError
 from sketchtree.keys import root_key
+from sketchtree.multiview import fuse
 from sketchtree.multiview.coherence import ENOUGH, SIGMA, back_and_forth
 from sketchtree.multiview.cost import SIDE, patch_of, source_cost
 from sketchtree.multiview.depths import Quality, depth_maps
@@ -207,6 +208,16 @@ def test_a_place_before_the_bark_is_seen_through(true_levels):
     pixel = np.column_stack([x, y]) + 0.5
     bark, before = (CAMERAS[2].unproject(pixel, by * TRUTH[2][y, x]) for by in (1.0, 0.8))
     assert seen_through(bark, true_levels[2], true_levels).mean() < 0.5 < seen_through(before, true_levels[2], true_levels).mean()
+
+
+def test_what_the_plant_hardly_fills_of_a_pixel_is_no_point(true_levels, monkeypatch):
+    for level in true_levels:
+        level.likely, level.agreeing = np.ones(level.shape), np.full(level.shape, 4)
+    hardly, count = true_levels[2], []
+    for share in (1.0, 0.4, 0.3):
+        monkeypatch.setattr(fuse, "filled", lambda rgb, empty, share=share: np.where(rgb is hardly.rgb, share, 1.0) * np.ones(empty.shape, np.float32))
+        count.append(len(gathered(true_levels).xyz))
+    assert count[0] == count[1] > count[2] + 0.5 * hardly.used.sum()
 
 
 def test_partners_stand_about_ten_degrees_further():
