@@ -39,12 +39,12 @@ def _rows(one: Model, asked) -> dict[str, dict[str, float]]:
     kept = asked.out / "rows" / f"{one.name}_{asked.pixels}.json"
     rows = json.loads(kept.read_text()) if kept.exists() else {}
     wanted = [way for way in asked.ways if asked.again or asked.sheets or way not in rows]
-    if not wanted and "another seed" in rows:
+    if not wanted and "mean" in rows.get("another seed", {}):
         return rows
     cloud, trees = seen(one, asked.out / "clouds", asked.pixels), {}
     rows["the model"] = scored(one, one.tree)
     others = [scored(one, other, placed=False) for other in one.others]
-    rows["another seed"] = max(others, key=lambda row: row["S_T"])
+    rows["another seed"] = max(others, key=lambda row: row["S_T"]) | {"mean": sum(row["S_T"] for row in others) / len(others)}  # the most like it
     for way in wanted:
         trees[way], seconds = made(cloud, way, pixel(one, asked.pixels))
         rows[way] = scored(one, trees[way]) | {"seconds": seconds}

@@ -47,13 +47,15 @@ def _length(tree: TreeSkeleton, ends, shows: float, gamma: float):
 
 
 def _course(tree: TreeSkeleton, row: int, length: float):
-    """Which way a limb goes at its end: from so many metres before it, on the same limb."""
+    """Which way a limb goes at its end: from so many metres before it. Where so little of the limb was seen, the way of what bears it counts for the rest: a stub says little."""
     end, back, at = tree.tip[row], 0.0, row
-    while tree.parent[at] != NULL and tree.limb[tree.parent[at]] == tree.limb[row] and back < length:
+    while tree.parent[at] != NULL and back < length and (at == row or tree.limb[at] == tree.limb[row]):
         back += tree.length[at]
         at = tree.parent[at]
-    if at == row:
-        at = tree.parent[row]
-    chord = end - tree.tip[at]
-    size = np.linalg.norm(chord)
-    return chord / size if size > 0 else tree.vector[row] / max(tree.length[row], 1e-12)
+    own = _unit(end - tree.tip[at])
+    sure = min(back / length, 1.0) if length > 0 else 1.0
+    return _unit(own + (1.0 - sure) * _unit(tree.vector[at])) if tree.parent[at] != NULL else own
+
+
+def _unit(vector):
+    return vector / max(np.linalg.norm(vector), 1e-12)
