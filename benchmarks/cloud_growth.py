@@ -46,6 +46,7 @@ WAYS = {
     "plain 5 l": plain(5.0),
     "plain 10 l": plain(10.0),
     "gaps: as printed": OVER_GAPS,
+    "gaps: d_k held": dataclasses.replace(OVER_GAPS, holds=True),
     "gaps: no weights": dataclasses.replace(OVER_GAPS, weighted=False),
     "gaps: 5 l": dataclasses.replace(OVER_GAPS, influence=5.0),
     "gaps: 10 l": dataclasses.replace(OVER_GAPS, influence=10.0),

@@ -30,7 +30,7 @@ class Beside:
 
 
 def asked(wanted: dict, method: str, output: Path, given: tuple[Path, ...]) -> Beside:
-    """What the command line said, checked as far as it can be before any work. `given`: files that are read. Raises OptionError and ExportError."""
+    """What the command line said, checked as far as it can be before any work. `given`: files that are read, or written by the rest of the command. Raises OptionError and ExportError."""
     found = Beside(tuple(change for said in wanted["vary"] for change in changes(said)), wanted["series"], wanted["frames"], output, wanted["skeleton"], wanted["preview"])
     _check(found, wanted, method)
     others = [path for path in (output, wanted["skeleton"], wanted["preview"]) if path is not None]

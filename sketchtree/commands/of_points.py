@@ -49,7 +49,7 @@ def asked(wanted: dict, *, given: tuple[Path, ...], output: Path, report: Path |
     check_tree(tree, templates)
     if wanted["template"] is not None:
         templates.exemplar(wanted["template"])
-    beside = cloud_growth.asked(wanted, points.method, output, given)
+    beside = cloud_growth.asked(wanted, points.method, output, (*given, *(path for path in (report, wanted["distances"], wanted.get("cloud_file")) if path is not None)))
     return Asked(points, tree, files, wanted["template"], templates, seed, output, wanted["skeleton"], wanted["preview"], wanted["distances"], report, beside)
 
 

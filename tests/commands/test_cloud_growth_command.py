@@ -101,6 +101,11 @@ def test_a_cloud_of_the_name_of_a_variation_is_not_overwritten(scan, tmp_path, c
     assert "would overwrite" in capfd.readouterr().err
 
 
+def test_a_report_of_the_name_of_a_variation_is_not_overwritten(scan, tmp_path, capfd):
+    assert run(["cloud", str(scan), "-o", str(tmp_path / "t.swc"), "--report", str(tmp_path / "t_roll_2.swc"), *GROWN, "--vary", "roll=2"]) == 2
+    assert "would overwrite what it is made of, or another tree" in capfd.readouterr().err
+
+
 def test_a_longer_series_is_not_mixed_with_a_new_one(scan, tmp_path, capfd):
     (tmp_path / "all").mkdir()
     (tmp_path / "all" / "t_0009.glb").write_bytes(b"")
