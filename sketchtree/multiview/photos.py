@@ -6,6 +6,7 @@ not much weaker than that of the others: variance of the Laplacian over variance
 
 import os
 from collections.abc import Iterator
+from contextlib import contextmanager
 from dataclasses import dataclass
 from pathlib import Path
 
@@ -19,6 +20,7 @@ from sketchtree.multiview.cameras import Camera
 from sketchtree.multiview.lenses import undistorted
 
 EXTENSIONS = (".jpg", ".jpeg", ".png", ".tif", ".tiff", ".webp", ".bmp")
+_GIVE = f"Give a folder of photos of one plant from many sides ({' '.join(EXTENSIONS)}), 20 or more."
 BLURRED = 0.2  # of the median sharpness
 BLACK, BESIDE = 0.04, 0.008  # brightness of a bar; how far beyond it pixels are unseen too, of the longer side
 
@@ -42,22 +44,37 @@ class View:
 def photo_files(folder: str | os.PathLike) -> list[Path]:
     """The photos in a folder by name; its subfolder `images` counts where it has none itself. Raises ViewsError where there are fewer than two."""
     folder = Path(folder)
+    if not folder.is_dir():
+        what = f"{folder} is a file, not a folder." if folder.exists() else f"There is no folder {folder}."
+        raise ViewsError(what, remedy=_GIVE if folder.exists() else "Check the path.")
+    most = 0
     for place in (folder, folder / "images"):
         found = sorted(file for file in place.glob("*") if file.suffix.lower() in EXTENSIONS and not file.name.startswith(".")) if place.is_dir() else []
         if len(found) > 1:
             return found
-    raise ViewsError(
-        f"{folder} has {'one photo' if found else 'no photos'}.",
-        remedy=f"Give a folder of photos of one plant from many sides ({' '.join(EXTENSIONS)}), 20 or more.",
-    )
+        most = max(most, len(found))
+    raise ViewsError(f"{folder} has {'one photo' if most else 'no photos'}.", remedy=_GIVE)
+
+
+def photo_size(file: Path) -> tuple[int, int]:
+    """Width and height of a photo as it is stored, pixels. Raises ViewsError where the file is none."""
+    with _named(file), Image.open(file) as picture:
+        return picture.size
 
 
 def read_photo(file: Path) -> Image.Image:
     """A photo as it is stored, not turned. Raises ViewsError where the file is none."""
-    try:
+    with _named(file):
         picture = Image.open(file)
         picture.load()
         return picture
+
+
+@contextmanager
+def _named(file: Path) -> Iterator[None]:
+    """Whatever is wrong with a photo is said of it."""
+    try:
+        yield
     except (UnidentifiedImageError, OSError, Image.DecompressionBombError, SyntaxError, ValueError) as fault:
         raise ViewsError(f"it can't be read ({fault}).", photo=file.name, remedy="Save it again as JPEG or PNG, or take it out of the folder.") from None
 

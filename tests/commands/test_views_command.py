@@ -1,6 +1,7 @@
 """`sketchtree views` from the shell."""
 
 import json
+import shutil
 import sys
 from pathlib import Path
 
@@ -59,6 +60,30 @@ def test_bad_choices_are_one_paragraph(masks, tmp_path, capfd, more, message):
     assert not (tmp_path / "t.glb").exists()
 
 
-def test_a_folder_that_is_none_is_named(tmp_path, capfd):
-    assert run(["views", str(tmp_path / "nothing"), "-o", str(tmp_path / "t.glb")]) == 2
-    assert "nothing" in capfd.readouterr().err
+@pytest.mark.parametrize(
+    ("folder", "message"),
+    [
+        ("nowhere", "There is no folder {}. Check the path."),
+        ("masks/photo 1.png", "{} is a file, not a folder. Give a folder of photos of one plant from many sides (.jpg .jpeg .png .tif .tiff .webp .bmp), 20 or more."),
+    ],
+)
+def test_what_is_no_folder_of_photos_is_named(masks, tmp_path, capfd, folder, message):
+    assert run(["views", str(masks / folder), "-o", str(tmp_path / "t.glb")]) == 2
+    told = capfd.readouterr().err
+    assert told.endswith(f"sketchtree: {message.format(masks / folder)}\n") and not (tmp_path / "t.glb").exists()
+
+
+def test_a_photo_that_is_cut_off_is_named_and_nothing_is_written(masks, tmp_path, capfd):
+    shutil.copytree(masks / "masks", tmp_path / "photos")
+    (tmp_path / "photos" / "photo 3.png").write_bytes(b"\x89PNG\r\n\x1a\n and no more")
+    asked = ["views", str(tmp_path / "photos"), "--poses", str(masks / "transforms.json"), "-o", str(tmp_path / "t.glb"), "--cloud", str(tmp_path / "c.ply"), "--quiet"]
+    assert run(asked) == 2
+    told = capfd.readouterr().err
+    assert told.startswith("sketchtree: Photo photo 3.png: it can't be read (") and told.endswith("). Save it again as JPEG or PNG, or take it out of the folder.\n")
+    assert not (tmp_path / "t.glb").exists() and not (tmp_path / "c.ply").exists()
+
+
+@pytest.mark.parametrize("output", ["masks/photo 1.png", "transforms.json"])
+def test_neither_photos_nor_poses_are_written_over(masks, capfd, output):
+    assert run(["views", str(masks / "masks"), "--poses", str(masks / "transforms.json"), "-o", str(masks / output)]) == 2
+    assert f"`-o {masks / output}` would overwrite what the plant is made of. Give it another name." in capfd.readouterr().err

@@ -3,10 +3,8 @@
 import os
 from pathlib import Path, PurePath
 
-from PIL import Image
-
 from sketchtree.errors import ViewsError
-from sketchtree.multiview.photos import photo_files
+from sketchtree.multiview.photos import photo_files, photo_size
 from sketchtree.multiview.poses.bundler import read_bundler
 from sketchtree.multiview.poses.colmap import read_colmap
 from sketchtree.multiview.poses.posed import Poses
@@ -19,8 +17,7 @@ def read_poses(path: str | os.PathLike, photos: str | os.PathLike) -> Poses:
 
     def sized(name: str) -> tuple[str, tuple[int, int]]:
         file = find_photo(name, files)
-        with Image.open(file) as picture:
-            return file.name, picture.size
+        return file.name, photo_size(file)
 
     if path.is_dir():
         poses = read_colmap(_model(path))
