@@ -52,7 +52,7 @@ def planes_by_chance(count):
 
 def patch_by_numba(x, y, step=1):
     weight, value = np.empty(SIDE * SIDE, np.float32), np.empty(SIDE * SIDE, np.float32)
-    return (weight, value, *patch_of(LEVEL.grey, x, y, step, weight, value))
+    return (weight, value, *patch_of(LEVEL.grey, int(x), int(y), step, weight, value))
 
 
 def test_the_same_numbers_are_drawn_by_chance():
@@ -82,7 +82,7 @@ def test_costs_are_the_same_but_for_rounding():
     for k in range(len(x)):
         weight, value, total, mean, variance = patch_by_numba(x[k], y[k])
         for j in range(len(NEAR.others)):
-            expected[j, k] = source_cost(x[k], y[k], *plane[:, k], NEAR.transfers[j], NEAR.others[j], *NEAR.sizes[j], 1, weight, value, total, mean, variance)
+            expected[j, k] = source_cost(int(x[k]), int(y[k]), *plane[:, k].tolist(), NEAR.transfers[j], NEAR.others[j], *NEAR.sizes[j], 1, weight, value, total, mean, variance)
     apart = np.abs(found - expected)
     assert 0.05 < (expected == UNSEEN).mean() < 0.95  # both kinds are there
     assert np.median(apart) < 1e-6 and (apart < 1e-5).mean() > 0.98 and apart.max() < 2e-4  # most in patches that are nearly even
@@ -103,7 +103,7 @@ def test_eq2_is_the_same_and_what_is_outside_the_range_or_too_steep_is_impossibl
     for k in range(300):
         weight, value, total, mean, variance = patch_by_numba(x[k], y[k])
         expected = patchmatch.energy_of(
-            x[k], y[k], *plane[:, k], LOW, HIGH, FOCAL, prior[k], NEAR.transfers, NEAR.others, NEAR.sizes, 1, 2, weight, value, total, mean, variance, np.empty(3)
+            int(x[k]), int(y[k]), *plane[:, k].tolist(), LOW, HIGH, FOCAL, float(prior[k]), NEAR.transfers, NEAR.others, NEAR.sizes, 1, 2, weight, value, total, mean, variance, np.empty(3)
         )
         assert found[k] == pytest.approx(expected, abs=1e-4)
     assert (found[:20] == IMPOSSIBLE).all()
