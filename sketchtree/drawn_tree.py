@@ -148,6 +148,13 @@ class _Asked:
         seen = "" if self.cloud is None else f" {self.cloud.digest} {self.cloud.place}"
         return f"{self.options.method} {self.options.theta} {self.options.planar} {exemplar.name if exemplar else 'none'}{seen}"
 
+    @property
+    def unheard(self) -> tuple[str, ...]:
+        """What the user should know where the points behind the drawing say nothing."""
+        if self.cloud is None or self.options.method == "elevation":
+            return ()
+        return (f"The method `{self.options.method}` does not hear of the points behind the drawing; `elevation` does.",)
+
     def scale(self, graph: SketchGraph, habit: Habit) -> Similarity:
         """From the page to metres: as high as is said, else as the cloud behind it is, else as such a tree is."""
         if self.cloud is None or self.options.height is not None:
@@ -180,7 +187,7 @@ def _in_space(sketch, graph: SketchGraph, matches, exemplar, asked: _Asked, simi
     similarity = similarity or asked.scale(above, habit)
     radius = np.full(len(graph), np.nan)
     radius[~graph.root] = drawn_radius(sketch, above, similarity, habit)
-    front = _Front(graph, _with_roots(settling.fit, graph), radius, _settled_limbs(above, settling.fit), settling.touched, settling.warnings)
+    front = _Front(graph, _with_roots(settling.fit, graph), radius, _settled_limbs(above, settling.fit), settling.touched, (*settling.warnings, *asked.unheard))
     axis = float(above.xy[np.flatnonzero(above.is_base)[0], 0])
     hanging = Hanging(graph, prior, solver, asked.edits, asked.settled, axis, asked.key, asked.quick, asked.cloud)
     front, tree = _with_attached(front, sketch, hanging)

@@ -50,19 +50,20 @@ class Export(msgspec.Struct, forbid_unknown_fields=True, frozen=True, kw_only=Tr
 def command_line(document: Document, export: Export) -> str:
     """What makes the same tree of the saved project, or of the photo and the strokes that mark it; every option that is not as by default is spelled out."""
     name = document.name if not document.name.startswith("-") else f"./{document.name}"
-    scribbled = export.tree == "photo" and document.trunk.on
+    made_anew = document.points.traced or document.trunk.on  # of what its project holds: points, or scribbles
+    own = export.tree == "photo" and made_anew
     if export.growth is not None:
-        if document.trunk.on != (export.tree == "photo"):
-            raise OptionError("No command makes this tree grow: `grow` takes a project's own drawing, or its scribbles.", remedy="Save the file here; or export a GLB of the tree, and give that to `grow`.")
-        return shlex.join([*_growing(name, export), *(_spelled(_kept_by_none(document.tree), TreeOptions(), ()) if scribbled else [])])
-    if scribbled:
+        if made_anew != (export.tree == "photo"):
+            raise OptionError("No command makes this tree grow: `grow` takes a project's own drawing, its scribbles or its points.", remedy="Save the file here; or export a GLB of the tree, and give that to `grow`.")
+        return shlex.join([*_growing(name, export), *(_spelled(_kept_by_none(document.tree), TreeOptions(), ()) if own else [])])
+    if own:
         document = document.replace(reading=ReadingOptions(), tree=_kept_by_none(document.tree), seed=0)  # its project says the rest
-    wish = Wish.of(document, "") if export.tree == "photo" and not scribbled else None
+    wish = Wish.of(document, "") if export.tree == "photo" and not own else None
     tree = document.tree if wish is None else wish.tree
     tree = tree if export.wood is None else dataclasses.replace(tree, wood=export.wood)
     tree = dataclasses.replace(tree, solid=True) if export.solid else tree
     if wish is None:
-        words = ["sketchtree", "build", name + PROJECT, "-o", name + export.format, *(["--as-drawn"] if is_photo(document.underlay) and not scribbled else [])] + _spelled(document.reading, ReadingOptions(), _LATER["reading"])
+        words = ["sketchtree", "build", name + PROJECT, "-o", name + export.format, *(["--as-drawn"] if (document.points.traced or is_photo(document.underlay)) and not own else [])] + _spelled(document.reading, ReadingOptions(), _LATER["reading"])
     else:
         words = ["sketchtree", "photo", name + suffix_of(document.underlay.picture), "--strokes", name + ".svg", "-o", name + export.format]
         words += _spelled(wish.reading, ReadingOptions(), _LATER["reading"]) + _of_photo(wish.wanted)
@@ -77,7 +78,7 @@ def command_line(document: Document, export: Export) -> str:
 
 
 def _kept_by_none(tree: TreeOptions) -> TreeOptions:
-    """What a tree of scribbles hangs on, and its project does not say again to whoever reads it."""
+    """What a tree of scribbles, or of points, hangs on, and its project does not say again to whoever reads it."""
     return TreeOptions(prune=tree.prune, max_segments=tree.max_segments)
 
 

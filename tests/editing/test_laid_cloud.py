@@ -119,3 +119,13 @@ def test_methods_without_factors_do_not_hear_of_them(post):
 def test_without_points_nothing_is_different():
     solver = st.Elevation()
     assert with_seen(solver, None, graph_of(drawn([(0, 0), (0, 100)]))) is solver
+
+
+def test_that_points_are_not_heard_of_is_said(post):
+    from sketchtree.drawn_tree import draw_out
+    from sketchtree.options import ReadingOptions
+
+    strokes = drawn([(0, 0), (0, 400)], [(0, 200), (90, 300)])
+    made = draw_out(st.Sketch(tuple(strokes)), key=st.root_key(0), options=ReadingOptions(template="none", method="flat"), cloud=laid_under(post, strokes))
+    assert "The method `flat` does not hear of the points behind the drawing; `elevation` does." in made.warnings
+    assert made.skeleton.radius[made.skeleton.is_base].max() == pytest.approx(post.trunk, rel=0.1)

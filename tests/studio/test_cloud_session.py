@@ -12,9 +12,12 @@ from sketchtree.editing.document import Document
 from sketchtree.editing.laid_cloud import CloudChoices, LaidCloud
 from sketchtree.editing.settled import Settled
 from sketchtree.errors import SeveralTrees, SketchError
+from sketchtree.options import TreeOptions
 from sketchtree.sketch.strokes import Stroke
 from sketchtree.studio import filing, journal_lines, messages
 from sketchtree.studio.cloud_files import is_cloud
+from sketchtree.studio.exports import Export, command_line
+from sketchtree.studio.growth import Grown
 from sketchtree.studio.recovery import journal_of
 
 CLOUD = LaidCloud(np.array([(0, 0, 0), (0, 4, 1)], "<f4").tobytes(), False, 0.0, 0.0, 100.0, 0.1, ("3 points were there twice; they were merged.",))
@@ -184,3 +187,17 @@ def test_several_trees_of_an_upload_are_told_with_the_refusal():
 )  # fmt: skip
 def test_clouds_are_told_by_their_bytes_or_their_names(data, name, is_one):
     assert is_cloud(data, name) == is_one
+
+
+@pytest.mark.parametrize(
+    ("traced", "export", "said"),
+    [
+        (True, {"tree": "photo"}, "sketchtree build scan.sketchtree -o scan.glb"),
+        (True, {"tree": "drawn"}, "sketchtree build scan.sketchtree -o scan.glb --as-drawn --season autumn"),
+        (False, {"tree": "drawn"}, "sketchtree build scan.sketchtree -o scan.glb --season autumn"),
+        (True, {"tree": "photo", "growth": Grown()}, "sketchtree grow scan.sketchtree -o scan.glb"),
+    ],
+)
+def test_the_command_line_makes_the_tree_that_is_shown(traced, export, said):
+    document = Document({"trunk": TRUNK}, cloud=CLOUD, points=CloudChoices(traced=traced), tree=TreeOptions(season="autumn"), name="scan")
+    assert command_line(document, Export(format=".glb", **export)) == said

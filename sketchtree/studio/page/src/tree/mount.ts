@@ -146,7 +146,7 @@ function followFrames(view: View, store: Store, { scenery, chosen, weather, grou
     if (stood && scale && of.scale !== scale) view.rescale(of.scale / scale);
     scale = of.scale;
     scenery.show(plant, of.phase === "quick");
-    placeScan(view, store, scan);
+    placeScan(store, scan);
     view.box = scan.box?.union(scenery.box) ?? scenery.box;
     if (!scenery.box.isEmpty()) {
       weather.light(scenery.box);
@@ -215,16 +215,16 @@ function followLooks(view: View, store: Store, { weather, ground, figure, ink, g
 }
 
 /** Where the points of a scan are, beside the tree that is shown. */
-function placeScan(view: View, store: Store, scan: ScanPoints): void {
+function placeScan(store: Store, scan: ScanPoints): void {
   const { known } = store;
-  scan.show(known.scan, known.cloud, standOn(store), known.points?.shown ?? true, known.points?.size ?? 2, view.stage.renderer.getPixelRatio());
+  scan.show(known.scan, known.cloud, standOn(store), known.points?.shown ?? true, known.points?.size ?? 2);
 }
 
 /** Points come and go; alone they are what there is to see. */
 function followPoints(view: View, store: Store, { scan, scenery, weather, ground, figure }: Pick<Standing, "scan" | "scenery" | "weather" | "ground" | "figure">): void {
   let before: string | null = null;
   store.on(["scan", "cloud", "points"], () => {
-    placeScan(view, store, scan);
+    placeScan(store, scan);
     const box = scan.box?.union(scenery.box) ?? scenery.box;
     view.box = box;
     if (!box.isEmpty() && scenery.box.isEmpty()) {

@@ -20,7 +20,7 @@ export class ScanPoints {
   }
 
   /** These, or none. */
-  show(scan: Scan | null, cloud: Cloud | null, at: Stand, shown: boolean, size: number, ratio: number): void {
+  show(scan: Scan | null, cloud: Cloud | null, at: Stand, shown: boolean, size: number): void {
     this.points.visible = scan !== null && cloud !== null && shown;
     if (!scan || !cloud) return;
     if (scan.digest !== this.digest) this.make(scan);
@@ -28,7 +28,7 @@ export class ScanPoints {
     this.points.position.set((cloud.x - (at.root[0] ?? 0)) * at.scale, ((at.root[1] ?? 0) - cloud.y) * at.scale, 0);
     this.points.scale.setScalar(cloud.unit * at.scale);
     this.points.updateMatrixWorld();
-    this.material.size = size * ratio;
+    this.material.size = size;
   }
 
   wear(theme: "light" | "dark"): void {
