@@ -1,4 +1,4 @@
-"""How do leaves become triangles? All in one mesh: a bent card a leaf, a thin tube a short shoot.
+"""How do leaves become triangles? All in one mesh: a bent card a leaf, petals and stalks a blossom (`flowers`), a thin tube a short shoot.
 
 Shading normals lean from the card's own towards "out of the crown":
 
@@ -10,7 +10,8 @@ from jaxtyping import Float
 
 from sketchtree.foliage.card_shape import bends, bent, card, card_normals
 from sketchtree.foliage.crown_light import crown_light
-from sketchtree.foliage.leaf_materials import colours_of, leaf_factor, leaf_material
+from sketchtree.foliage.flowers.worn import MERGED, flower_for
+from sketchtree.foliage.leaf_materials import card_material, colours_of, leaf_factor, leaf_material
 from sketchtree.foliage.leaves import Leaves
 from sketchtree.foliage.models import leaf_model
 from sketchtree.foliage.seasons import check_season
@@ -24,9 +25,12 @@ def leaf_mesh(leaves: Leaves, *, season: str = "summer") -> Mesh:
     """All leaves as one mesh called `leaf` (`leaf_blossom` if they are blossoms), its material `leaf_<model>`. Raises OptionError."""
     check_season(season)
     model = leaf_model(leaves.model)
-    corners, uv, triangle = card(leaves.model)
-    position = leaves.position[:, None] + turned(bent(corners, model, *bends(leaves.tint, model)), leaves) * leaves.size[:, None, None]
-    normal = outward(turned(card_normals(corners, triangle, model)[None], leaves), position, model.is_blade)
+    flower = flower_for(leaves.model, len(leaves), MERGED)
+    corners, uv, triangle = card(leaves.model) if flower is None else flower
+    one = bent(corners, model, *bends(leaves.tint, model)) if flower is None else corners[None]
+    position = leaves.position[:, None] + turned(one, leaves) * leaves.size[:, None, None]
+    own = card_normals(corners, triangle, model) if flower is None else flower.normals()
+    normal = outward(turned(own[None], leaves), position, model.is_blade or flower is not None)
     factor = leaf_factor(leaves, season, crown_light(leaves))
     vertices = len(corners)
     stem = stems(leaves, vertices * len(leaves))
@@ -36,7 +40,7 @@ def leaf_mesh(leaves: Leaves, *, season: str = "summer") -> Mesh:
         normal=np.vstack([normal.reshape(-1, 3), stem.normal]),
         uv=np.vstack([np.tile(uv, (len(leaves), 1)), stem.uv]),
         triangle=np.vstack([(triangle[None] + vertices * np.arange(len(leaves))[:, None, None]).reshape(-1, 3), stem.triangle]),
-        material=leaf_material(leaves.model, colours_of(leaves, season)),
+        material=(card_material if flower is None else leaf_material)(leaves.model, colours_of(leaves, season)),
         color=np.vstack([np.repeat(factor, vertices, axis=0), np.ones((len(stem.position), 4))]),
     )
     return mesh if leaves.printed is None else leaves.printed.on(mesh, model)

@@ -10,7 +10,8 @@ from scipy.spatial.transform import Rotation
 from sketchtree.foliage.card_shape import bends, bent, card, card_normals
 from sketchtree.foliage.cards import leaf_axes, mesh_name
 from sketchtree.foliage.crown_light import crown_light
-from sketchtree.foliage.leaf_materials import colours_of, leaf_factor, leaf_material
+from sketchtree.foliage.flowers.worn import INSTANCED, flower_for
+from sketchtree.foliage.leaf_materials import card_material, colours_of, leaf_factor, leaf_material
 from sketchtree.foliage.leaves import Leaves
 from sketchtree.foliage.models import leaf_model
 from sketchtree.foliage.seasons import check_season
@@ -26,7 +27,8 @@ def leaf_instances(leaves: Leaves, *, season: str = "summer") -> tuple[Instances
     (`leaf_blossom_0`, …). What no leaf uses is left out. Those of cards name their leaves' rows. Raises OptionError."""
     check_season(season)
     model = leaf_model(leaves.model)
-    material, factor = leaf_material(leaves.model, colours_of(leaves, season)), leaf_factor(leaves, season, crown_light(leaves))
+    flower = flower_for(leaves.model, len(leaves), INSTANCED)
+    material, factor = (card_material if flower is None else leaf_material)(leaves.model, colours_of(leaves, season)), leaf_factor(leaves, season, crown_light(leaves))
     kinds = _BENDS if model.is_blade and model.curl else 1
     share = bends(leaves.tint, model)[1] / model.curl if kinds > 1 else np.ones(len(leaves))
     kind = np.clip(((share - 0.4) / 1.2 * kinds).astype(int), 0, kinds - 1)
@@ -34,7 +36,8 @@ def leaf_instances(leaves: Leaves, *, season: str = "summer") -> tuple[Instances
     found = []
     for k in np.unique(kind):
         of = kind == k
-        mesh = _card_mesh(leaves.model, f"{mesh_name(leaves.model)}_{k}", 0.4 + 1.2 * (k + 0.5) / kinds, material)
+        title = f"{mesh_name(leaves.model)}_{k}"
+        mesh = _card_mesh(leaves.model, title, 0.4 + 1.2 * (k + 0.5) / kinds, material) if flower is None else Mesh(title, flower.position, flower.normals(), flower.uv, flower.triangle, material)
         found.append(Instances(mesh, leaves.position[of], turn[of], np.repeat(leaves.size[of, None], 3, axis=1), factor[of], np.flatnonzero(of)))
     return (*found, _stem_instances(leaves, material)) if len(leaves.shoot) else tuple(found)
 

@@ -16,6 +16,7 @@ from functools import lru_cache
 import numpy as np
 from jaxtyping import Float, UInt8
 
+from sketchtree.foliage.flowers.worn import flower_painting, with_meshes
 from sketchtree.foliage.leaves import Leaves
 from sketchtree.foliage.models import leaf_model, leaf_painting
 from sketchtree.foliage.painting import Painting, albedo, normal_map
@@ -34,8 +35,16 @@ _VEIN, _STEM = 0.55, 0.12  # of the light, pass veins and stems
 
 @lru_cache(maxsize=128)
 def leaf_material(name: str, season: str = "summer") -> Material:
-    """The textures of a leaf model in a season; the material is called `leaf_<name>`. Raises OptionError."""
-    return painted_material(f"leaf_{name}", leaf_painting(name), name, season)
+    """The textures of a leaf model in a season, of a flower's mesh if it has one; the material is called `leaf_<name>`. Raises OptionError."""
+    leaf_model(name)
+    painting = flower_painting(name) if name in with_meshes() else leaf_painting(name)
+    return painted_material(f"leaf_{name}", painting, name, season)
+
+
+@lru_cache(maxsize=16)
+def card_material(name: str, season: str = "summer") -> Material:
+    """The same of its card: what flowers wear of which there are too many for meshes."""
+    return painted_material(f"leaf_{name}_cards", leaf_painting(name), name, season) if name in with_meshes() else leaf_material(name, season)
 
 
 def painted_material(title: str, painting: Painting, name: str, season: str) -> Material:

@@ -38,6 +38,7 @@ class LeafModel:
     flower: bool = False  # a blossom, not a leaf
     blossom: str | None = None  # name of the model that its twigs bear in spring beside it
     blossom_share: float = 0.6  # of the nodes that bear it
+    blossom_on: str = "twigs"  # twigs: at their ends, and those of short shoots; old wood: all along limbs that have lost their leaves
     blossom_nodes: int = 1  # how many nodes at the end of each twig and short shoot may bear it
 
     @property

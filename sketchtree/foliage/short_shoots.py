@@ -6,6 +6,8 @@ import numpy as np
 from jaxtyping import Float, Int
 
 from sketchtree.foliage.card_shape import foot_of
+from sketchtree.foliage.flowers.atlas import STEM
+from sketchtree.foliage.flowers.worn import with_meshes
 from sketchtree.foliage.leaves import Leaves
 from sketchtree.foliage.models import leaf_painting
 from sketchtree.foliage.twigs import level_side
@@ -54,7 +56,8 @@ def unit_stem(model: str) -> Stems:
     foot = (painting.top - foot_of(painting)) / (painting.top - painting.bottom)
     v = foot - np.repeat([0.012, 0.024], 3)
     position = np.vstack([ring, _TAPER * ring + [0, 1, 0]])
-    return Stems(position, np.tile(ring, (2, 1)), np.stack([u, v], axis=1), SIDES)
+    uv = np.tile(STEM, (6, 1)) if model in with_meshes() else np.stack([u, v], axis=1)
+    return Stems(position, np.tile(ring, (2, 1)), uv, SIDES)
 
 
 def spike(model: str) -> Stems:

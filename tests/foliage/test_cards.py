@@ -6,7 +6,7 @@ from sketchtree.errors import OptionError
 from sketchtree.foliage.card_shape import hexagon
 from sketchtree.foliage.cards import leaf_mesh
 from sketchtree.foliage.leaf_materials import leaf_material
-from sketchtree.foliage.leaves import Leaves
+from sketchtree.foliage.leaves import Leaves, select
 from sketchtree.foliage.models import leaf_model, leaf_names, leaf_painting
 from sketchtree.foliage.populate import populate
 from tests.foliage.trees import HABIT, small_tree
@@ -21,6 +21,16 @@ def worn(request):
     return leaves, leaf_mesh(leaves)
 
 
+@pytest.fixture(scope="module")
+def carded(worn):
+    """The same on cards: of flowers there must be many, few wear petals (`test_flower_meshes`)."""
+    leaves, mesh = worn
+    if not leaf_model(leaves.model).flower:
+        return leaves, mesh
+    many = select(leaves, np.arange(20_000) % len(leaves))
+    return many, leaf_mesh(many)
+
+
 def test_the_mesh_is_called_leaf_and_its_material_after_the_model(worn):
     leaves, mesh = worn
     assert mesh.name == ("leaf_blossom" if leaf_model(leaves.model).flower else "leaf")
@@ -33,8 +43,8 @@ def cards(leaves, mesh):
     return mesh.position[: len(mesh.position) - 6 * len(leaves.shoot)].reshape(len(leaves), -1, 3)
 
 
-def test_a_leaf_is_at_most_six_triangles_and_so_is_a_short_shoot(worn):
-    leaves, mesh = worn
+def test_a_leaf_is_at_most_six_triangles_and_so_is_a_short_shoot(carded):
+    leaves, mesh = carded
     assert len(mesh.triangle) <= 6 * (len(leaves) + len(leaves.shoot))
     assert mesh.triangle.min() == 0 and mesh.triangle.max() == len(mesh.position) - 1
 
@@ -47,15 +57,15 @@ def test_columns_are_finite_normals_unit_and_factors_within_range(worn):
     assert mesh.color.min() >= 0 and mesh.color.max() <= 1
 
 
-def test_every_leaf_starts_in_the_middle_of_its_cards_foot_edge(worn):
-    leaves, mesh = worn
+def test_every_leaf_starts_in_the_middle_of_its_cards_foot_edge(carded):
+    leaves, mesh = carded
     apart = cards(leaves, mesh)[:, :2].mean(axis=1) - leaves.position
     apart -= np.einsum("li,li->l", apart, leaves.normal)[:, None] * leaves.normal  # both corners of a folded card rise
     assert (np.linalg.norm(apart, axis=1) < 0.04 * leaves.size).all()
 
 
-def test_a_card_is_as_long_as_its_blade_with_petiole(worn):
-    leaves, mesh = worn
+def test_a_card_is_as_long_as_its_blade_with_petiole(carded):
+    leaves, mesh = carded
     corners = cards(leaves, mesh) - leaves.position[:, None]
     along = np.einsum("lvk,lk->lv", corners, leaves.direction).max(axis=1) / leaves.size
     painting = leaf_painting(leaves.model)

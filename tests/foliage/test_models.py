@@ -9,16 +9,16 @@ from sketchtree.foliage.seasons import SEASONS, Palette, check_season, linear
 
 LEAVES = (
     "oak", "beech", "maple", "birch", "willow", "poplar", "apple", "hazel", "lime", "elm", "alder", "hornbeam", "cherry", "hawthorn", "plane", "lilac",
-    "olive", "horse_chestnut", "ash", "elder", "sumac", "rowan", "acacia", "spruce", "pine", "stone_pine", "white_pine", "larch", "cedar", "fir", "juniper",
+    "cercis", "olive", "horse_chestnut", "ash", "elder", "sumac", "rowan", "acacia", "spruce", "pine", "stone_pine", "white_pine", "larch", "cedar", "fir", "juniper",
     "cypress", "palm", "fan_palm", "dragon_tree",
 )  # fmt: skip
 BLOSSOMS = (
-    "apple_blossom", "cherry_blossom", "hawthorn_blossom", "elder_blossom", "chestnut_candle", "lilac_panicle", "hazel_catkin", "birch_catkin",
+    "apple_blossom", "cherry_blossom", "hawthorn_blossom", "elder_blossom", "chestnut_candle", "lilac_panicle", "cercis_blossom", "hazel_catkin", "birch_catkin",
     "alder_catkin", "willow_catkin",
 )  # fmt: skip
 
 
-def test_there_are_thirty_five_leaves_and_ten_blossoms():
+def test_there_are_thirty_six_leaves_and_eleven_blossoms():
     assert leaf_names() == LEAVES + BLOSSOMS
     assert [name for name in leaf_names() if leaf_model(name).flower] == list(BLOSSOMS)
 

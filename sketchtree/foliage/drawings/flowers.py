@@ -26,6 +26,11 @@ def hawthorn_blossom() -> Painting:
     return _umbel(63, flowers=20, radius=0.135, petal=0.66, stalk=0.22, spread=0.66, rise=0.50, heart=0.30)
 
 
+def cercis_blossom() -> Painting:
+    """Cercis: a handful of pea flowers on short stalks out of old wood."""
+    return _umbel(67, flowers=9, radius=0.20, petal=0.60, stalk=0.10, spread=0.75, rise=0.42, heart=0.22)
+
+
 def elder_blossom() -> Painting:
     """Sambucus: a flat plate of hundreds of tiny cream flowers on five branching stalks."""
     rng = np.random.default_rng(64)

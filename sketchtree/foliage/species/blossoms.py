@@ -29,6 +29,10 @@ BLOSSOMS = (
         palettes=always("#a586c4", "#cdb4e0", "#8c6cae", "#7d8a58"),
     ),
     LeafModel(
+        "cercis_blossom", flowers.cercis_blossom, flower=True, arrangement="spiral", size=0.042, spacing=0.045, inclination=78.0, droop=0.05, planes=2, curl=0.0, fold=0.0, translucency=0.4,
+        palettes=always("#b8549a", "#dc8cc0", "#c4629a", "#7c3a5c"),
+    ),
+    LeafModel(
         "hazel_catkin", catkins.hazel_catkin, flower=True, arrangement="alternate", size=0.06, spacing=0.06, inclination=40.0, droop=2.6, planes=2, curl=0.0, fold=0.0, translucency=0.3,
         palettes=always("#b99a42", "#d9c05c", "#ecd873", "#8a7048"),
     ),

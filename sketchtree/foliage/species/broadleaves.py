@@ -138,6 +138,15 @@ BROADLEAVES = (
         ), roughness=0.5, translucency=0.3,
     ),
     LeafModel(
+        "cercis", entire.lilac, arrangement="alternate", size=0.085, spacing=0.045, inclination=62.0, droop=0.40, fold=10.0, curl=0.08,
+        blossom="cercis_blossom", blossom_on="old wood", blossom_share=0.75,
+        palettes=seasons(
+            ("#a07a4a", "#a8a85c", "#c4b47e", "#9a6a58"),
+            ("#4f7040", "#7a9a58", "#a8b880", "#8f7a5a"),
+            ("#b89a34", "#d6bc4c", "#dccb80", "#a08448"),
+        ), roughness=0.55, translucency=0.4,
+    ),
+    LeafModel(
         "olive", entire.olive, arrangement="decussate", size=0.065, spacing=0.016, inclination=48.0, droop=0.10, fold=12.0, curl=0.06, shoot=4.0, evergreen=True,
         palettes=seasons(
             ("#70814e", "#aab494", "#b6bea0", "#8c8c60"),
