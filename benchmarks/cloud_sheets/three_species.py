@@ -15,6 +15,7 @@ from sketchtree.templates.store.database import Database
 
 SPECIES = (("wild_cherry", "wild cherry"), ("silver_birch", "silver birch"), ("norway_maple", "Norway maple"))
 POINTS, LEAFY = 24_000, 0.35
+SIZE = (196, 222)  # pixels of a panel
 
 
 def sheet(path: Path) -> None:
@@ -31,4 +32,4 @@ def row(name: str, title: str):
     tree = stands.grows().skeleton
     in_leaf = Finish(root_key(0), TreeOptions(wood="tubes"), Database.open(), name)(tree)[0].meshes
     seen = (("cloud", [points_mesh(cloud.xyz, size, (0.45, 0.47, 0.44))]), ("weights", [points_mesh(cloud.xyz, size, ramp(order, WARM))]), ("skeleton", [wood_of(tree)]), ("in leaf", in_leaf))
-    return [(f"{title}: {what}", shot(meshes, focus)) for what, meshes in seen]
+    return [(f"{title}, {what}", shot(meshes, focus, size=SIZE)) for what, meshes in seen]
