@@ -15,7 +15,7 @@ from sketchtree.foliage.leaf_materials import card_material, colours_of, leaf_fa
 from sketchtree.foliage.leaves import Leaves
 from sketchtree.foliage.models import leaf_model
 from sketchtree.foliage.seasons import check_season
-from sketchtree.foliage.short_shoots import stems
+from sketchtree.foliage.short_shoots import on_petals, stems
 from sketchtree.geometry.mesh import Mesh
 
 _OUTWARD = {True: 0.35, False: 0.6}  # blade, tuft
@@ -34,6 +34,7 @@ def leaf_mesh(leaves: Leaves, *, season: str = "summer") -> Mesh:
     factor = leaf_factor(leaves, season, crown_light(leaves))
     vertices = len(corners)
     stem = stems(leaves, vertices * len(leaves))
+    stem = stem if flower is None else on_petals(stem)
     mesh = Mesh(
         name=mesh_name(leaves.model),
         position=np.vstack([position.reshape(-1, 3), stem.position]),

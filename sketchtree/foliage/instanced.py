@@ -15,7 +15,7 @@ from sketchtree.foliage.leaf_materials import card_material, colours_of, leaf_fa
 from sketchtree.foliage.leaves import Leaves
 from sketchtree.foliage.models import leaf_model
 from sketchtree.foliage.seasons import check_season
-from sketchtree.foliage.short_shoots import stem_frames, unit_stem
+from sketchtree.foliage.short_shoots import on_petals, stem_frames, unit_stem
 from sketchtree.geometry.instances import Instances
 from sketchtree.geometry.mesh import Mesh
 
@@ -39,7 +39,7 @@ def leaf_instances(leaves: Leaves, *, season: str = "summer") -> tuple[Instances
         title = f"{mesh_name(leaves.model)}_{k}"
         mesh = _card_mesh(leaves.model, title, 0.4 + 1.2 * (k + 0.5) / kinds, material) if flower is None else Mesh(title, flower.position, flower.normals(), flower.uv, flower.triangle, material)
         found.append(Instances(mesh, leaves.position[of], turn[of], np.repeat(leaves.size[of, None], 3, axis=1), factor[of], np.flatnonzero(of)))
-    return (*found, _stem_instances(leaves, material)) if len(leaves.shoot) else tuple(found)
+    return (*found, _stem_instances(leaves, material, flower is not None)) if len(leaves.shoot) else tuple(found)
 
 
 def _card_mesh(name: str, title: str, curl: float, material) -> Mesh:
@@ -49,8 +49,9 @@ def _card_mesh(name: str, title: str, curl: float, material) -> Mesh:
     return Mesh(title, position, card_normals(corners, triangle, model), uv, triangle, material)
 
 
-def _stem_instances(leaves: Leaves, material) -> Instances:
+def _stem_instances(leaves: Leaves, material, petals: bool) -> Instances:
     one, at = unit_stem(leaves.model), stem_frames(leaves)
+    one = on_petals(one) if petals else one
     radius = np.full(len(at.start), at.radius)
     mesh = Mesh("leaf_stem", one.position, one.normal, one.uv, one.triangle, material)
     return Instances(mesh, at.start, _quaternions(at.axes), np.stack([radius, at.length, radius], axis=1))

@@ -7,7 +7,6 @@ from jaxtyping import Float, Int
 
 from sketchtree.foliage.card_shape import foot_of
 from sketchtree.foliage.flowers.atlas import STEM
-from sketchtree.foliage.flowers.worn import with_meshes
 from sketchtree.foliage.leaves import Leaves
 from sketchtree.foliage.models import leaf_painting
 from sketchtree.foliage.twigs import level_side
@@ -56,8 +55,7 @@ def unit_stem(model: str) -> Stems:
     foot = (painting.top - foot_of(painting)) / (painting.top - painting.bottom)
     v = foot - np.repeat([0.012, 0.024], 3)
     position = np.vstack([ring, _TAPER * ring + [0, 1, 0]])
-    uv = np.tile(STEM, (6, 1)) if model in with_meshes() else np.stack([u, v], axis=1)
-    return Stems(position, np.tile(ring, (2, 1)), uv, SIDES)
+    return Stems(position, np.tile(ring, (2, 1)), np.stack([u, v], axis=1), SIDES)
 
 
 def spike(model: str) -> Stems:
@@ -78,6 +76,11 @@ def sliver(model: str) -> Stems:
 
 STEMS = {6: unit_stem, 3: spike, 1: sliver}
 """Shapes of a stem by their triangles."""
+
+
+def on_petals(stem: Stems) -> Stems:
+    """The same in the stem's patch of a flower's texture (`flowers.atlas`)."""
+    return stem._replace(uv=np.tile(STEM, (len(stem.uv), 1)))
 
 
 def stems(leaves: Leaves, first: int, triangles: int = 6) -> Stems:

@@ -18,7 +18,7 @@ from sketchtree.foliage.instanced import leaf_instances
 from sketchtree.foliage.leaf_cards import leaf_cards
 from sketchtree.foliage.leaf_materials import leaf_material
 from sketchtree.foliage.leaves import select
-from sketchtree.foliage.models import leaf_model, leaf_names
+from sketchtree.foliage.models import leaf_model, leaf_names, leaf_painting
 from sketchtree.rig.leaf_rows import leaf_rows
 from tests.foliage.trees import HABIT, small_tree
 
@@ -128,6 +128,15 @@ def test_too_many_for_meshes_are_crossed_cards_in_the_drawn_cluster(blossoms):
     many = select(blossoms, np.zeros(20_000, int))
     mesh = leaf_mesh(many, season="spring")
     assert len(mesh.triangle) == 4 * len(many) and mesh.material.name == "leaf_cherry_blossom_cards"
+
+
+def test_short_shoots_that_bear_flowers_have_the_colour_of_stems_in_either_texture(blossoms):
+    shoot = np.array([[[0.0, 1, 0], [0.0, 1.1, 0]]])
+    few, many = replace(blossoms, shoot=shoot), replace(select(blossoms, np.zeros(20_000, int)), shoot=shoot)
+    assert leaf_mesh(few).uv[-6:].tolist() == [list(STEM)] * 6
+    assert leaf_instances(few)[-1].mesh.uv.tolist() == [list(STEM)] * 6
+    at = (leaf_mesh(many).uv[-6:] * leaf_painting("cherry_blossom").stem.shape[::-1]).astype(int)
+    assert leaf_painting("cherry_blossom").stem[at[:, 1], at[:, 0]].mean() > 0.8
 
 
 def test_a_redbud_flowers_out_of_its_old_wood_and_to_all_sides():

@@ -1,7 +1,7 @@
 import numpy as np
 import pytest
 
-from sketchtree.foliage.leaf_materials import leaf_material
+from sketchtree.foliage.leaf_materials import card_material, leaf_material
 from sketchtree.foliage.models import leaf_model, leaf_names, leaf_painting
 from sketchtree.foliage.painting import to_linear, to_srgb
 
@@ -12,13 +12,13 @@ def name(request):
 
 
 def test_alpha_has_full_and_empty_pixels_and_a_transparent_border(name):
-    alpha = leaf_material(name).base_color_texture[..., 3]
+    alpha = card_material(name).base_color_texture[..., 3]
     assert alpha.min() == 0 and alpha.max() == 255
     assert max(alpha[0].max(), alpha[-1].max(), alpha[:, 0].max(), alpha[:, -1].max()) == 0
 
 
 def test_the_drawing_fills_its_texture(name):
-    rows, columns = np.nonzero(leaf_material(name).base_color_texture[..., 3] > 127)
+    rows, columns = np.nonzero(card_material(name).base_color_texture[..., 3] > 127)
     height, width = leaf_painting(name).coverage.shape
     assert 256 <= height <= 512 or 256 <= width <= 512
     assert np.ptp(rows) > 0.9 * height or np.ptp(columns) > 0.9 * width
@@ -26,7 +26,7 @@ def test_the_drawing_fills_its_texture(name):
 
 
 def test_colour_runs_on_under_the_transparent_area(name):
-    texture = leaf_material(name).base_color_texture.astype(float)
+    texture = card_material(name).base_color_texture.astype(float)
     solid, empty = texture[..., 3] >= 128, texture[..., 3] == 0
     for channel in range(3):
         seen = texture[..., channel][solid]
@@ -43,7 +43,7 @@ def test_greens_are_neither_neon_nor_grey(name):
 
 
 def test_normals_are_unit_and_look_up(name):
-    texture = leaf_material(name).normal_texture
+    texture = card_material(name).normal_texture
     normal = texture / 127.5 - 1
     assert np.allclose(np.linalg.norm(normal, axis=2), 1, atol=0.02)
     assert normal[..., 2].min() > 0.1
@@ -52,7 +52,7 @@ def test_normals_are_unit_and_look_up(name):
 
 
 def test_light_that_passes_is_brighter_in_the_blade_than_in_stem_and_vein(name):
-    material, painting = leaf_material(name), leaf_painting(name)
+    material, painting = card_material(name), leaf_painting(name)
     passed = material.translucency_texture.astype(float).sum(axis=2)
     assert material.translucency_texture.shape == (*painting.coverage.shape, 3) and 0 < material.translucency < 0.5
     blade = (painting.coverage > 0.9) & (painting.vein < 0.1) & (painting.stem < 0.1)
