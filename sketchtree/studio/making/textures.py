@@ -5,7 +5,7 @@ from functools import lru_cache
 
 import numpy as np
 
-from sketchtree.foliage.leaf_materials import SEEN, leaf_material
+from sketchtree.foliage.leaf_materials import SEEN, card_material, leaf_material
 from sketchtree.foliage.models import leaf_names, plain_names
 from sketchtree.geometry.bark import bark_material, bark_names, rachis_material, twig_material
 from sketchtree.geometry.mesh import Material
@@ -57,6 +57,8 @@ def _named(key: str) -> Material | None:
     for leaf in (*leaf_names(), *plain_names()):
         if season in (*SEASONS, SEEN) and name in (f"leaf_{leaf}", leaf):
             return leaf_material(leaf, season)
+        if season in (*SEASONS, SEEN) and name == f"leaf_{leaf}_cards":
+            return card_material(leaf, season)
     return None
 
 
