@@ -8,7 +8,7 @@ even cloth, and nothing can stand before those: that is known to a fraction of a
                                  than noise
 
 is how much of a pixel the plant fills. A photo looks past a place where α, read between pixels, is under `HALF`. A place can't be if more than `SHARE` of the photos
-that have it in the picture look past it, and more than `SPARE` of them. An even patch of bark is taken for a place where nothing stands, in some photos; hence the
+that have it in the picture look past it, and more than `SPARE` of them. In some photos an even patch of bark is taken for a place where nothing stands; hence the
 shares. A point at such a place is moved along its ray to the nearest that can be, `MOST` pixels at most; where there is none it is no point.
 """
 
@@ -44,7 +44,7 @@ def outlines_of(cameras: list[Camera], filled: list[Float[np.ndarray, "row colum
 
 
 def filled(rgb: Float[np.ndarray, "row column 3"], empty: Bool[np.ndarray, "row column"]) -> Float[np.ndarray, "row column"]:
-    """α of every pixel; `empty`: sky, and what is even."""
+    """α of every pixel; `empty`: sky, and what is even behind the plant."""
     if not empty.any():
         return np.ones(empty.shape, np.float32)
     away, (y, x) = distance_transform_edt(~empty, return_indices=True)

@@ -2,8 +2,9 @@
 
 Sky, of a photo: what is reached from its upper border over pixels that are even (brightness changes by less than `EVEN` to the next) and either bright (above
 0.75 in all channels) or blue (b > r + 0.03, b ≥ g, above 0.35); and within `MIXED` pixels of it what has such a colour, though it is not even, and within
-`HOLES` of the picture what has such a colour and that of the nearest sky (to 0.08 in every channel), since sky shines past and between twigs. Behind, of a
-cloud: what is no nearer to the place looked at than the nearest camera is.
+`HOLES` of the picture what has such a colour and that of the nearest sky (to 0.08 in every channel), since sky shines past and between twigs. An even
+place lies behind the plant if it reaches the border of the picture, or looks like the nearest that does (to `LIKE` in every channel, in the mean): a smooth leaf is
+even too. Behind, of a cloud: what is no nearer to the place looked at than the nearest camera is.
 
 Ground, of a cloud with y up: the level plane (tilted by 15° at most) that most points of the lower third lie on, if at least 3 % of all do, they reach as far across
 as 0.4 of the cloud's width, both ways (the outermost 2 % left out), and hardly anything lies under it (no trunk: farther below than 2.4 % of the height, less than a
@@ -21,6 +22,7 @@ from sketchtree.multiview.sources import looked_at
 
 EVEN = 0.04
 MIXED, HOLES = 3, 0.15
+LIKE = 0.1
 LEVEL = np.cos(np.radians(15.0))
 ABOVE = 0.012  # of the cloud's height
 SHARE, ACROSS, UNDER = 0.03, 0.4, 0.05
@@ -39,6 +41,19 @@ def sky(rgb: Float[np.ndarray, "row column 3"]) -> Bool[np.ndarray, "row column"
     away, (y, x) = distance_transform_edt(~found, return_indices=True)
     hole = (away < HOLES * max(found.shape)) & (np.abs(rgb - rgb[y, x]).max(axis=2) < 0.08)
     return found | alike & (hole | binary_dilation(found, np.ones((3, 3)), MIXED))
+
+
+def behind(rgb: Float[np.ndarray, "row column 3"], even: Bool[np.ndarray, "row column"]) -> Bool[np.ndarray, "row column"]:
+    """Which even places are behind the plant, not on it."""
+    part, count = label(even)
+    rim = np.concatenate([part[0], part[-1], part[:, 0], part[:, -1]])
+    found = even & np.isin(part, rim[rim > 0])
+    if not found.any():
+        return found
+    y, x = distance_transform_edt(~found, return_distances=False, return_indices=True)
+    off = np.abs(rgb - rgb[y, x]).max(axis=2)[even]
+    mean = np.bincount(part[even], off, count + 1) / np.maximum(np.bincount(part[even], minlength=count + 1), 1)
+    return even & (mean[part] < LIKE)
 
 
 def within(xyz: Float[np.ndarray, "point 3"], cameras: list[Camera]) -> Bool[np.ndarray, " point"]:

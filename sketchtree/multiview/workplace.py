@@ -15,7 +15,7 @@ from scipy.ndimage import distance_transform_edt, uniform_filter
 from sketchtree.multiview.cameras import Camera
 from sketchtree.multiview.homography import transfer
 from sketchtree.multiview.photos import View
-from sketchtree.multiview.sky_and_ground import sky
+from sketchtree.multiview.sky_and_ground import behind, sky
 from sketchtree.multiview.sources import Sources
 
 EVEN = 0.012  # standard deviation of brightness over 5 × 5 pixels under which a place has no texture
@@ -31,7 +31,7 @@ class Level:
     rgb: Float[np.ndarray, "row column 3"]
     grey: Float[np.ndarray, "row column"]
     used: Bool[np.ndarray, "row column"]  # u(p) of Eq. 4: seen, not sky, not even
-    empty: Bool[np.ndarray, "row column"]  # sky, or even
+    empty: Bool[np.ndarray, "row column"]  # sky, or even and behind the plant
     sources: Sources
     plane: Float[np.ndarray, "row column 3"]  # (ρ, ∂ρ/∂x, ∂ρ/∂y)
     energy: Float[np.ndarray, "row column"] = field(default=None)  # the integrand of Eq. 2
@@ -64,8 +64,9 @@ def level_of(view: View, sources: Sources, shrink: int, least: int = 96) -> Leve
         seen = np.asarray(Image.fromarray(seen.astype(np.float32)).resize(size, Image.Resampling.BOX)) > 0.99
     grey = np.ascontiguousarray(rgb @ np.array([0.299, 0.587, 0.114], np.float32), np.float32)
     even = seen & ~textured(grey)
-    empty = even | seen & sky(rgb)
-    used = seen & ~empty & ~like_even(rgb, even)
+    above = seen & sky(rgb)
+    empty = above | behind(rgb, even)
+    used = seen & ~above & ~even & ~like_even(rgb, even)
     return Level(view.name, view.camera.resized(size), rgb, grey, used, empty, sources, np.zeros((*grey.shape, 3), np.float32), np.full(grey.shape, 9.0, np.float32))
 
 

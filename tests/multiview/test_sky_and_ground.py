@@ -5,7 +5,7 @@ from ring import camera_at
 
 from sketchtree.clouds.cloud import PointCloud
 from sketchtree.keys import root_key
-from sketchtree.multiview.sky_and_ground import ground, sky, within
+from sketchtree.multiview.sky_and_ground import behind, ground, sky, within
 
 CHANCE = np.random.default_rng(2)
 TREE = np.column_stack([CHANCE.normal(0, 0.1, 800), CHANCE.uniform(0, 3, 800), CHANCE.normal(0, 0.1, 800)])
@@ -73,3 +73,16 @@ def test_a_pot_that_is_no_wider_than_a_part_of_the_plant_stays():
 def test_the_same_key_gives_the_same_ground():
     cloud = PointCloud(np.concatenate([TREE, MEADOW]))
     np.testing.assert_array_equal(ground(cloud, key=root_key(4)), ground(cloud, key=root_key(4)))
+
+
+def test_a_smooth_leaf_is_even_but_not_behind_and_a_hole_in_a_fork_is():
+    y, x = np.indices((40, 40))
+    leaf, hole = np.hypot(x - 12, y - 20) < 8, np.hypot(x - 28, y - 20) < 5
+    bark = np.hypot(x - 28, y - 20) < 9
+    rgb = np.where(leaf[..., None], [0.3, 0.5, 0.2], np.where((bark & ~hole)[..., None], [0.3, 0.25, 0.2], [0.55, 0.66, 0.8]))
+    even = ~(bark & ~hole)
+    even[np.hypot(x - 12, y - 20) < 10] = False
+    even[np.hypot(x - 12, y - 20) < 6] = True
+    found = behind(rgb, even)
+    assert not found[leaf].any() and found[hole].all() and found[:, 0].all()
+    assert not behind(rgb, even & (leaf | hole)).any()  # nothing reaches the rim
