@@ -22,4 +22,4 @@ def sheet(path: Path) -> None:
     made = cloud_to_tree(PointCloud(cloud.xyz), Database.open(), key=root_key(0), wanted=CloudOptions(up="y", method="grown"), tree=TreeOptions(wood="tubes", season="bare"), template=TREE)
     focus = around(made.prepared.cloud.xyz)
     row = [("the tree", shot(made.model.meshes, focus))]
-    save(path, [row + [(said.replace("x", " ×") if said.endswith("x") else said, shot(variation(made, changes(said)[0]).tree.model.meshes, focus)) for said in VARIED]])
+    save(path, [row + [(said, shot(variation(made, changes(said)[0]).tree.model.meshes, focus)) for said in VARIED]])
