@@ -143,7 +143,7 @@ def whole_tree(found: "Found", prepared: Prepared, stands: Feet, wanted: CloudOp
     with watch("propagate"):
         wood, seen = _whole(found, prepared, wanted, finish.key)
     model, told = finish(wood, watch)
-    told = (*prepared.remarks, *_remarks(found, stands), *told)
+    told = (*prepared.remarks, *_remarks(found, stands, wanted.roots), *told)
     return CloudTree(prepared, stands, found.trunks, found.species, found.leafy, found.pieces, found.grows, seen, model, wanted, finish, tuple(dict.fromkeys(told)))
 
 
@@ -220,11 +220,13 @@ def _refined(tree: TreeSkeleton) -> TreeSkeleton:
     return TreeSkeleton.from_columns(parent, place, radius, limb=tree.limb[stays], order=tree.order[stays], tree=tree.tree[stays], kind=tree.kind[stays])
 
 
-def _remarks(found: Found, stands: Feet) -> list[str]:
+def _remarks(found: Found, stands: Feet, roots: int | None) -> list[str]:
     told = [found.leafy.remark] if found.leafy.remark else []
     if found.pieces is not None and found.pieces > 1:
         told.append(f"The points fall into {found.pieces:,} pieces; gaps between them were bridged where they are narrow.")
-    if len(stands.rows) > 1:
+    if roots is not None and len(stands.rows) < roots:
+        told.append(f"{roots} roots were asked for; the points show {len(stands.rows)}.")
+    elif len(stands.rows) > 1:
         told.append(f"The plant stands on {len(stands.rows)} feet.")
     if found.trunks[0] is None:
         told.append("How thick the trunk is can't be told from the points at its foot; the rest of the wood says so.")

@@ -142,3 +142,8 @@ def test_millions_of_points_are_thinned_while_they_are_read_and_that_is_said(tmp
     assert run(["cloud", str(tmp_path / "large.xyz"), "-o", str(tmp_path / "t.swc")]) == 0
     told = capfd.readouterr().err
     assert "Note: large.xyz holds " in told and " were kept, one in each voxel of " in told
+
+
+def test_fewer_roots_than_were_asked_for_are_told(scan, tmp_path, capfd):
+    assert run(["cloud", str(scan), "-o", str(tmp_path / "t.swc"), "--roots", "3"]) == 0
+    assert "Note: 3 roots were asked for; the points show 1." in capfd.readouterr().err

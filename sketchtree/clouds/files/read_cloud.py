@@ -23,6 +23,7 @@ from sketchtree.similarity import Similarity
 Progress = Callable[[float], None]  # told the part done, 0 to 1
 _READERS = {PLY: read_ply, LAS: read_las, NPY: read_npy, NPZ: read_npz, TEXT: read_text}
 _TOPS = (1.0, 255.0, 65535.0)  # what full colour may be written as
+_LEAST, _MOST = 1e-6, 1e4  # metres that a unit may be
 _NO_UNIT = 1e-9  # a normal shorter than this has no direction
 
 
@@ -37,7 +38,7 @@ def read_placed(path: str | os.PathLike, *, unit: float = 1.0, max_points: int =
     Raises SketchError, naming the file (and the line), for one that holds no cloud, ends too early or can't be read; OptionError for a limit or a unit that makes no sense.
     """
     check_limit(max_points)
-    if not (np.isfinite(unit) and unit > 0):
+    if not _LEAST <= unit <= _MOST:
         raise OptionError(f"`unit` is {unit}.", remedy="Say how many metres 1 in the file means: 0.001 for millimetres.")
     path = Path(path)
     with opened(path) as file:

@@ -128,3 +128,5 @@ def test_a_limit_or_a_unit_that_makes_no_sense_is_refused(tmp_path):
         read_cloud(tmp_path / "a.npy", max_points=5)
     with pytest.raises(OptionError, match=r"`unit` is 0\. Say how many metres 1 in the file means: 0\.001 for millimetres\."):
         read_cloud(tmp_path / "a.npy", unit=0)
+    with pytest.raises(OptionError, match=r"^`unit` is 1e\+30\. Say how many metres 1 in the file means: 0\.001 for millimetres\.$"):
+        read_cloud(tmp_path / "a.npy", unit=1e30)
