@@ -6,6 +6,9 @@ import sys
 def main() -> None:
     """Run the command line and leave with its exit status."""
     try:
+        from sketchtree.commands.stopping import listen
+
+        listen()
         from sketchtree.commands.app import run
     except KeyboardInterrupt:
         sys.exit(130)
