@@ -54,7 +54,6 @@ def _model(truth: Rendered, database: Path):
     with pycolmap.Database.open(database) as told:
         images = {image.name: image for image in told.read_all_images()}
         number = next(iter(images.values())).camera_id
-        told.close()
     focal = [first.matrix[0, 0], first.matrix[1, 1], *first.matrix[:2, 2]]
     found.add_camera_with_trivial_rig(pycolmap.Camera(model="PINHOLE", width=first.size[0], height=first.size[1], params=focal, camera_id=number))
     for view, camera in zip(truth.views, truth.cameras, strict=True):
