@@ -96,9 +96,9 @@ def row(name: str, most: int, sheet: list) -> None:
     without = cloud_to_tree(PointCloud(xyz), templates, template=name, wanted=CloudOptions(up="y", inside=False, in_leaf="no"), **how)
     none = cloud_to_tree(PointCloud(bare), templates, wanted=CloudOptions(up="y", inside=False), key=KEY)
     made = [_back(tree, foot) for tree in (without, told)]
-    print(f"| {name.replace('_', ' ')} | {len(xyz):,} | {leaf.mean():.2f} | {told.leafy.share:.2f} ({told.leafy.ends:.2f}, {told.leafy.fills:.2f}) | {labels(xyz, leaf)} | {took:.1f} s |")
+    print(f"| {name.replace('_', ' ')} | {len(xyz):,} | {leaf.mean():.2f} | {told.leafy.share:.2f} ({told.leafy.ends:.2f}, {told.leafy.fills:.2f}) | {labels(xyz, leaf)} | {took:.1f} s |", flush=True)
     for title, tree in zip(("all wood", "told"), made, strict=True):
-        print(f"|  {title} | {wood_figures(known, wood, tree)} | {leaf_area_of(tree.model.leaves).sum() / leaf_area_of(worn).sum():.2f} |")
+        print(f"|  {title} | {wood_figures(known, wood, tree)} | {leaf_area_of(tree.model.leaves).sum() / leaf_area_of(worn).sum():.2f} |", flush=True)
     print(f"|  bare | {len(bare):,} | | {none.leafy.share:.2f} ({none.leafy.ends:.2f}, {none.leafy.fills:.2f}) |", flush=True)
     sheet.append([[*wood, leaf_mesh(worn)], *(list(tree.model.meshes) for tree in made), wood, *([mesh for mesh in tree.model.meshes if mesh.name.startswith("wood")] for tree in made)])
 
