@@ -1,5 +1,7 @@
 """A point cloud in the browser: laid there, seen, hidden, traced, drawn over, and its limbs taken over."""
 
+import time
+
 import pytest
 from browser import PATIENCE, Page, Studio, open_window
 
@@ -11,6 +13,14 @@ INKED = """() => {
   for (let k = 0; k < data.length; k += 4) if (data[k + 3] > 0 && data[k] < 190) dark += 1;
   return dark;
 }"""  # pixels of the page, in its middle, that are neither paper nor grid
+
+
+def inked(page, holds) -> None:
+    """Returns once this holds of the count."""
+    end = time.monotonic() + PATIENCE
+    while not holds(page.page.evaluate(INKED)):
+        assert time.monotonic() < end, "the page did not change"
+        page.page.wait_for_timeout(50)
 
 
 @pytest.fixture(scope="module")
@@ -27,7 +37,7 @@ def page(browser, studio):
     page.get("empty-gallery").click()
     page.get("example-ash.ply").click()
     page.page.wait_for_selector(f"{AT}:not([hidden])")
-    page.page.wait_for_function(f"({INKED})() > 500")
+    inked(page, lambda dark: dark > 500)
     yield page
     context.close()
 
@@ -44,10 +54,10 @@ def test_the_example_lies_under_the_page_and_says_what_to_do(page):
 
 def test_points_are_hidden_and_shown_by_either_switch(page):
     page.get("cloud-shown").click()
-    page.page.wait_for_function(f"({INKED})() < 50")
+    inked(page, lambda dark: dark < 50)
     assert page.get("show-points").get_attribute("aria-pressed") == "false"
     page.get("show-points").click()
-    page.page.wait_for_function(f"({INKED})() > 500")
+    inked(page, lambda dark: dark > 500)
 
 
 def test_the_tree_in_them_is_traced_and_its_limbs_become_strokes(page):

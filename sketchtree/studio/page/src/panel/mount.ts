@@ -28,7 +28,7 @@ import type { Store } from "../store";
 import "./panel.css";
 
 const LOW = 340; // CSS pixels: where the page is no higher, a drawing below what is said on it would be too small to draw on
-const LOW_SCRIBBLED = 240; // the same of a photo that is scribbled on: all of it has to be seen
+const LOW_SCRIBBLED = 240; // the same of a photo that is scribbled on, or of points: all of it has to be seen
 const WIDE = 1100; // over a page as wide as this there is room beside what is said
 
 export type Dialog = "open" | "save" | "gallery" | "export";
@@ -55,10 +55,10 @@ export function mountPanels(roots: PanelRoots, store: Store, views: Views): void
   const words = document.createElement("div");
   words.className = "page-words";
   words.append(goneBanner(store), troubleCard(store), hint.root, photoCard(store), trunkCard(store), cloudCard(store), turnedNote(store));
-  const hides = (): boolean => words.offsetHeight > 0 && roots.page.clientHeight > (way(store) === "scribbles" ? LOW_SCRIBBLED : LOW) && (store.ui.layout === "beside" || roots.page.clientWidth < WIDE);
+  const hides = (): boolean => words.offsetHeight > 0 && roots.page.clientHeight > (way(store) === "scribbles" || store.known.cloud ? LOW_SCRIBBLED : LOW) && (store.ui.layout === "beside" || roots.page.clientWidth < WIDE);
   const covered = (): void => camera.cover("head", hides() ? words.offsetTop + words.offsetHeight : 0);
   new ResizeObserver(covered).observe(words);
-  store.on(["layout", "trunk", "underlay"], covered);
+  store.on(["layout", "trunk", "underlay", "cloud"], covered);
   store.on(["trunk", "underlay"], () => { document.body.dataset["way"] = way(store); });
   roots.page.append(emptyPage(store, { gallery: () => openDialog("gallery"), open: () => openDialog("open") }), words, hintButton(store, hint));
   roots.tree.append(emptyTree(store));

@@ -8,7 +8,8 @@ import { seenFrom, stand, type Seen } from "./seen";
 
 const FAR = 0.62; // how much of the paper's colour the farthest points have
 const STRENGTH = 0.9;
-const PLAIN = [116, 108, 96] as const; // points without a colour, on light paper; on dark it is turned over
+const LIFT = 1.45; // of a colour, on dark paper
+const PLAIN = [116, 108, 96] as const; // points without a colour
 
 export class CloudPicture {
   private seen: Seen | null = null;
@@ -43,13 +44,14 @@ function pixelsOf(image: ImageData, seen: Seen, rgb: Uint8Array | null, camera: 
   const wide = Math.max(1, Math.round(size * ratio));
   const half = Math.floor(wide / 2);
   const words = new Uint32Array(data.buffer);
+  const lift = theme === "dark" ? LIFT : 1;
   for (const k of seen.order) {
     const left = Math.round((seen.xy[2 * k]! * camera.scale + camera.x) * ratio) - half;
     const top = Math.round((seen.xy[2 * k + 1]! * camera.scale + camera.y) * ratio) - half;
     if (left + wide <= 0 || top + wide <= 0 || left >= width || top >= height) continue;
     const far = FAR * (1 - seen.near[k]!);
     const mixed = (channel: 0 | 1 | 2): number => {
-      const own = rgb ? rgb[3 * k + channel]! : theme === "dark" ? 255 - PLAIN[channel] : PLAIN[channel];
+      const own = Math.min(255, lift * (rgb ? rgb[3 * k + channel]! : PLAIN[channel]));
       return Math.round(own + (paper[channel]! - own) * far);
     };
     const word = (255 << 24) | (mixed(2) << 16) | (mixed(1) << 8) | mixed(0);

@@ -43,5 +43,6 @@ function asked<A>(title: string, testId: string, ways: readonly Way<A>[]): Promi
     box.body.append(element("div", { class: "ways" }, ...ways.map(one)));
     box.foot.append(button({ label: "Cancel", look: "quiet", onPress: box.close }));
     box.open();
+    box.body.querySelector("button")?.focus();
   });
 }
