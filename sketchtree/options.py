@@ -72,11 +72,16 @@ class TreeOptions:
             shears.plane(shape)  # refuse a misspelt one before the work
 
 
+FEWEST_TRIANGLES = 12
+"""That a whole tree may be asked to have."""
+
+
 @dataclass(frozen=True)
 class FileOptions:
     """What of a complete tree goes into its mesh file."""
 
     lod: int = 0  # 0-3, the level of detail that is written where only one is
+    triangles: int | None = None  # that level has so many at most, instead of a share of them
     levels: str = "one"  # one: that of `lod`; together: all in one file, the impostor last; apart: each in a file of its own
     pixel_error: float = 1.0  # what an outline may be off where a level takes over, pixels of a screen of 1080 rows, > 0
     leaves: str = "merged"  # merged: one mesh; instanced: a few small ones, drawn at many places (level 0 only)
@@ -90,14 +95,24 @@ class FileOptions:
                 f"`--pixel-error {self.pixel_error:g}` says where a coarser level takes over, and one level alone is written.",
                 remedy="Leave it out, or ask for `--levels together`, `--levels apart` or `--pack game`.",
             )
-        if self.lod and (self.levels != "one" or self.pack):
+        if self.triangles is not None and self.triangles < FEWEST_TRIANGLES:
+            raise OptionError(f"`--triangles {self.triangles}` are too few for a tree.", remedy=f"Give {FEWEST_TRIANGLES} or more.")
+        if self.lod and self.triangles is not None:
+            raise OptionError(f"`--lod {self.lod}` and `--triangles {self.triangles}` both say how fine the meshes are.", remedy="Leave one of the two out.")
+        coarser = f"--triangles {self.triangles}" if self.triangles is not None else f"--lod {self.lod}"
+        if self.is_coarser and (self.levels != "one" or self.pack):
             other = f"--pack {self.pack}" if self.pack else f"--levels {self.levels}"
-            raise OptionError(f"`--lod {self.lod}` asks for one level of detail, `{other}` for all of them.", remedy="Leave one of the two out.")
-        if self.leaves == "instanced" and (self.lod or self.pack):
-            other = f"--pack {self.pack}" if self.pack else f"--lod {self.lod}"
+            raise OptionError(f"`{coarser}` asks for one level of detail, `{other}` for all of them.", remedy="Leave one of the two out.")
+        if self.leaves == "instanced" and (self.is_coarser or self.pack):
+            other = f"--pack {self.pack}" if self.pack else coarser
             raise OptionError(f"`--leaves instanced` can't be had with `{other}`, whose leaves are one mesh.", remedy="Leave one of the two out.")
         if self.pack and self.levels != "one":
             raise OptionError(f"`--pack {self.pack}` writes all levels of detail in any case.", remedy=f"Leave `--levels {self.levels}` out.")
+
+    @property
+    def is_coarser(self) -> bool:
+        """Whether the one level that is written may be another one than the tree's own."""
+        return self.lod > 0 or self.triangles is not None
 
 
 def _whole(record, name: str) -> None:

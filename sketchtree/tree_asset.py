@@ -8,7 +8,7 @@ from sketchtree.asset import Asset, Level
 from sketchtree.foliage.instanced import leaf_instances
 from sketchtree.geometry.instances import Instances
 from sketchtree.geometry.mesh import Mesh
-from sketchtree.levels.make import Model, level_of_detail, make_levels
+from sketchtree.levels.make import Model, as_fine_as, make_levels
 from sketchtree.options import FileOptions
 from sketchtree.skeleton import TreeSkeleton
 
@@ -16,7 +16,7 @@ from sketchtree.skeleton import TreeSkeleton
 def tree_asset(model: Model, options: FileOptions = FileOptions(), *, about: dict | None = None) -> Asset:
     """The tree as writers take it. `about` is JSON that the file keeps: seed, version, template …"""
     if options.levels == "one":
-        levels = (Level(level_of_detail(model, options.lod)),)
+        levels = (Level(as_fine_as(model, options)),)
     else:
         levels = make_levels(model, pixel_error=options.pixel_error)
     if options.leaves == "instanced":

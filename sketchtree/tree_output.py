@@ -30,8 +30,8 @@ def check_files(output: Path, files: FileOptions, instead: str = "") -> None:
         raise OptionError(f"`{kind}` files hold one level of detail.", remedy="Write .glb, .gltf or .usd, or ask for `--levels apart`.")
     if files.leaves == "instanced" and not scene:
         raise OptionError(f"`{kind}` files can't hold instanced leaves.", remedy="Write .glb, .gltf or .usd, or leave `--leaves instanced` out.")
-    if (files.lod or files.levels != "one") and kind not in MESHES:
-        raise OptionError(f"`{kind}` files hold no mesh, and so no level of detail.", remedy="Leave `--lod` and `--levels` out, or write a mesh.")
+    if (files.is_coarser or files.levels != "one") and kind not in MESHES:
+        raise OptionError(f"`{kind}` files hold no mesh, and so no level of detail.", remedy="Leave `--lod`, `--triangles` and `--levels` out, or write a mesh.")
 
 
 def write_output(model, output: Path, made: Made, files: FileOptions | None = None, *, kept: tuple[Path, ...] = (), underlay=None) -> tuple[tuple, tuple[str, ...]]:
@@ -46,7 +46,7 @@ def write_output(model, output: Path, made: Made, files: FileOptions | None = No
 
         asset = asset_of(model, made, files)
         warnings = write_asset(output, asset, separate=files is not None and files.levels == "apart", kept=kept)
-        return tuple(part.merged() for part in asset.parts) if files is not None and files.lod else model.meshes, warnings
+        return tuple(part.merged() for part in asset.parts) if files is not None and files.is_coarser else model.meshes, warnings
     elif kind in SKELETONS:
         write_skeleton_of(output, model.skeleton, made)
     elif kind in PROJECTS:

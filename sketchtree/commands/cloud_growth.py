@@ -81,7 +81,7 @@ def _series(tree, beside: Beside, run, files) -> list[dict]:
     from sketchtree.asset import Asset
     from sketchtree.cloud_growing import after, cycles
     from sketchtree.export.write import asset_files
-    from sketchtree.levels.make import level_of_detail
+    from sketchtree.levels.make import as_fine_as
     from sketchtree.tree_output import about_of
 
     paths, rows = series_files(beside.series, beside.output.stem, beside.frames), []
@@ -89,7 +89,7 @@ def _series(tree, beside: Beside, run, files) -> list[dict]:
 
     def frame(path: Path, number: int) -> bytes:
         model = after(tree, int(at[number]))
-        meshes = level_of_detail(model, files.lod) if files.lod else model.meshes
+        meshes = as_fine_as(model, files)
         rows.append({"file": path.name, "cycle": int(at[number])} | _size(model))
         return asset_files(path, Asset.of(meshes, skeleton=model.skeleton, about=about_of(model, run.made)))[path]
 

@@ -67,6 +67,7 @@ _BESIDE = (
 _LEAVES = click.option("--leaves", type=click.Choice(["merged", "instanced"]), default="merged", show_default=True, help="One mesh, or a few drawn at many places (.glb .gltf .usd).")
 _FILES = (
     click.option("--lod", type=click.IntRange(0, 3), default=0, show_default=True, help="Level of detail to write: 1, 2, 3 have at most 50, 20, 6 % of the triangles."),
+    click.option("--triangles", type=int, metavar="N", help="Write a level of detail that has so many triangles at most, leaves and all."),
     click.option("--levels", type=click.Choice(["one", "together", "apart"]), default="one", show_default=True, help="All levels and an impostor: in one file, or each in its own."),
     click.option("--pixel-error", type=float, default=1.0, show_default=True, metavar="PX", help="What an outline may be off where a coarser level takes over."),
     _LEAVES,
@@ -88,7 +89,7 @@ def dress(command):
 def standing(command):
     """How a plant is made of points, what it wears, and what is written beside it, of commands that begin with points."""
     worn = (option for option in _TREE if _named(option, "prune", "leaf", "season", "bark", "wood", "solid"))
-    return _apply((*_POINTS, *worn, *_BESIDE), lod(command))
+    return _apply((*_POINTS, *worn, *_BESIDE, *(option for option in _FILES if _named(option, "lod", "triangles"))), command)
 
 
 def leaves(command):

@@ -18,13 +18,11 @@ from sketchtree.levels.impostor import impostor
 from sketchtree.levels.outline_error import coverage, displacement, views_round
 from sketchtree.levels.raster import silhouette
 from sketchtree.levels.spend import Budget
+from sketchtree.options import FEWEST_TRIANGLES, FileOptions
 from sketchtree.skeleton import TreeSkeleton
 
 SHARES = (0.5, 0.2, 0.06)
 """Most triangles of LOD1, LOD2, LOD3, as shares of LOD0's."""
-
-FEWEST = 12
-"""Triangles that a whole tree may be asked to have."""
 
 _SIDES, _PIXELS = 4, 512  # every other of so many sides is looked at for the coverages
 
@@ -47,12 +45,17 @@ def level_of_detail(model: Model, number: int) -> tuple[Mesh, ...]:
 
 
 def within_triangles(model: Model, triangles: int) -> tuple[Mesh, ...]:
-    """The meshes with so many triangles at most, in the order of `level_of_detail`; the model's own where they have no more. Raises OptionError for fewer than `FEWEST`."""
-    if triangles < FEWEST:
-        raise OptionError(f"{triangles:,} triangles are too few for a tree.", remedy=f"Give {FEWEST} or more.")
+    """The meshes with so many triangles at most, in the order of `level_of_detail`; the model's own where they have no more. Raises OptionError for fewer than `FEWEST_TRIANGLES`."""
+    if triangles < FEWEST_TRIANGLES:
+        raise OptionError(f"{triangles:,} triangles are too few for a tree.", remedy=f"Give {FEWEST_TRIANGLES} or more.")
     if sum(mesh.triangle_count for mesh in model.meshes) <= triangles:
         return tuple(model.meshes)
     return _budget(model).meshes(triangles)
+
+
+def as_fine_as(model: Model, wanted: FileOptions) -> tuple[Mesh, ...]:
+    """The meshes of the one level that is to be written."""
+    return level_of_detail(model, wanted.lod) if wanted.triangles is None else within_triangles(model, wanted.triangles)
 
 
 def make_levels(model: Model, *, pixel_error: float = 1.0, with_impostor: bool = True) -> tuple[Level, ...]:

@@ -76,6 +76,13 @@ def test_one_level_is_that_of_the_set(sketch, together, tmp_path):
     assert json.loads((tmp_path / "r.json").read_text())["options"]["lod"] == 2
 
 
+def test_a_tree_has_at_most_as_many_triangles_as_are_asked_for(sketch, together, tmp_path):
+    wanted = together.levels[0].triangle_count // 3
+    assert build(sketch, tmp_path / "t.glb", "--triangles", str(wanted), "--report", str(tmp_path / "r.json")) == 0
+    assert 0.5 * wanted < read_asset(tmp_path / "t.glb").levels[0].triangle_count <= wanted
+    assert json.loads((tmp_path / "r.json").read_text())["options"]["triangles"] == wanted
+
+
 def test_the_preview_shows_the_level_that_is_written(sketch, tmp_path, monkeypatch):
     seen = []
     monkeypatch.setattr("sketchtree.view.preview", lambda meshes, path: (seen.append(sum(mesh.triangle_count for mesh in meshes)), (True, ""))[1])
@@ -100,10 +107,13 @@ def test_a_game_pack_is_a_set_of_files_that_its_manifest_lists(sketch, tmp_path)
     ("t.usda", ["--pack", "game"], "`--pack game` writes GLB files, not `.usda`. Name the output t.glb."),
     ("t.obj", ["--levels", "together"], "`.obj` files hold one level of detail. Write .glb, .gltf or .usd, or ask for `--levels apart`."),
     ("t.stl", ["--leaves", "instanced"], "`.stl` files can't hold instanced leaves. Write .glb, .gltf or .usd, or leave `--leaves instanced` out."),
-    ("t.swc", ["--lod", "1"], "`.swc` files hold no mesh, and so no level of detail. Leave `--lod` and `--levels` out, or write a mesh."),
+    ("t.swc", ["--lod", "1"], "`.swc` files hold no mesh, and so no level of detail. Leave `--lod`, `--triangles` and `--levels` out, or write a mesh."),
     ("t.glb", ["--lod", "1", "--pack", "game"], "`--lod 1` asks for one level of detail, `--pack game` for all of them. Leave one of the two out."),
     ("t.glb", ["--lod", "1", "--levels", "apart"], "`--lod 1` asks for one level of detail, `--levels apart` for all of them. Leave one of the two out."),
     ("t.glb", ["--leaves", "instanced", "--lod", "3"], "`--leaves instanced` can't be had with `--lod 3`, whose leaves are one mesh. Leave one of the two out."),
+    ("t.glb", ["--lod", "1", "--triangles", "900"], "`--lod 1` and `--triangles 900` both say how fine the meshes are. Leave one of the two out."),
+    ("t.glb", ["--triangles", "900", "--pack", "game"], "`--triangles 900` asks for one level of detail, `--pack game` for all of them. Leave one of the two out."),
+    ("t.glb", ["--triangles", "3"], "`--triangles 3` are too few for a tree. Give 12 or more."),
     ("t.glb", ["--pack", "game", "--levels", "apart"], "`--pack game` writes all levels of detail in any case. Leave `--levels apart` out."),
     ("t.glb", ["--pixel-error", "0"], "`--pixel-error 0` is out of range. Give pixels above 0, at most 100."),
 ])  # fmt: skip

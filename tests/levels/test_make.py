@@ -14,9 +14,10 @@ from sketchtree.foliage.populate import populate
 from sketchtree.geometry.wood import wood_meshes
 from sketchtree.levels import make, spend
 from sketchtree.levels.impostor import impostor
-from sketchtree.levels.make import FEWEST, SHARES, level_of_detail, make_levels, within_triangles
+from sketchtree.levels.make import SHARES, level_of_detail, make_levels, within_triangles
 from sketchtree.levels.outline_error import overlap, views_round
 from sketchtree.levels.raster import silhouette
+from sketchtree.options import FEWEST_TRIANGLES
 from tests.foliage.trees import HABIT, crown
 
 KEY = keys.root_key(0)
@@ -57,7 +58,7 @@ def test_a_tree_is_to_be_had_with_so_many_triangles_at_most(made):
     assert some[0].name == "wood"
     assert within_triangles(model, full) == model.meshes
     with pytest.raises(OptionError) as told:
-        within_triangles(model, FEWEST - 1)
+        within_triangles(model, FEWEST_TRIANGLES - 1)
     assert str(told.value) == "11 triangles are too few for a tree. Give 12 or more."
 
 
