@@ -39,6 +39,12 @@ def test_a_stump_ends_where_it_ends():
     assert len(gone_on(forked(end=0.05), 0.01, GAMMA)) == 5
 
 
+def test_a_limb_goes_on_no_farther_than_it_was_seen_and_a_spur_not_at_all():
+    spur = forked().append({"parent": np.array([1]), "tip": np.array([[0.02, 1, 0]]), "radius": np.array([0.002]), "limb": np.array([2]), "order": np.array([1])})
+    assert gone_on(spur, 0.02, GAMMA).parent[6:].tolist() == [3, 4]
+    assert gone_on(forked(), 0.06, 0.9).length[6] == pytest.approx(1.0)
+
+
 def test_many_ends_never_outgrow_the_tree():
     tree = forked()
     fan = np.array([[np.cos(turn), 3.0, np.sin(turn)] for turn in np.linspace(0, 6, 400)])

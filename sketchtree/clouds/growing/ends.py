@@ -5,8 +5,8 @@ radius r that just shows bears
 
     l = l_root (r / r_root)^(1/γ)
 
-metres more, and l_root is longer by the same at every end. A limb goes on by so much, the way it went, and tapers; what shows is no thinner than that. One that ends thick was broken
-or cut: it ends there.
+metres more, and l_root is longer by the same at every end. A limb goes on by so much, but no farther than it was seen, and a spur not at all, since it may be noise; the way
+it went, and tapers. What shows is no thinner than that. One that ends thick was broken or cut: it ends there.
 """
 
 import numpy as np
@@ -16,14 +16,16 @@ from sketchtree.skeleton import Kind, TreeSkeleton
 from sketchtree.traverse import is_tip
 
 _BROKEN = 4.0  # times the radius that just shows: thicker ends are ends (thin wood comes out too thick)
+_SPUR = 8.0  # the same: shorter limbs are spurs, of which half are noise
 _MOST = 0.5  # of l_root, that all ends may have together
 _TIP = 1 / 3  # radius at the new end over that which just shows
 
 
 def gone_on(tree: TreeSkeleton, shows: float, gamma: float) -> TreeSkeleton:
     """The tree whose ends go on; the new rows are the last, kind GROWN. `shows`: radius of the thinnest wood that shows, metres."""
+    seen = np.bincount(tree.limb, tree.length)[tree.limb]
     ends = np.flatnonzero(is_tip(tree.parent) & (tree.parent != NULL) & (tree.radius <= _BROKEN * shows))
-    far = _length(tree, ends, shows, gamma)
+    far = np.where(seen[ends] >= _SPUR * shows, np.minimum(_length(tree, ends, shows, gamma), seen[ends]), 0.0)
     way = np.array([_course(tree, row, length) for row, length in zip(ends, far, strict=True)]).reshape(-1, 3)
     kept = far > 0
     ends, far, way = ends[kept], far[kept], way[kept]
