@@ -1,11 +1,13 @@
 """Which axis of the points is up?
 
 Ground says it: on one axis there is some, on the other there isn't. Where that doesn't decide, the trunk does. Seen along the axis that is up, a trunk is one dense spot, and its
-points begin at the lowest end and go on without a gap; seen along another, the densest spot is some branch or other. For an axis
+points begin at the lowest end and go on without a gap; seen along another, the densest spot is some branch or other. And a tree stands on little: its lowest tenth lies over fewer
+spots of the plan than its highest; a crown that lies on its side is about as wide at both ends. For an axis
 
-    score = share of the points in the densest spot · (part of the height that some spot fills from the lowest end on)
+    score = share of the points in the densest spot · (part of the height that some spot fills from the lowest end on) · spots of the highest tenth / spots of the lowest, 1 to 30
 
-and the axis of the higher score is up, as surely as the scores differ. Scans are mostly made with z up, so where the scores hardly differ z is taken, and that is said.
+and the axis of the higher score is up, as surely as the squares of the scores differ. A spruce, or a tree that weeps to the ground, stands on much: there the third factor is 1. Scans
+are mostly made with z up, so where the scores hardly differ z is taken, and that is said.
 """
 
 from dataclasses import dataclass
@@ -24,6 +26,7 @@ from sketchtree.errors import OptionError
 _LOOKED_AT = 40_000  # points
 _SPOT = 0.03  # of the cloud's diagonal
 _LAYERS = 40  # of the height
+_END, _NARROWER = 0.1, 30.0  # of the height; so many times less at the foot than at the top is as much as counts
 _UNSURE = 0.7
 
 
@@ -59,15 +62,27 @@ def up_chances(xyz: Float[np.ndarray, "point 3"]) -> float:
     there = [0.0 if found is None else found.share for found in map(ground, stood)]
     if (there[0] > 0) != (there[1] > 0):
         return 0.99 if there[0] > 0 else 0.01
-    one, other = (_trunk(points) for points in stood)
+    one, other = (_stands(points) for points in stood)
     return float(one**2 / (one**2 + other**2))
 
 
-def _trunk(xyz: Float[np.ndarray, "point 3"]) -> float:
-    """How much there is a trunk that begins at the lowest end (y up)."""
+def _stands(xyz: Float[np.ndarray, "point 3"]) -> float:
+    """How much this looks like a tree that stands (y up)."""
     low, high = np.percentile(xyz[:, 1], [0.2, 99.8])
     spot = _SPOT * float(np.linalg.norm(np.ptp(np.percentile(xyz, [0.2, 99.8], axis=0), axis=0))) + 1e-12
-    layer = np.clip((xyz[:, 1] - low) / (high - low + 1e-12) * _LAYERS, 0, _LAYERS - 1).astype(np.int64)
+    level = (xyz[:, 1] - low) / (high - low + 1e-12)
+    return _trunk(xyz, spot, level) * _narrower(xyz, spot, level)
+
+
+def _narrower(xyz, spot: float, level) -> float:
+    """How many times fewer spots of the plan the lowest tenth lies over than the highest."""
+    foot, top = (len(np.unique(np.floor(xyz[end][:, [0, 2]] / spot), axis=0)) for end in (level < _END, level > 1 - _END))
+    return float(np.clip(top / max(foot, 1), 1.0, _NARROWER))
+
+
+def _trunk(xyz, spot: float, level) -> float:
+    """How much there is a trunk that begins at the lowest end."""
+    layer = np.clip(level * _LAYERS, 0, _LAYERS - 1).astype(np.int64)
     share, run = 0.0, 0
     for shift in ([0.0, 0.0], [0.5, 0.0], [0.0, 0.5], [0.5, 0.5]):  # a spot may lie across the border of cells
         cell = np.floor(xyz[:, [0, 2]] / spot + shift).astype(np.int64)

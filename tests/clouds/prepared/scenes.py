@@ -28,6 +28,15 @@ def tree(height: float = 6.0, seed: int = 0, at=(0.0, 0.0)) -> np.ndarray:
     return np.concatenate(parts) + [at[0], 0.0, at[1]]
 
 
+def wide_in_leaf(seed: int = 3) -> np.ndarray:
+    """A short trunk of a hundred points under a crown, twice as wide as high, of leaves; some of them in dense sprays."""
+    chance = np.random.default_rng(seed)
+    way = chance.normal(size=(6000, 3))
+    crown = way / np.linalg.norm(way, axis=1)[:, None] * chance.uniform(0.6, 1.0, (6000, 1)) * [3.0, 1.5, 3.0]
+    sprays = np.concatenate([middle + chance.normal(0, 0.12, (150, 3)) for middle in crown[:8]])
+    return np.concatenate([limb([0, 0, 0], [0, 1.6, 0], 0.1, 0.08, chance, 60), np.concatenate([crown, sprays]) + [0.0, 2.6, 0.0]])
+
+
 def floor(wide: float = 4.0, slope: float = 0.0, rough: float = 0.01, seed: int = 5, count: int = 6000) -> np.ndarray:
     """Ground that rises along x and waves a little."""
     chance = np.random.default_rng(seed)

@@ -2,7 +2,7 @@
 
 import numpy as np
 import pytest
-from scenes import floor, limb, lying, tree
+from scenes import floor, limb, lying, tree, wide_in_leaf
 
 from sketchtree.clouds.cloud import PointCloud
 from sketchtree.clouds.files.placed import Placed, Placement
@@ -31,6 +31,13 @@ def turned(xyz, angle):
 def test_up_is_told_by_the_trunk(angle):
     assert up_chances(turned(TREE, angle)) > 0.9
     assert up_chances(lying(turned(TREE, angle))) < 0.1
+
+
+@pytest.mark.parametrize("angle", TURNS)
+def test_up_is_told_by_the_foot_of_a_wide_tree_in_leaf_whose_trunk_has_few_points(angle):
+    leafy = turned(wide_in_leaf(), angle)
+    assert up_chances(leafy) > 0.9
+    assert up_chances(lying(leafy)) < 0.1
 
 
 @pytest.mark.parametrize("slope", [0.0, 0.3])
