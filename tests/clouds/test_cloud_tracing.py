@@ -142,6 +142,21 @@ def test_a_limb_along_the_bark_is_part_of_it():
     assert part_of.tolist() == [0, 1, 2, 3, 4, 5, 6, 7, 2, 3, 10, 11]
 
 
+def test_a_bough_to_which_the_way_comes_down_the_bark_hangs_where_it_leaves_the_trunk():
+    trunk = np.stack([np.zeros(12), 0.1 * np.arange(12), np.zeros(12)], axis=1)
+    down = [[0.05, 0.1 * k, 0.0] for k in (8.2, 7.2, 6.2, 5.2, 4.2)]  # a strip that was seen beside a gap: its foot is the trunk's ninth node
+    out = [[0.05 + 0.1 * k, 0.42 + 0.05 * k, 0.0] for k in range(1, 9)]
+    parent = np.array([NULL, *range(11), 8, *range(12, 24)])
+    centre = np.concatenate([trunk, down, out])
+    limb, radius, width = np.where(np.arange(25) < 12, 0, 12), np.full(25, 0.05), np.full(25, 0.01)
+    part_of = bumps(parent, centre, limb, radius, width, strips=True)
+    assert part_of[12:17].tolist() == [8, 7, 6, 5, 4], "the strip is bark, and the bough's foot the trunk's fifth node"
+    assert (part_of[17:] == np.arange(17, 25)).all(), "the bough stays"
+    assert (bumps(parent, centre, limb, radius, width) == np.arange(25)).all(), "layers of one width don't tell"
+    short = np.delete(np.arange(25), [13, 14, 15, 16])
+    assert (bumps(np.array([NULL, *range(11), 4, *range(12, 20)]), centre[short], limb[short], radius[short], width[short], strips=True)[13:] == np.arange(13, 21)).all(), "one that only leaves stays whole"
+
+
 def test_of_children_the_one_that_bears_most_goes_on():
     parent = np.array([NULL, 0, 1, 1, 3])
     centre = np.array([[0, 0, 0], [0, 1, 0], [0, 1.5, 0], [0.5, 1.5, 0], [1, 2, 0]], float)

@@ -67,7 +67,7 @@ def _wood(xyz, graph: Joined, way: Ways, width, thinnest: float, foot: float | N
     limb = limbs_of(parent, found.centre)
     about = None if thick is None else np.bincount(of_point, thick, len(parent)) / found.size
     seen = measured(xyz, of_point, parent, found.centre, limb, width, about)
-    part_of = bumps(parent, seen.centre, limb, np.nan_to_num(seen.radius), width)
+    part_of = bumps(parent, seen.centre, limb, np.nan_to_num(seen.radius), width, strips=thick is not None)
     if thick is not None:
         spacing = np.bincount(of_point, graph.spacing, len(parent)) / found.size
         part_of = _without(part_of, spurs(parent, seen.centre, end, limb, np.where(seen.known, seen.radius, about), spacing, noise(seen, limb)))
