@@ -1,7 +1,7 @@
 """On which points does the plant stand? One set of start points for each root.
 
 `auto` takes the stems that come out of the ground (`stems`, `parted`): one for a tree, several for a shrub. A number asks for so many roots: the stems with most points and, where there are
-fewer, clusters of projected density (`density`; Guo et al. 2018, §5.3) in what is low. A start set is the lowest ring of its stem.
+fewer, peaks of projected density (`told`; Guo et al. 2018, §5.3) in what is low. A start set is the lowest ring of its stem.
 """
 
 from dataclasses import dataclass
@@ -10,9 +10,9 @@ from typing import Literal
 import numpy as np
 from jaxtyping import Float, Int
 
-from sketchtree.clouds.standing.density import density, roots
 from sketchtree.clouds.standing.parted import parted
-from sketchtree.clouds.standing.stems import breast_height, stems
+from sketchtree.clouds.standing.stems import stems
+from sketchtree.clouds.standing.told import told
 from sketchtree.errors import OptionError
 
 MOST = 200  # roots
@@ -39,23 +39,9 @@ def feet(xyz: Float[np.ndarray, "point 3"], above: Float[np.ndarray, " point"] |
     groups = parted(xyz, above, [found.rows[k] for k in np.flatnonzero(found.plant == 0)])
     groups = [rows for rows in groups if len(rows) >= _SHARE * len(groups[0])]
     if count != "auto":
-        groups = groups[:count] if len(groups) >= count else _by_density(xyz, above, count, groups)
+        groups = groups[:count] if len(groups) >= count else max(groups, told(xyz, above, count), key=len)
     rings = [_ring(above, some, _RING * float(np.ptp(above))) for some in groups]
     return Feet(rings, np.array([np.median(xyz[ring], axis=0) for ring in rings]), groups)
-
-
-def _by_density(xyz, above, count: int, groups: list) -> list:
-    """So many groups of low points, each round one cluster of density; fewer where the points fall into fewer."""
-    height = float(np.ptp(above))
-    low = np.flatnonzero(above <= max(breast_height(height), float(np.sort(above)[min(len(above) - 1, 3 * count)])))
-    map_, share = density(xyz[low], height), 0.5
-    best = roots(map_, count)
-    while len(best.place) < count and share > 0.01:
-        best, share = roots(map_, count, higher=share), 0.7 * share
-    if len(best.place) <= len(groups):
-        return groups
-    nearest = ((xyz[low][:, None, [0, 2]] - best.place[None]) ** 2).sum(axis=2).argmin(axis=1)
-    return [low[nearest == k] for k in range(len(best.place)) if (nearest == k).any()]
 
 
 def _ring(above, rows, thick: float):

@@ -26,13 +26,19 @@ def parted(xyz: Float[np.ndarray, "point 3"], above: Float[np.ndarray, " point"]
     parts = [part for rows in groups for part in _parts(xyz, above, rows)]
     most = max(map(len, parts))
     parts = sorted((part for part in parts if len(part) >= min(_FEWEST, most) and len(part) >= _SHARE * most), key=len, reverse=True)[:_MOST]
-    number, same = connected_components(csr_matrix([[one is other or _one_trunk(xyz, one, other) for other in parts] for one in parts]), directed=False)
-    starts = [np.concatenate([part for part, name in zip(parts, same, strict=True) if name == k]) for k in range(number)]
+    starts = trunks_of(xyz, parts)
+    number = len(starts)
     rest = np.setdiff1d(np.concatenate(groups), np.concatenate(starts))
     ordered = np.concatenate([*starts, rest])
     ends = np.cumsum([len(some) for some in starts])
     whose = reached(xyz[ordered], [np.arange(end - len(some), end) for end, some in zip(ends, starts, strict=True)])
     return sorted((ordered[whose == k] for k in range(number)), key=len, reverse=True)
+
+
+def trunks_of(xyz: Float[np.ndarray, "point 3"], parts: list[Int[np.ndarray, "_"]]) -> list[Int[np.ndarray, "_"]]:
+    """The same parts, with those round one circle put together."""
+    number, same = connected_components(csr_matrix([[one is other or _one_trunk(xyz, one, other) for other in parts] for one in parts]), directed=False)
+    return [np.concatenate([part for part, name in zip(parts, same, strict=True) if name == k]) for k in range(number)]
 
 
 def _parts(xyz, above, rows) -> list:

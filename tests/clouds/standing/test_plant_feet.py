@@ -4,8 +4,9 @@ import numpy as np
 import pytest
 from stems_made import stem
 
-from sketchtree.clouds.standing.density import density, roots
+from sketchtree.clouds.standing.density import density
 from sketchtree.clouds.standing.feet import feet
+from sketchtree.clouds.standing.peaks import peaks
 from sketchtree.clouds.standing.stems import breast_height, stems
 from sketchtree.errors import OptionError
 
@@ -52,6 +53,35 @@ def test_more_roots_than_stems_are_sought_by_density():
     np.testing.assert_allclose(sorted(found.place[:, 0]), [0.0, 0.4], atol=0.06)
 
 
+CLUMP = [np.array([0.1 * np.cos(k), 0.1 * np.sin(k)]) for k in np.arange(6) * np.pi / 3]
+LEANING = [stem(0.08, 0.8, noise=0.002, count=250, seed=k) for k in range(6)]
+SPREADING = np.concatenate([some + np.c_[(x * (1 + 1.5 * some[:, 1])), np.zeros(len(some)), (z * (1 + 1.5 * some[:, 1]))] for some, (x, z) in zip(LEANING, CLUMP, strict=True)])
+LILAC = np.concatenate([SPREADING, crown(low=0.9, high=4.4, wide=1.2)])
+
+
+def test_stems_that_touch_at_the_ground_are_told_apart_farther_up_where_their_number_is_told():
+    assert len(feet(LILAC).rows) == 1
+    found = feet(LILAC, count=6)
+    away = np.linalg.norm(found.place[:, None, [0, 2]] - np.array(CLUMP)[None], axis=2)
+    assert sorted(away.argmin(axis=1)) == [0, 1, 2, 3, 4, 5]
+    assert away.min(axis=1).max() < 0.04
+    assert all(LILAC[ring, 1].max() < 0.05 for ring in found.rows)
+
+
+def test_no_more_stems_than_the_points_show():
+    assert len(feet(LILAC, count=9).rows) == 6
+
+
+@pytest.mark.parametrize("seen", [1.0, 0.5])
+@pytest.mark.parametrize("count", [100, 1500])
+def test_one_trunk_is_one_stem_however_many_are_told(seen, count):
+    assert len(feet(np.concatenate([stem(0.3, 3.0, seen=seen, count=count), crown()]), count=3).rows) == 1
+
+
+def test_a_valley_no_deeper_than_chance_parts_no_peaks():
+    assert len(peaks(density(np.random.default_rng(0).normal(size=(100, 3)) * [1.0, 4.0, 1.0], cell=0.01))) <= 1
+
+
 def test_feet_stand_at_their_height_above_sloping_ground():
     sloped = SHRUB + np.outer(SHRUB[:, 0], [0.0, 0.4, 0.0])
     found = feet(sloped, sloped[:, 1] - 0.4 * SHRUB[:, 0])
@@ -81,15 +111,13 @@ def test_breast_height_is_1_3_m_or_less_of_a_small_plant():
 
 
 def test_section_5_3_the_root_is_where_most_points_lie_above_one_another():
-    found = roots(density(TREE), 1)
-    np.testing.assert_allclose(found.place, [[0.0, 0.0]], atol=0.05)
+    np.testing.assert_allclose(peaks(density(TREE))[:1], [[0.0, 0.0]], atol=0.05)
 
 
-def test_section_5_3_k_roots_are_the_k_clusters_of_highest_density():
+def test_section_5_3_k_roots_are_the_k_peaks_of_highest_density():
     low = np.concatenate([stem(0.05, 0.5, noise=0.001, count=count, seed=k) + [0.5 * k, 0, 0] for k, count in enumerate((500, 900, 700))])
-    found = roots(density(low, 2.0), 2)
-    np.testing.assert_allclose(found.place[:, 0], [0.5, 1.0], atol=0.02)
-    assert found.peak[0] > found.peak[1]
+    found = peaks(density(low, 2.0))
+    np.testing.assert_allclose(found[:, 0], [0.5, 1.0, 0.0], atol=0.02)
 
 
 def test_density_counts_every_point_once():
