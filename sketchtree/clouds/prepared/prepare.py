@@ -1,6 +1,6 @@
 """A cloud as it was read → the points of one tree that stands at the origin, y up: every step in order, and all that was done is said.
 
-    doubles merged → turned upright → ground taken away → one tree → what belongs to nothing left out → thinned → moved so that its foot is the origin
+    doubles merged → turned upright → ground taken away → pot taken away → one tree → what belongs to nothing left out → thinned → moved so that its foot is the origin
 """
 
 from dataclasses import dataclass
@@ -15,6 +15,7 @@ from sketchtree.clouds.files.placed import Placed, Placement
 from sketchtree.clouds.prepared.doubled import single_rows
 from sketchtree.clouds.prepared.ground import Ground, ground
 from sketchtree.clouds.prepared.outliers import outliers
+from sketchtree.clouds.prepared.pot import pot
 from sketchtree.clouds.prepared.several import Plants, one_tree, plants
 from sketchtree.clouds.prepared.up_axis import upright
 from sketchtree.clouds.standing.stems import stems
@@ -52,6 +53,7 @@ def prepare(given: Placed | PointCloud, *, up: Literal["auto", "y", "z"] = "auto
     placement = placed.placement.then_turned(stood.axis)
     remarks += [stood.remark] if stood.remark else []
     cloud, above, floor = _cleared(stood.cloud, remarks)
+    cloud, above = _unpotted(cloud, above, remarks)
     _check(len(cloud))
     _check_height(cloud)
     found = plants(cloud.xyz, above)
@@ -90,6 +92,16 @@ def _cleared(cloud: PointCloud, remarks: list[str]) -> tuple[PointCloud, np.ndar
     kept = ~floor.is_ground & (floor.above > 0)
     _check(int(kept.sum()))
     return cloud.select(kept), floor.above[kept], floor
+
+
+def _unpotted(cloud: PointCloud, above: np.ndarray, remarks: list[str]) -> tuple[PointCloud, np.ndarray]:
+    """The cloud without the pot that the plant stands in, and how high above that every point is."""
+    rim = pot(cloud.xyz, above) if len(cloud) >= _FEWEST else None
+    if rim is None:
+        return cloud, above
+    kept = above >= rim
+    remarks.append(f"{(~kept).sum():,} points are of a pot, or of what else the plant stands in, {rim:.2g} m high: they were taken away.")
+    return cloud.select(kept), above[kept] - rim
 
 
 def _check(count: int) -> None:

@@ -37,6 +37,20 @@ def wide_in_leaf(seed: int = 3) -> np.ndarray:
     return np.concatenate([limb([0, 0, 0], [0, 1.6, 0], 0.1, 0.08, chance, 60), np.concatenate([crown, sprays]) + [0.0, 2.6, 0.0]])
 
 
+def box(wide: float = 0.8, high: float = 1.0, count: int = 3000, seed: int = 7) -> np.ndarray:
+    """Points all through a round pot."""
+    chance = np.random.default_rng(seed)
+    far, turn = wide * np.sqrt(chance.uniform(size=count)), chance.uniform(0, 2 * np.pi, count)
+    return np.c_[far * np.cos(turn), chance.uniform(0, high, count), far * np.sin(turn)]
+
+
+def buttressed(seed: int = 8) -> np.ndarray:
+    """A tree on six buttresses, six times as wide as its trunk at the ground."""
+    chance = np.random.default_rng(seed)
+    fins = [limb([out * np.cos(turn), 0, out * np.sin(turn)], [0.1 * np.cos(turn), 1.2, 0.1 * np.sin(turn)], 0.05, 0.05, chance, 300) for turn in np.arange(6) * np.pi / 3 for out in (0.4, 0.8)]
+    return np.concatenate([tree(), *fins])
+
+
 def floor(wide: float = 4.0, slope: float = 0.0, rough: float = 0.01, seed: int = 5, count: int = 6000) -> np.ndarray:
     """Ground that rises along x and waves a little."""
     chance = np.random.default_rng(seed)

@@ -2,7 +2,7 @@
 
 import numpy as np
 import pytest
-from scenes import floor, limb, lying, tree, wide_in_leaf
+from scenes import box, buttressed, floor, limb, lying, tree, wide_in_leaf
 
 from sketchtree.clouds.cloud import PointCloud
 from sketchtree.clouds.files.placed import Placed, Placement
@@ -10,6 +10,7 @@ from sketchtree.clouds.prepared.doubled import single_rows
 from sketchtree.clouds.prepared.finite import finite
 from sketchtree.clouds.prepared.ground import ground
 from sketchtree.clouds.prepared.outliers import outliers
+from sketchtree.clouds.prepared.pot import pot
 from sketchtree.clouds.prepared.prepare import prepare
 from sketchtree.clouds.prepared.several import plants
 from sketchtree.clouds.prepared.up_axis import up_chances, upright
@@ -96,6 +97,52 @@ def test_heights_are_above_the_ground_under_each_point():
     found = ground(np.concatenate([TREE + [2.0, 0.6, 0.0], soil]))
     trunk = np.linalg.norm(TREE[:, [0, 2]], axis=1) < 0.15
     np.testing.assert_allclose(found.above[: len(TREE)][trunk], TREE[trunk, 1], atol=0.12)
+
+
+# a pot
+
+POTTED = np.concatenate([TREE + [0.0, 1.0, 0.0], box()])
+
+
+def test_a_pot_is_taken_away_and_that_is_said():
+    found = prepare(PointCloud(POTTED), up="y")
+    assert pot(POTTED, POTTED[:, 1]) == pytest.approx(1.0, abs=0.15)
+    assert found.cloud.height == pytest.approx(6.0, abs=0.3)
+    assert np.linalg.norm(found.cloud.xyz[found.above < 0.5][:, [0, 2]], axis=1).max() < 0.2
+    assert found.remarks[0].endswith(" points are of a pot, or of what else the plant stands in, 1.1 m high: they were taken away.")
+
+
+def test_a_pot_on_the_ground_goes_with_the_ground():
+    found = prepare(PointCloud(np.concatenate([POTTED, floor()])), up="y")
+    assert found.ground
+    assert found.cloud.height == pytest.approx(6.0, abs=0.3)
+
+
+def test_a_pot_that_was_seen_from_outside_is_its_soil_and_its_wall():
+    soil, wall = box(high=0.0, count=1500) + [0.0, 1.0, 0.0], box(count=3000)
+    wall[:, [0, 2]] *= 0.8 / np.linalg.norm(wall[:, [0, 2]], axis=1)[:, None]
+    seen = np.concatenate([TREE + [0.0, 1.0, 0.0], soil, wall])
+    assert pot(seen, seen[:, 1]) == pytest.approx(1.0, abs=0.15)
+
+
+def test_buttresses_are_no_pot():
+    assert pot(buttressed(), buttressed()[:, 1]) is None
+
+
+def test_many_stems_are_no_pot():
+    many = np.concatenate([tree(5.0, k, (0.5 * np.cos(k), 0.5 * np.sin(k))) for k in range(12)])
+    assert pot(many, many[:, 1]) is None
+
+
+def test_a_tier_of_leaves_over_the_trunk_is_no_pot():
+    tier = np.concatenate([TREE, box(high=0.3) + [0.0, 1.0, 0.0]])
+    assert pot(tier, tier[:, 1]) is None
+
+
+def test_leaves_round_the_foot_thin_out_and_are_no_pot():
+    leaves = np.abs(np.random.default_rng(9).normal(0, 0.5, (3000, 3))) * np.random.default_rng(10).choice([-1.0, 1.0], (3000, 3))
+    bushy = np.concatenate([TREE, np.c_[leaves[:, 0], np.abs(leaves[:, 1]), leaves[:, 2]]])
+    assert pot(bushy, bushy[:, 1]) is None
 
 
 # no places, doubles, outliers
