@@ -25,7 +25,7 @@ from sketchtree.clouds.growing.hull_fill import unseen_inside
 from sketchtree.clouds.growing.species import Species, species
 from sketchtree.clouds.leafy.bearing import bearing
 from sketchtree.clouds.leafy.covering import Covering
-from sketchtree.clouds.leafy.leafiness import Leafiness, check_in_leaf, leafiness, off_bark
+from sketchtree.clouds.leafy.leafiness import Leafiness, check_in_leaf, leafiness, left_out, off_bark
 from sketchtree.clouds.prepared.prepare import POINTS, Prepared, prepare
 from sketchtree.clouds.standing.feet import Feet, feet
 from sketchtree.clouds.standing.stems import breast_height
@@ -40,6 +40,8 @@ from sketchtree.templates.store.database import Database
 from sketchtree.watch import Watch
 
 METHODS = ("traced", "grown")
+_THICKEST = 0.25  # of the height: diameter of a trunk
+_LEFT_OUT = 0.12  # of the points of wood that were traced past, where leaves were told
 GENERAL = "broadleaf"
 """The species whose figures are taken where the points say nothing."""
 
@@ -172,10 +174,13 @@ class Found:
 def _wood(prepared: Prepared, stands: Feet, wanted: CloudOptions, key) -> Found:
     """What was seen, as a skeleton."""
     xyz = prepared.cloud.xyz
-    trunks = tuple(trunk(xyz[rows], breast_height(prepared.cloud.height)) for rows in stands.stems)
+    trunks = tuple(_believed(trunk(xyz[rows], breast_height(prepared.cloud.height)), prepared.cloud.height) for rows in stands.stems)
     known = trunks[0].root / 2 if len(trunks) == 1 and trunks[0] is not None else None
     leafy = leafiness(xyz, stands.rows, prepared.cloud.colour, wanted.in_leaf)
     found = _traced(xyz, stands.rows, leafy, known) if wanted.method == "traced" or wanted.species == "auto" else None
+    if found is not None and leafy.in_leaf and wanted.in_leaf == "auto" and left_out(xyz[~leafy.leaf], found.skeleton) > _LEFT_OUT:
+        leafy = leafiness(xyz, stands.rows, wanted="no")  # leaves were most of what there is to see of it: a herb, a rosette
+        found = _traced(xyz, stands.rows, leafy, known)
     leafy = leafy if found is None else off_bark(leafy, xyz, found.skeleton)
     kind = estimated(xyz, species(GENERAL), found.skeleton, found.gamma) if wanted.species == "auto" else species(wanted.species)
     if wanted.method == "traced":
@@ -183,6 +188,11 @@ def _wood(prepared: Prepared, stands: Feet, wanted: CloudOptions, key) -> Found:
     kind = reduce(lambda kind, said: changes(said)[0].of(kind), wanted.figures, kind)
     grows = growth(prepared, stands, trunks, kind, key)
     return Found(grows.skeleton, trunks, kind, leafy, None, grows)
+
+
+def _believed(found: Trunk | None, height: float) -> Trunk | None:
+    """A trunk, unless it is as thick as no stem is of a plant so high: leaves round a foot, or a pot."""
+    return found if found is not None and found.root <= _THICKEST * height else None
 
 
 def growth(prepared: Prepared, stands: Feet, trunks: tuple[Trunk | None, ...], kind: Species, key: Key[Array, ""]) -> Grown:

@@ -19,7 +19,7 @@ from sketchtree.clouds.cloud import PointCloud
 from sketchtree.clouds.leafy.borne import borne, passing
 from sketchtree.clouds.leafy.covering import Covering, leaf_area_of
 from sketchtree.clouds.leafy.green import excess, green_odds
-from sketchtree.clouds.leafy.leafiness import leafiness, off_bark
+from sketchtree.clouds.leafy.leafiness import leafiness, left_out, off_bark
 from sketchtree.clouds.leafy.turning import filling, turning
 from sketchtree.clouds.tracing.traced import traced
 from sketchtree.clouds.tracing.ways import Ways
@@ -27,7 +27,7 @@ from sketchtree.dressing import Dress
 from sketchtree.errors import OptionError
 from sketchtree.keys import root_key
 from sketchtree.options import TreeOptions
-from sketchtree.skeleton import Kind
+from sketchtree.skeleton import Kind, TreeSkeleton
 from sketchtree.traverse import is_tip
 
 KEY = root_key(0)
@@ -184,3 +184,16 @@ def test_the_same_key_puts_the_same_leaves(tree):
 
 def test_a_covering_without_a_leaf_makes_none(tree):
     assert len(tree.finish.leafing(tree.skeleton, Dress("apple", None), KEY)[0]) == 0
+
+
+def test_wood_that_lies_in_its_points_leaves_none_of_them_out():
+    """A stem of 2 m; traced as it is, twice as low, and six times as thick, so that its points lie inside."""
+    turn, high = np.random.default_rng(0).uniform(0, [[2 * np.pi], [2.0]], (2, 400))
+    points = np.stack([0.05 * np.cos(turn), high, 0.05 * np.sin(turn)], axis=1)
+    whole, half, fat = (
+        TreeSkeleton.from_columns(np.array([NULL, 0, 1]), np.array([[0, 0, 0], [0, top / 2, 0], [0, top, 0]], float), np.full(3, radius))
+        for top, radius in ((2.0, 0.05), (1.0, 0.05), (2.0, 0.3))
+    )
+    assert left_out(points, whole) == 0
+    assert left_out(points, half) == pytest.approx(0.47, abs=0.05)
+    assert left_out(points, fat) == 1
