@@ -14,6 +14,12 @@ def listen() -> None:
         signal.signal(signal.SIGINT, _interrupted)
 
 
+def leave_to_asyncio() -> None:
+    """An interrupt is Python's own again: asyncio stops its tasks in order only where it is, and a process that runs no jax loses none."""
+    if signal.getsignal(signal.SIGINT) is _interrupted:
+        signal.signal(signal.SIGINT, signal.default_int_handler)
+
+
 def _interrupted(_, frame) -> None:
     if frame is None or frame.f_code.co_name != _DEAF:
         raise KeyboardInterrupt

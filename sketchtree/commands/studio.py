@@ -13,6 +13,7 @@ from pathlib import Path
 import click
 
 from sketchtree.commands import options
+from sketchtree.commands.stopping import leave_to_asyncio
 
 _NEEDS = ("starlette", "uvicorn", "websockets", "msgspec")
 
@@ -28,6 +29,7 @@ def studio(file: Path | None, port: int, no_browser: bool, seed: int, quiet: boo
     Prints its address, which only this machine can reach, and runs until Ctrl-C.
     """
     began = time.perf_counter()
+    leave_to_asyncio()
     _stop_like_ctrl_c(signal.SIGTERM)
     _check_extra()
     from sketchtree.studio.built import page_folder

@@ -5,7 +5,7 @@ import time
 
 import pytest
 
-from sketchtree.commands.stopping import listen
+from sketchtree.commands.stopping import leave_to_asyncio, listen
 
 
 @pytest.fixture
@@ -40,3 +40,8 @@ def test_a_handler_of_somebody_else_stays():
     before = signal.signal(signal.SIGINT, theirs)
     listen()
     assert signal.signal(signal.SIGINT, before) is theirs
+
+
+def test_asyncio_has_pythons_own_handler(listening):
+    leave_to_asyncio()
+    assert signal.getsignal(signal.SIGINT) is signal.default_int_handler
