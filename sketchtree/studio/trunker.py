@@ -5,21 +5,20 @@
 What is shown stays until the next is there, and goes when the tree is not taken from scribbles any more.
 """
 
-import asyncio
-from collections.abc import Callable, Coroutine, Mapping
+from collections.abc import Callable, Coroutine
 
 import msgspec
 
 from sketchtree.editing.document import Document
-from sketchtree.errors import SketchError, SketchTreeError
+from sketchtree.errors import SketchError
 from sketchtree.studio import messages
 from sketchtree.studio.engine import Outcome, Tell, untold
 from sketchtree.studio.growth import Held, Whose
-from sketchtree.studio.hand import Ended, Hand
+from sketchtree.studio.hand import Hand
 from sketchtree.studio.laid_photo import LaidPhoto
+from sketchtree.studio.made_aside import MadeAside
 from sketchtree.studio.making.photo_asked import Asked
 from sketchtree.studio.making.trunk_asked import TrunkWish
-from sketchtree.studio.one_job import OneJob
 
 _REST = 0.6  # seconds without a change before it is made
 _PAUSE = 0.2  # seconds between two tellings of how far it is
@@ -27,20 +26,16 @@ _PATIENCE = 6.0  # seconds in which what is stopped ends by itself, before its p
 _NO_TREE = SketchError("No scribbles tell a tree yet.", remedy="Draw along its trunk, and beside it.")
 
 
-class Trunker:
+class Trunker(MadeAside):
     """`tell` is given outcomes for the pages; `run` does work aside."""
 
     def __init__(self, hand: Hand, laid: LaidPhoto, tell: Callable[[Outcome], None], run: Callable[[Coroutine], None]):
-        self._hand, self._laid, self._outcome, self._run = hand, laid, tell, run
-        self._loop = asyncio.get_running_loop()
-        self._now: tuple[int, TrunkWish] | None = None  # the newest drawing
+        super().__init__(hand, tell, run, job="trunk", ended="The process that makes it ended. Make it again.", patience=_PATIENCE)
+        self._laid = laid
         self._asked: Asked | None = None  # the photo that it lies on
-        self._job = OneJob(hand, self._begin, _PATIENCE)
-        self._done: tuple[TrunkWish, str, str] | None = None  # what is not to be made again: its state, and why
-        self._is_on, self._told_at = False, 0.0
+        self._is_on = False
         self._over: dict[type, messages.Event] = {}  # what is laid over the photo: of the tree that is made, or was last
         self._shown: dict[type, messages.Event] = {}  # and of the tree that is shown
-        self.textures: Mapping[tuple[str, str], bytes] = {}  # by material and map: those that only the tree that is shown has
 
     def make(self, revision: int, document: Document, *, at_once: bool = False) -> None:
         """The drawing is this now; `at_once`: without a pause, even if it was stopped."""
@@ -51,32 +46,7 @@ class Trunker:
             return
         self._now, self._asked, self._is_on = (revision, wish), asked, True
         self._laid.show(self._hand, asked)
-        if at_once:
-            self._done = None
-        if self._job.made is not None and self._job.made[0].key == wish.key:
-            self._job.works(wish, self._job.made[1])
-            return
-        self._job.halt()
-        if self._done is not None and self._done[0].key == wish.key:
-            self._tell(*self._done[1:])
-            if self._done[1] == "ready":
-                for event in self._shown.values():  # another may have been laid over it meanwhile
-                    self._outcome(Outcome(revision, msgspec.structs.replace(event, revision=revision)))
-            return
-        self._tell("waits")
-        self._job.later(0.0 if at_once else _REST)
-
-    def stop(self) -> None:
-        """What is made, or is to be, is not wanted."""
-        if self._now is not None and self._job.goes_on:
-            self._job.halt()
-            self._done = self._now[1], "stopped", ""
-            self._tell("stopped")
-
-    def end(self) -> None:
-        """End the process."""
-        self._job.clear()
-        self._hand.end()
+        self._wished(_REST, at_once=at_once)
 
     async def files(self, document: Document, name: str, options: dict, tell: Tell = untold) -> dict[str, bytes]:
         """The files that the tree of a drawing becomes, grown up. Raises SketchTreeError; cancelled, its making ends."""
@@ -107,34 +77,19 @@ class Trunker:
         if value[0] == "event":
             self._over[type(value[1])] = value[1]
             self._outcome(Outcome(value[1].revision, value[1]))
-        elif self._loop.time() - self._told_at >= _PAUSE:
-            self._told_at = self._loop.time()
-            self._say(state="grows", stage=value[1], done=min(max(float(value[2]), 0.0), 1.0))
+        else:
+            self._how_far(value, _PAUSE)
 
-    def _begin(self) -> None:
-        revision, wish = self._now
+    def _before_asking(self) -> None:
         self._laid.show(self._hand, self._asked)
-        number, answer = self._hand.ask("trunk", revision, wish)
-        self._job.works(wish, number)
-        self._tell("grows")
-        self._run(self._made(revision, number, answer))
 
-    async def _made(self, revision: int, number: int, answer: asyncio.Future) -> None:
-        found, why = None, ""
-        try:
-            found = await answer
-        except Ended:
-            why = "The process that makes it ended. Make it again."
-        except SketchTreeError as error:
-            why = f"{error.message} {error.remedy}"
-        if not self._job.is_of(number) or not (found or why):
-            return
-        wish = self._job.done()
-        self._done = wish, "failed" if why else "ready", why
-        if found:
-            (frame, self.textures), self._shown = found, dict(self._over)
-            self._outcome(Outcome(revision, frame, of_photo=True))
-        self._tell(*self._done[1:])
+    def _before_showing(self) -> None:
+        self._shown = dict(self._over)
+
+    def _told_again(self) -> None:
+        if self._done[1] == "ready":
+            for event in self._shown.values():  # another may have been laid over it meanwhile
+                self._outcome(Outcome(self._now[0], msgspec.structs.replace(event, revision=self._now[0])))
 
     def _nothing(self, revision: int) -> None:
         """The tree is not taken from scribbles."""
@@ -148,13 +103,10 @@ class Trunker:
 
     def _tell(self, state: str, remark: str = "") -> None:
         """How far it is: `Trunks` for what is laid over the photo, unless that is there; `Growing` for the tree."""
-        self._say(state=state, remark=remark, done=1.0 if state == "ready" else 0.0)
+        super()._tell(state, remark)
         over = {"waits": "waits", "grows": "works", "failed": "failed"}.get(state)
         if over is not None:
             self._outcome(Outcome(self._now[0], messages.Trunks(revision=self._now[0], state=over, remark=remark)))
-
-    def _say(self, **fields) -> None:
-        self._outcome(Outcome(self._now[0], messages.Growing(revision=self._now[0], **fields)))
 
 
 def _only(tell: Tell) -> Callable[[tuple], None]:
