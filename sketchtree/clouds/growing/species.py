@@ -10,12 +10,12 @@ The fifth, ρ, follows from l and the plant's height (`logistic`). A table `[gro
 file and key.
 """
 
-import tomllib
 from dataclasses import dataclass, fields
 from pathlib import Path
 
 from sketchtree.clouds.growing.wanted import INFLUENCE, RANGES, Growing
 from sketchtree.errors import OptionError, TemplateError
+from sketchtree.toml_file import read_table
 
 FIGURES = {"internode": (0.005, 0.5), "roll": (0.0, 360.0), "branching": (0.0, 120.0), "gamma": (0.2, 1.0)}
 """Within which each of a species' figures may lie."""
@@ -62,10 +62,7 @@ def species(name: str) -> Species:
 def read_species(path: Path | str) -> Species:
     """The species in one TOML file."""
     path = Path(path)
-    try:
-        table = tomllib.loads(path.read_text(encoding="utf-8"))
-    except (OSError, UnicodeDecodeError, tomllib.TOMLDecodeError) as error:
-        raise TemplateError(f"Recipe {path.name}: it can't be read ({error}).", remedy="Give a readable TOML file.") from error
+    table = read_table(path, "Recipe")
     known = [field.name for field in fields(Species)]
     _check_known(table, known, "", path.name)
     return Species(**{key: _value(table, key, path.name) for key in known[:-1]}, growing=_growing(table.get("growing", {}), path.name))

@@ -10,12 +10,12 @@
 Lengths are shares of the whole blossom's (`LeafModel.size`). Every key is checked: one that is unknown, a wrong type or a value out of range is a `TemplateError` that names file and key.
 """
 
-import tomllib
 from dataclasses import dataclass, fields
 from functools import lru_cache
 from pathlib import Path
 
 from sketchtree.errors import TemplateError
+from sketchtree.toml_file import read_table
 
 FORMS, FLOWERS = ("umbel", "plate", "panicle", "catkin", "cluster"), ("five", "pea")
 RANGES = {
@@ -77,10 +77,7 @@ def recipe(name: str) -> Recipe:
 def read_recipe(path: Path | str) -> Recipe:
     """The recipe in one TOML file. Raises TemplateError."""
     path = Path(path)
-    try:
-        table = tomllib.loads(path.read_text(encoding="utf-8"))
-    except (OSError, UnicodeDecodeError, tomllib.TOMLDecodeError) as error:
-        raise TemplateError(f"Flower {path.name}: it can't be read ({error}).", remedy="Give a readable TOML file.") from error
+    table = read_table(path, "Flower")
     known = [field.name for field in fields(Recipe)]
     for key, value in table.items():
         if key not in known:
