@@ -1,10 +1,9 @@
 """When the tree in the points behind a drawing is traced: once it is asked for, never twice alike, and it goes when the tree is that of the strokes again."""
 
-import asyncio
 
 import numpy as np
 import pytest
-from test_grower import IdleHand
+from aside_scene import AsideScene, no_pauses_of, played_in
 
 from sketchtree.editing.document import Document
 from sketchtree.editing.laid_cloud import CloudChoices, LaidCloud
@@ -12,7 +11,6 @@ from sketchtree.errors import SketchError
 from sketchtree.options import TreeOptions
 from sketchtree.sketch.strokes import Stroke
 from sketchtree.studio import cloud_tracer as making
-from sketchtree.studio import messages
 from sketchtree.studio.cloud_tracer import CloudTracer
 
 CLOUD = LaidCloud(np.arange(30, dtype="<f4").tobytes(), False, 0.0, 0.0, 10.0)
@@ -24,49 +22,23 @@ def drawn(traced: bool = True, **fields) -> Document:
 
 @pytest.fixture(autouse=True)
 def no_pauses(monkeypatch):
-    for name in ("_REST", "_PAUSE"):
-        monkeypatch.setattr(making, name, 0.0)
+    no_pauses_of(monkeypatch, making)
 
 
-class Scene:
+class Scene(AsideScene):
     """A tracer, and all that it told."""
 
     def __init__(self):
-        self.hand, self.told, self.revision = IdleHand(), [], 0
-        self.tracer = CloudTracer(self.hand, self.told.append, lambda work: asyncio.get_running_loop().create_task(work))
-
-    async def draw(self, document: Document, **more):
-        self.revision += 1
-        self.tracer.make(self.revision, document, **more)
-        await self.rest()
-
-    async def rest(self):
-        for _ in range(10):
-            await asyncio.sleep(0.001)
+        super().__init__(CloudTracer, "points")
 
     async def answer(self, frame=b"frame"):
         answer = self.hand.jobs("points")[-1][2]
         answer.set_exception(frame) if isinstance(frame, Exception) else answer.set_result((frame, {("bark", "color"): b"png"}))
         await self.rest()
 
-    @property
-    def states(self):
-        return [one.event.state for one in self.told if isinstance(one.event, messages.Growing)]
-
-    @property
-    def frames(self):
-        return [one.event for one in self.told if one.of_photo]
-
-    @property
-    def made(self):
-        return len(self.hand.jobs("points"))
-
 
 def played(of):
-    async def run():
-        await of(Scene())
-
-    asyncio.run(run())
+    played_in(Scene, of)
 
 
 def test_nothing_is_traced_before_it_is_asked_for():
@@ -83,7 +55,7 @@ def test_it_is_traced_and_shown_with_what_it_wears():
         await scene.draw(drawn())
         await scene.answer()
         assert scene.states == ["waits", "grows", "ready"] and scene.frames == [b"frame"]
-        assert scene.tracer.textures == {("bark", "color"): b"png"}
+        assert scene.maker.textures == {("bark", "color"): b"png"}
 
     played(test)
 
@@ -128,7 +100,7 @@ def test_what_went_wrong_is_said_and_not_tried_again_by_itself():
 def test_a_stop_ends_it_until_it_is_asked_for_again():
     async def test(scene):
         await scene.draw(drawn())
-        scene.tracer.stop()
+        scene.maker.stop()
         await scene.draw(drawn())
         assert scene.states[-1] == "stopped" and scene.made == 1 and scene.frames == []
 
@@ -138,6 +110,6 @@ def test_a_stop_ends_it_until_it_is_asked_for_again():
 def test_files_of_a_tree_that_is_not_traced_are_refused():
     async def test(scene):
         with pytest.raises(SketchError, match="^No tree is traced in the points. Trace it first.$"):
-            await scene.tracer.files(drawn(traced=False), "tree.glb", {})
+            await scene.maker.files(drawn(traced=False), "tree.glb", {})
 
     played(test)

@@ -1,11 +1,10 @@
 """When the tree of scribbles is made: a moment after the last of them, never twice alike, and it goes when it is taken otherwise."""
 
 import asyncio
-from contextlib import asynccontextmanager
 
 import numpy as np
 import pytest
-from test_grower import IdleHand
+from aside_scene import AsideScene, no_pauses_of, played_in
 
 from sketchtree.editing.document import Document, Underlay
 from sketchtree.errors import SketchError
@@ -26,58 +25,27 @@ def drawn(strokes, on: bool = True) -> Document:
 
 @pytest.fixture(autouse=True)
 def no_pauses(monkeypatch):
-    for name in ("_REST", "_PAUSE"):
-        monkeypatch.setattr(making, name, 0.0)
+    no_pauses_of(monkeypatch, making)
 
 
-class Scene:
+class Scene(AsideScene):
     """A trunker, and all that it told."""
 
     def __init__(self):
-        self.hand, self.told, self.revision = IdleHand(), [], 0
-        self.trunker = Trunker(self.hand, LaidPhoto(), self.told.append, lambda work: asyncio.get_running_loop().create_task(work))
-
-    async def draw(self, document: Document, **more):
-        self.revision += 1
-        self.trunker.make(self.revision, document, **more)
-        await self.rest()
-
-    async def rest(self):
-        for _ in range(10):
-            await asyncio.sleep(0.001)
+        super().__init__(lambda hand, *more: Trunker(hand, LaidPhoto(), *more), "trunk")
 
     async def answer(self, frame=b"frame"):
         number, _, answer = self.hand.jobs("trunk")[-1]
         if isinstance(frame, Exception):
             answer.set_exception(frame)
         else:
-            self.trunker.heard(number, ("event", messages.Matte(revision=self.revision, png=frame.decode())))
+            self.maker.heard(number, ("event", messages.Matte(revision=self.revision, png=frame.decode())))
             answer.set_result((frame, {}))
         await self.rest()
 
-    def all(self, kind):
-        return [outcome.event for outcome in self.told if isinstance(outcome.event, kind)]
-
-    @property
-    def states(self):
-        return [event.state for event in self.all(messages.Growing)]
-
-    @property
-    def made(self):
-        return len(self.hand.jobs("trunk"))
-
-
-@asynccontextmanager
-async def scene():
-    yield Scene()
-
 
 def played(of):
-    async def run():
-        async with scene() as made:
-            await of(made)
-
-    asyncio.run(run())
+    played_in(Scene, of)
 
 
 def test_it_is_made_once_and_shown():
@@ -97,7 +65,7 @@ def test_the_newest_wins_and_what_comes_of_an_older_one_is_not_told():
         await scene.draw(drawn(TWO))
         assert (scene.made, scene.hand.stops) == (2, 1)
         scene.hand.jobs("trunk")[0][2].set_result((b"old", {}))
-        scene.trunker.heard(scene.hand.jobs("trunk")[0][0], ("event", messages.Matte(revision=1, png="old")))
+        scene.maker.heard(scene.hand.jobs("trunk")[0][0], ("event", messages.Matte(revision=1, png="old")))
         await scene.answer(b"new")
         assert [one.event for one in scene.told if one.of_photo] == [b"new"] and [one.png for one in scene.all(messages.Matte)] == ["new"]
 
@@ -109,7 +77,7 @@ def test_undone_at_once_what_lies_over_the_photo_is_that_of_the_tree_shown():
         await scene.draw(drawn(ONE))
         await scene.answer(b"one")
         await scene.draw(drawn(TWO))
-        scene.trunker.heard(scene.hand.jobs("trunk")[-1][0], ("event", messages.Matte(revision=2, png="two")))
+        scene.maker.heard(scene.hand.jobs("trunk")[-1][0], ("event", messages.Matte(revision=2, png="two")))
         await scene.draw(drawn(ONE))
         assert [(one.revision, one.png) for one in scene.all(messages.Matte)] == [(1, "one"), (2, "two"), (3, "one")]
         assert scene.made == 2 and scene.states[-1] == "ready"
@@ -133,7 +101,7 @@ def test_what_can_not_be_made_says_why_and_is_not_tried_again():
 def test_what_is_stopped_is_not_made_until_it_is_asked_for():
     async def play(scene):
         await scene.draw(drawn(TWO))
-        scene.trunker.stop()
+        scene.maker.stop()
         await scene.draw(drawn(TWO))
         assert (scene.made, scene.states[-1]) == (1, "stopped")
         await scene.draw(drawn(TWO), at_once=True)
@@ -175,9 +143,9 @@ def test_a_matte_that_ends_in_time_keeps_its_process(monkeypatch):
 def test_files_and_growth_of_what_no_scribble_tells_are_refused():
     async def play(scene):
         with pytest.raises(SketchError) as refused:
-            await scene.trunker.files(drawn(TWO, on=False), "tree.glb", {})
+            await scene.maker.files(drawn(TWO, on=False), "tree.glb", {})
         assert str(refused.value) == "No scribbles tell a tree yet. Draw along its trunk, and beside it."
-        assert scene.trunker.whose(drawn(TWO)).key == scene.trunker.whose(drawn(TWO)).key != scene.trunker.whose(drawn(ONE)).key
+        assert scene.maker.whose(drawn(TWO)).key == scene.maker.whose(drawn(TWO)).key != scene.maker.whose(drawn(ONE)).key
 
     played(play)
 

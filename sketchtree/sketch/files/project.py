@@ -1,6 +1,8 @@
 """The drawing inside a SketchTree project (`.sketchtree`, HDF5): sketch JSON in the dataset `sketch`."""
 
 import io
+import json
+from collections.abc import Callable
 
 import numpy as np
 
@@ -31,25 +33,26 @@ def drawing_in_project(data: bytes, name: str) -> bytes | None:
 
 def holds_photo(path) -> bool:
     """Is it a project whose strokes mark the tree in a photo?"""
-    try:
-        with open(path, "rb") as file:
-            if file.read(8) != SIGNATURE:
-                return False
-        import h5py
-
-        with h5py.File(path, "r") as file:
-            return "underlay" in file and bool(file["underlay"].attrs.get("photo", False))
-    except (OSError, RuntimeError, ValueError, TypeError, KeyError, AttributeError):
-        return False  # whoever reads the strokes says so
+    return _is(path, lambda file: "underlay" in file and bool(file["underlay"].attrs.get("photo", False)))
 
 
 def holds_scribbles(path) -> bool:
     """Is it a project whose tree is taken from scribbles on its photo?"""
-    return holds_photo(path) and _says(path, TRUNK, "on")
+    return holds_photo(path) and _is(path, lambda file: _says(file, TRUNK, "on"))
 
 
 def holds_cloud(path) -> bool:
     """Is it a project with points of a scan behind the drawing?"""
+    return _is(path, lambda file: "cloud" in file)
+
+
+def holds_traced(path) -> bool:
+    """Is it a project whose tree is the one that stands in its points?"""
+    return holds_cloud(path) and _is(path, lambda file: _says(file, POINTS, "traced"))
+
+
+def _is(path, asked: Callable) -> bool:
+    """Is a file a project of which this is true? `asked` gets it open."""
     try:
         with open(path, "rb") as file:
             if file.read(8) != SIGNATURE:
@@ -57,27 +60,14 @@ def holds_cloud(path) -> bool:
         import h5py
 
         with h5py.File(path, "r") as file:
-            return "cloud" in file
-    except (OSError, RuntimeError, ValueError, TypeError, KeyError, AttributeError):
-        return False  # whoever reads the strokes says so
-
-
-def holds_traced(path) -> bool:
-    """Is it a project whose tree is the one that stands in its points?"""
-    return holds_cloud(path) and _says(path, POINTS, "traced")
-
-
-def _says(path, what: str, name: str) -> bool:
-    """Do the options of a project say so?"""
-    import json
-
-    import h5py
-
-    try:
-        with h5py.File(path, "r") as file:
-            return "options" in file and bool((json.loads(column(file, "options").tobytes()).get(what) or {}).get(name))
+            return asked(file)
     except (OSError, RuntimeError, ValueError, TypeError, KeyError, AttributeError, RecursionError):
         return False  # whoever reads the strokes says so
+
+
+def _says(file, what: str, name: str) -> bool:
+    """Do the options of a project say so?"""
+    return "options" in file and bool((json.loads(column(file, "options").tobytes()).get(what) or {}).get(name))
 
 
 def check_schema(file, name: str) -> None:
