@@ -1,6 +1,5 @@
 """When the tree in the points behind a drawing is traced: once it is asked for, never twice alike, and it goes when the tree is that of the strokes again."""
 
-
 import numpy as np
 import pytest
 from aside_scene import AsideScene, no_pauses_of, played_in
