@@ -11,8 +11,9 @@ import importlib.metadata
 import os
 import pickle
 import platform
+import threading
 from collections.abc import Callable
-from contextlib import contextmanager
+from contextlib import nullcontext
 from functools import cache, partial
 from pathlib import Path
 from typing import Any
@@ -49,6 +50,7 @@ class Program:
 
 
 _PROGRAMS: dict[tuple, Program] = {}
+_MAKING: dict[tuple, threading.Lock] = {}  # whoever asks for a program that another thread makes waits for that one
 
 
 def compiled(function: Callable, *arguments, name: str, keep: bool = True) -> Program:
@@ -58,11 +60,13 @@ def compiled(function: Callable, *arguments, name: str, keep: bool = True) -> Pr
     shapes = tuple((leaf.shape, str(leaf.dtype)) for leaf in leaves)
     key = (name, structure, shapes)
     if key not in _PROGRAMS:
-        use_disk_cache()
-        path = None if not keep else _path(f"{name} {structure} {shapes} {jax.config.jax_enable_x64}")
-        columns = [jax.ShapeDtypeStruct(leaf.shape, leaf.dtype) for leaf in leaves]
-        make = partial(_make, function, columns, structure, path)
-        _PROGRAMS[key] = _read(path, len(leaves), make) or make()
+        with _MAKING.setdefault(key, threading.Lock()):
+            if key not in _PROGRAMS:
+                use_disk_cache()
+                path = None if not keep else _path(f"{name} {structure} {shapes} {jax.config.jax_enable_x64}")
+                columns = [jax.ShapeDtypeStruct(leaf.shape, leaf.dtype) for leaf in leaves]
+                make = partial(_make, function, columns, structure, path)
+                _PROGRAMS[key] = _read(path, len(leaves), make) or make()
     return _PROGRAMS[key]
 
 
@@ -73,7 +77,7 @@ def _make(function, columns, structure, path: Path | None) -> Program:
         result, found["structure"] = jax.tree_util.tree_flatten(function(*structure.unflatten(leaves)))
         return tuple(result)
 
-    with _own_cache_only(path is not None):
+    with _OWN_CACHE_ONLY if path is not None else nullcontext():
         run = jax.jit(flat).lower(*columns).compile()
     program = Program(run, found["structure"].unflatten(range(found["structure"].num_leaves)))
     if path is not None:
@@ -81,18 +85,38 @@ def _make(function, columns, structure, path: Path | None) -> Program:
     return program
 
 
-@contextmanager
-def _own_cache_only(needed: bool):
+class _OwnCacheOnly:
     """Leave jax's cache out: a program that came from there can't be written a second time.
-    jax asks once a process whether its cache is on, so it is made to ask again before and after."""
-    before = jax.config.jax_enable_compilation_cache
-    jax.config.update("jax_enable_compilation_cache", before and not needed)
-    compilation_cache.reset_cache()
-    try:
-        yield
-    finally:
-        jax.config.update("jax_enable_compilation_cache", before)
+    jax asks once a process whether its cache is on, so it is made to ask again before and after. Several threads may be inside: the last that leaves turns it on again."""
+
+    def __init__(self):
+        self._turn, self._inside, self._before = threading.Lock(), 0, True
+
+    def __enter__(self):
+        with self._turn:
+            self._inside += 1
+            if self._inside == 1:
+                self._before = jax.config.jax_enable_compilation_cache
+                self._set(False)
+
+    def __exit__(self, *why):
+        with self._turn:
+            self._inside -= 1
+            if self._inside == 0:
+                self._set(self._before)
+
+    @property
+    def allowed(self) -> bool:
+        """May programs be kept? As it was chosen, whoever is inside."""
+        with self._turn:
+            return self._before if self._inside else jax.config.jax_enable_compilation_cache
+
+    def _set(self, on: bool) -> None:
+        jax.config.update("jax_enable_compilation_cache", on)
         compilation_cache.reset_cache()
+
+
+_OWN_CACHE_ONLY = _OwnCacheOnly()
 
 
 def _read(path: Path | None, count: int, remake: Callable[[], Program]) -> Program | None:
@@ -121,7 +145,7 @@ def _write(path: Path, program: Program) -> None:
 def _path(signature: str) -> Path | None:
     """Where a program of this signature is kept; None: nowhere."""
     folder = jax.config.jax_compilation_cache_dir
-    if folder is None or not jax.config.jax_enable_compilation_cache:
+    if folder is None or not _OWN_CACHE_ONLY.allowed:
         return None
     digest = hashlib.blake2b(f"{signature} {_surroundings()}".encode(), digest_size=16).hexdigest()
     return Path(folder) / "programs" / f"{digest}.pickle"

@@ -1,5 +1,7 @@
 """Programs are compiled once a shape, and kept on disk between runs."""
 
+import threading
+from concurrent.futures import ThreadPoolExecutor
 from typing import NamedTuple
 
 import jax
@@ -133,3 +135,37 @@ def test_a_program_from_jax_s_own_cache_is_not_written_again(kept):
 
 def _waves(x):
     return jax.lax.fori_loop(0, 9, lambda _, y: jax.numpy.cumsum(jax.numpy.sin(y) + x), x)
+
+
+def test_who_asks_for_a_program_that_is_being_made_waits_for_that_one(kept):
+    traced, begun, waits = [], threading.Event(), threading.Event()
+
+    def slow(x):
+        traced.append(1)
+        begun.set()
+        waits.wait(60)
+        return 2 * x
+
+    x = np.arange(6, dtype=np.float32)
+    with ThreadPoolExecutor(2) as pool:
+        first = pool.submit(compiled, slow, x, name="slow")
+        assert begun.wait(60)
+        second = pool.submit(compiled, slow, x, name="slow")
+        assert not second.done()
+        waits.set()
+        assert first.result() is second.result() and traced == [1]
+
+
+def test_programs_made_side_by_side_are_all_kept_and_the_cache_is_on_afterwards(kept):
+    inside = threading.Barrier(2, timeout=60)
+
+    def made(factor):
+        def times(x):
+            inside.wait()
+            return factor * x
+
+        return compiled(times, np.arange(7, dtype=np.float32), name=f"times {factor}")
+
+    with ThreadPoolExecutor(2) as pool:
+        list(pool.map(made, (2.0, 3.0)))
+    assert len(list(kept.glob("*.pickle"))) == 2 and jax.config.jax_enable_compilation_cache
