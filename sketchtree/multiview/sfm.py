@@ -3,21 +3,22 @@
 Photos of other sizes, other cameras and without EXIF may be mixed: photos of one size and, by their EXIF, of one camera and focal length share a camera (if
 each had its own, small sets would bend), and a focal length that is not told is taken as 1.2 times the longer side and found with the rest. Its threads add
 numbers in no fixed order, so that two runs agree to about a thousandth of a pixel, not to the last bit. What COLMAP finds is held against what every two photos
-say by themselves (`agreement`).
+say by themselves (`agreement`). COLMAP works in a process of its own (`placing`, `apart`), so that Ctrl-C, or a pulse that raises, ends it at once.
 """
 
 import tempfile
 from collections.abc import Callable
-from contextlib import closing
 from dataclasses import dataclass, replace
+from importlib.util import find_spec
 from pathlib import Path
 
-import numpy as np
 from PIL import Image, ImageOps
 
 from sketchtree.errors import ViewsError
 from sketchtree.multiview.agreement import Pair, agreeing, contradictions
+from sketchtree.multiview.apart import Lost, apart
 from sketchtree.multiview.photos import blurred, photo_files, read_photo
+from sketchtree.multiview.placing import placed
 from sketchtree.multiview.poses.colmap import read_colmap
 from sketchtree.multiview.poses.posed import Poses
 from sketchtree.watch import Pulse, no_pulse, shared
@@ -46,7 +47,7 @@ def structure_from_motion(
     folder, *, longest: int = 1600, details: int = 8192, seed: int = 0, part: Callable[[float], None] | None = None, pulse: Pulse = no_pulse
 ) -> Found:
     """Cameras of the photos in a folder, at most `longest` pixels a side, from about so many `details` of each. Raises ViewsError where too few belong together."""
-    colmap = _colmap()
+    _check_colmap()
     files = photo_files(folder)
     if len(files) < LEAST:
         raise ViewsError(f"There are only {len(files)} photos.", remedy=f"{LEAST} are the least that can be placed. {ADVICE}")
@@ -55,18 +56,13 @@ def structure_from_motion(
         place = Path(place)
         unsharp = blurred(files)
         shrunk, groups, silent = _copied(files, place / "photos", longest, shared(part, 0.0, 0.1), pulse)
-        _matched(colmap, place, groups, details, seed, part, pulse)
-        poses, pairs = _mapped(colmap, place, len(files), seed, shared(part, 0.5, 1.0), pulse)
+        poses, pairs = _placed(place, groups, details, seed, shared(part, 0.1, 1.0), pulse)
     return _found(poses, pairs, files, shrunk, unsharp, silent)
 
 
-def _colmap():
-    try:
-        import pycolmap
-    except ImportError:
-        raise ViewsError("Finding where photos were taken from needs the package `pycolmap`.", remedy="Install it: pip install 'sketchtree[multiview]'.") from None
-    pycolmap.logging.minloglevel = 3
-    return pycolmap
+def _check_colmap() -> None:
+    if find_spec("pycolmap") is None:
+        raise ViewsError("Finding where photos were taken from needs the package `pycolmap`.", remedy="Install it: pip install 'sketchtree[multiview]'.")
 
 
 def _copied(files: list[Path], place: Path, longest: int, part, pulse: Pulse) -> tuple[dict[str, float], list[list[str]], int]:
@@ -100,63 +96,24 @@ def _focal_only(told: Image.Exif) -> Image.Exif:
     return kept
 
 
-def _matched(colmap, place: Path, groups: list[list[str]], details: int, seed: int, part, pulse: Pulse) -> None:
-    colmap.set_random_seed(seed)
-    extraction, reader = colmap.FeatureExtractionOptions(), colmap.ImageReaderOptions()
-    extraction.use_gpu, reader.camera_model = False, "SIMPLE_RADIAL"
-    extraction.sift.darkness_adaptivity, extraction.sift.max_num_features = True, details
-    for k, names in enumerate(groups):
-        colmap.extract_features(
-            place / "points.db", place / "photos", names, camera_mode=colmap.CameraMode.SINGLE, reader_options=reader, extraction_options=extraction, device=colmap.Device.cpu
-        )
-        pulse()
-        part(0.1 + 0.2 * (k + 1) / len(groups))
-    matching = colmap.FeatureMatchingOptions()
-    matching.use_gpu = False
-    colmap.match_exhaustive(place / "points.db", matching_options=matching, device=colmap.Device.cpu)
-    part(0.5)
-    pulse()
-
-
-def _mapped(colmap, place: Path, count: int, seed: int, part, pulse: Pulse) -> tuple[Poses, list[Pair]]:
-    """The largest model, and what every two of its photos share."""
-    placed = [0]
-
-    def one_more() -> None:
-        pulse()
-        placed[0] += 1
-        part(min(1.0, placed[0] / count))
-
-    options = colmap.IncrementalPipelineOptions()
-    options.random_seed, options.extract_colors = seed, False
-    (place / "model").mkdir()
-    models = colmap.incremental_mapping(place / "points.db", place / "photos", place / "model", options=options, next_image_callback=one_more)
-    if not models:
+def _placed(place: Path, groups: list[list[str]], details: int, seed: int, part, pulse: Pulse) -> tuple[Poses, list[Pair]]:
+    """The cameras that COLMAP finds, and what every two of its photos share."""
+    count = sum(len(names) for names in groups)
+    try:
+        told = apart(placed, place, groups, details, seed, part=part, pulse=pulse)
+    except Lost as lost:
+        raise ViewsError(
+            f"COLMAP, which finds where photos were taken from, ended before it was done ({lost}).",
+            remedy="If memory ran out: close other programs, or give fewer or smaller photos. Or give the poses, if something else knows them.",
+        ) from lost
+    if told is None:
         raise ViewsError(f"None of the {count} photos could be placed: too few of their details were found again in others.", remedy=ADVICE)
-    best = max(models, key=lambda number: models[number].num_reg_images())
-    models[best].write_binary(place / "model")
     try:
         poses = read_colmap(place / "model")
     except ViewsError:  # a focal length below 0: what was found is no picture of a world
         raise ViewsError(f"None of the {count} photos could be placed: the cameras found make no sense.", remedy=ADVICE) from None
-    return poses, pairs_of(colmap, place / "points.db", models[best], poses)
-
-
-def pairs_of(colmap, database: Path, model, poses: Poses) -> list[Pair]:
-    """What every two photos share that COLMAP has verified by the two alone."""
-    row_of, shared_by = {photo.name: row for row, photo in enumerate(poses.photos)}, []
-    with closing(colmap.Database.open(database)) as told:
-        xy = {
-            image.image_id: model.cameras[model.images[image.image_id].camera_id].cam_from_img(told.read_keypoints(image.image_id)[:, :2].astype(np.float64))
-            for image in told.read_all_images() if image.name in row_of
-        }
-        row_of = {number: row_of[model.images[number].name] for number in xy}
-        for number, geometry in zip(*told.read_two_view_geometries(), strict=True):
-            one, other = colmap.pair_id_to_image_pair(number)
-            if one in xy and other in xy and len(geometry.inlier_matches):
-                first, second = geometry.inlier_matches.T
-                shared_by.append(Pair((row_of[one], row_of[other]), xy[one][first], xy[other][second]))
-    return shared_by
+    row_of = {photo.name: row for row, photo in enumerate(poses.photos)}
+    return poses, [Pair((row_of[one], row_of[other]), first, second) for one, other, first, second in told]
 
 
 def _found(poses: Poses, pairs: list[Pair], files: list[Path], shrunk: dict[str, float], unsharp: list[str], silent: int) -> Found:
