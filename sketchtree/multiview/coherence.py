@@ -51,13 +51,13 @@ def likelihood(grey, used, plane, transfers, backs, others, other_planes, other_
             likely[y, x], agreeing[y, x] = 0.0, 0
             if not used[y, x] or plane[y, x, 0] <= 0.0:
                 continue
-            total, mean, variance = patch_of(grey, x, y, step, weight, value)
+            total, mean, variance, middle = patch_of(grey, x, y, step, weight, value)
             rho, across, down = plane[y, x, 0], plane[y, x, 1], plane[y, x, 2]
             found = 0.0
             for k in range(len(others)):
                 e = back_and_forth(x, y, rho, transfers[k], backs[k], other_planes[k], other_used[k], sizes[k, 0], sizes[k, 1])
                 if e < 4.0 * SIGMA:
-                    m = 1.0 - source_cost(x, y, rho, across, down, transfers[k], others[k], sizes[k, 0], sizes[k, 1], step, weight, value, total, mean, variance)
+                    m = 1.0 - source_cost(x, y, rho, across, down, transfers[k], others[k], sizes[k, 0], sizes[k, 1], step, weight, value, total, mean, variance, middle)
                     found += max(m, 0.0) * np.exp(-e * e / (2.0 * SIGMA * SIGMA))
                 if e < AGREES:
                     agreeing[y, x] += 1

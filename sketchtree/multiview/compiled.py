@@ -22,7 +22,7 @@ def compiled(function: Callable) -> Callable:
     return njit(nogil=True, fastmath=True, error_model="numpy")(function)
 
 
-def side_by_side(work: Callable, items: Iterable, pulse: Pulse, done: Callable[[float], None]) -> list:
+def side_by_side(work: Callable, items: Iterable, pulse: Pulse, done: Callable[[float], None] = lambda share: None) -> list:
     """What `work` gives for every item, in their order, on all cores."""
     items = list(items)
     found = []

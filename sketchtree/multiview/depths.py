@@ -87,11 +87,12 @@ def _swept(levels: list[Level], quality: Quality, rounds: int, number: int, key,
         if not level.used.any():
             return
         sweep_once = _sweeps(level, partners(level, levels), quality)
-        label = segments_of(level.rgb, level.used) if quality.segments else None
+        if quality.segments:
+            level.segment = segments_of(level.rgb, level.used)
         prior = np.zeros_like(level.plane)
         for turn in range(rounds):
             if quality.segments and (turn or number):
-                prior = planes_of(label, level.plane, level.energy if turn else np.zeros_like(level.energy), level.sources.low, level.sources.high)
+                prior = planes_of(level.segment, level.plane, level.energy if turn else np.zeros_like(level.energy), level.sources.low, level.sources.high)
             for colour in (0, 1):
                 sweep_once(colour, prior, 0.05 * 0.5 ** (turn + 2 * number), 2 if number == 0 else 1, seeds[row, turn, colour])
 
@@ -119,7 +120,7 @@ def _refine(levels: list[Level], quality: Quality, pulse: Pulse, part) -> None:
         level = levels[row]
         if not level.used.any():
             return level.plane
-        label = segments_of(level.rgb, level.used)
+        label = segments_of(level.rgb, level.used) if level.segment is None else level.segment
         return refined(level, levels, partners(level, levels), label, quality.step)[0]
 
     planes = side_by_side(one, range(len(levels)), pulse, part)

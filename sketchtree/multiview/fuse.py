@@ -15,9 +15,11 @@ from scipy.spatial import cKDTree
 
 from sketchtree.clouds.cloud import PointCloud
 from sketchtree.errors import ViewsError
+from sketchtree.multiview.compiled import side_by_side
 from sketchtree.multiview.homography import normals_of
 from sketchtree.multiview.outline import brought_in, filled, outlines_of
 from sketchtree.multiview.workplace import Level
+from sketchtree.watch import Pulse, no_pulse
 
 LEAST = 0.25
 AGREE = 2  # other views
@@ -43,31 +45,34 @@ def confirmed(levels: list[Level]) -> float:
     return sure / max(sum(int(level.used.sum()) for level in levels), 1)
 
 
-def gathered(levels: list[Level], agree: int = AGREE, least: float = LEAST, outlines: bool = True) -> Gathered:
+def gathered(levels: list[Level], agree: int = AGREE, least: float = LEAST, outlines: bool = True, pulse: Pulse = no_pulse) -> Gathered:
     """The places of all depth maps that count; `outlines`: without those that photos look past. Raises ViewsError where none do."""
-    columns, sizes = [], []
-    alpha = [filled(level.rgb, level.empty) for level in levels] if outlines else []
+    alpha = [filled(level.rgb, level.empty) if outlines else None for level in levels]
     shown = outlines_of([level.camera for level in levels], alpha) if outlines else None
-    for row, level in enumerate(levels):
+
+    def one(row: int):
+        level = levels[row]
         y, x = np.nonzero(level.used & (level.likely >= least) & (level.agreeing >= min(agree, max(len(level.sources.rows), 1))))
-        pixel, plane = np.column_stack([x, y]) + 0.5, level.plane[y, x].astype(np.float64)
         if not len(y):
-            continue
+            return None
+        pixel, plane = np.column_stack([x, y]) + 0.5, level.plane[y, x].astype(np.float64)
         xyz = level.camera.unproject(pixel, 1.0 / plane[:, 0])
-        open_sky = seen_through(xyz, level, levels)
-        keep = open_sky < level.agreeing[y, x]
+        keep = seen_through(xyz, level, levels) < level.agreeing[y, x]
         if outlines:
             keep &= alpha[row][y, x] >= OWN
             xyz[keep], keep[keep] = brought_in(xyz[keep], level.camera.centre, 1.0 / level.camera.matrix[0, 0], shown)
         trust = level.likely[y, x] * (alpha[row][y, x] ** 2 + 0.01 if outlines else 1.0)
-        columns.append((xyz[keep], level.rgb[y, x][keep], normals_of(level.camera, pixel, plane)[keep], trust[keep]))
-        sizes.append(1.0 / plane[keep, 0] / level.camera.matrix[0, 0])
+        size = 1.0 / plane[keep, 0] / level.camera.matrix[0, 0]
+        return xyz[keep], level.rgb[y, x][keep], normals_of(level.camera, pixel, plane)[keep], trust[keep], size
+
+    columns = [some for some in side_by_side(one, range(len(levels)), pulse) if some is not None]
     if not columns or not sum(len(column[0]) for column in columns):
         raise ViewsError(
             "No place of the plant was found again in enough photos.",
             remedy="Check that poses belong to these photos; take more photos, nearer to one another, sharp and without wind.",
         )
-    return Gathered(*(np.concatenate(column).astype(np.float64) for column in zip(*columns, strict=True)), float(np.median(np.concatenate(sizes))))
+    *columns, size = (np.concatenate(column).astype(np.float64) for column in zip(*columns, strict=True))
+    return Gathered(*columns, float(np.median(size)))
 
 
 def seen_through(xyz: Float[np.ndarray, "point 3"], own: Level, levels: list[Level]) -> np.ndarray:

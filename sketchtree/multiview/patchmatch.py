@@ -18,6 +18,7 @@ from sketchtree.multiview.cost import SIDE, mean_of_best, patch_of, source_cost
 PRIOR = 0.15  # λ
 REACH = 0.01  # of the range: as far off the segment's plane as counts
 SAME = 2e-6  # of the range: a neighbour's plane that is no other, handed on before
+IMPOSSIBLE = 4.0  # energy of a plane outside the range, or too steep
 STEEPEST = 2.5  # tangent of a plane's slant
 NEIGHBOURS = np.array([(1, 0), (-1, 0), (0, 1), (0, -1), (5, 0), (-5, 0), (0, 5), (0, -5)])
 
@@ -33,17 +34,19 @@ def chance(seed, x, y, draw):
 
 
 @compiled
-def energy_of(x, y, rho, across, down, low, high, focal, prior, transfers, others, sizes, step, best, weight, value, total, mean, variance, costs):
-    """The integrand of Eq. 2 for one plane at one pixel."""
+def energy_of(x, y, rho, across, down, low, high, focal, prior, transfers, others, sizes, step, best, weight, value, total, mean, variance, middle, costs, bound):
+    """The integrand of Eq. 2 for one plane at one pixel; where it can't be less than `bound`, anything that is not less."""
     limit = STEEPEST * rho / focal
     if rho < low or rho > high or across * across + down * down > limit * limit:
-        return 4.0
+        return IMPOSSIBLE
+    second = PRIOR * min(abs(prior - rho) / (REACH * (high - low)), 1.0) if prior > 0.0 else 0.0
+    last, least = len(costs) - 1, 2.0
     for k in range(len(costs)):
-        costs[k] = source_cost(x, y, rho, across, down, transfers[k], others[k], sizes[k, 0], sizes[k, 1], step, weight, value, total, mean, variance)
-    found = mean_of_best(costs, best)
-    if prior > 0.0:
-        found += PRIOR * min(abs(prior - rho) / (REACH * (high - low)), 1.0)
-    return found
+        if second + (0.0 if k < last or best < 2 else least / best) >= bound:
+            return IMPOSSIBLE
+        costs[k] = source_cost(x, y, rho, across, down, transfers[k], others[k], sizes[k, 0], sizes[k, 1], step, weight, value, total, mean, variance, middle)
+        least = min(least, costs[k])
+    return second + mean_of_best(costs, best)
 
 
 @compiled
@@ -58,11 +61,11 @@ def sweep(colour, first, last, grey, used, plane, energy, prior, low, high, foca
         for x in range((y + colour) % 2, width, 2):
             if not used[y, x]:
                 continue
-            total, mean, variance = patch_of(grey, x, y, step, weight, value)
+            total, mean, variance, middle = patch_of(grey, x, y, step, weight, value)
             own = prior[y, x, 0]
             r0, a0, d0 = plane[y, x, 0], plane[y, x, 1], plane[y, x, 2]
             same = SAME * (high - low)
-            e0 = energy_of(x, y, r0, a0, d0, low, high, focal, own, transfers, others, sizes, step, best, weight, value, total, mean, variance, costs)
+            e0 = energy_of(x, y, r0, a0, d0, low, high, focal, own, transfers, others, sizes, step, best, weight, value, total, mean, variance, middle, costs, np.inf)
             for k in range(8 + 1 + 2 + fresh):
                 if k < 8:
                     nx, ny = x + NEIGHBOURS[k, 0], y + NEIGHBOURS[k, 1]
@@ -85,7 +88,7 @@ def sweep(colour, first, last, grey, used, plane, energy, prior, low, high, foca
                         r, a, d = r0 + 0.1 * spread * (2 * one - 1) * (high - low), a0 + 0.5 * tilt * (two - 0.5), d0 + 0.5 * tilt * (three - 0.5)
                     else:
                         r, a, d = low + one * (high - low), tilt * (two - 0.5), tilt * (three - 0.5)
-                e = energy_of(x, y, r, a, d, low, high, focal, own, transfers, others, sizes, step, best, weight, value, total, mean, variance, costs)
+                e = energy_of(x, y, r, a, d, low, high, focal, own, transfers, others, sizes, step, best, weight, value, total, mean, variance, middle, costs, e0)
                 if e < e0:
                     e0, r0, a0, d0 = e, r, a, d
             energy[y, x] = e0

@@ -117,7 +117,7 @@ def _dense(views: list[View], points, placed: Poses, wanted, key, watch, pulse) 
     sources = sources_of([view.camera for view in views], wanted.sources, points, [photo.sees for photo in placed.photos])
     levels = depth_maps(views, sources, wanted, key=stage_key(key, "depths"), watch=watch, pulse=pulse)
     with watch("fuse"):
-        found = gathered(levels)
+        found = gathered(levels, pulse=pulse)
         near = within(found.xyz, [view.camera for view in views])
         return thinned(found, found.size, near if near.sum() > 0.05 * len(near) else None), found.size, confirmed(levels)
 

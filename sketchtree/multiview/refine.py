@@ -40,12 +40,12 @@ def disparity_unit(level: Level, levels: list[Level]) -> float:
     return 1.0 / max(float(np.median(moved)), 1e-12)
 
 
-def scored(level: Level, levels: list[Level], near: Partners, plane: Float[np.ndarray, "row column 3"], step: int) -> tuple[np.ndarray, np.ndarray]:
-    """(L of every pixel for those planes, how many partners agree)."""
+def scored(level: Level, levels: list[Level], near: Partners, plane: Float[np.ndarray, "row column 3"], step: int, used=None) -> tuple[np.ndarray, np.ndarray]:
+    """(L of every pixel for those planes, how many partners agree). `used`: pixels to do it for; 0 elsewhere."""
     others = [levels[row] for row in level.sources.rows]
     likely, agreeing = np.zeros(level.shape, np.float32), np.zeros(level.shape, np.int64)
     likelihood(
-        level.grey, level.used, plane, near.transfers, near.backs, near.others, block([other.plane for other in others]), block([other.used for other in others]),
+        level.grey, level.used if used is None else used, plane, near.transfers, near.backs, near.others, block([other.plane for other in others]), block([other.used for other in others]),
         near.sizes, step, likely, agreeing,
     )
     return likely, agreeing
@@ -63,7 +63,8 @@ def refined(level: Level, levels: list[Level], near: Partners, label: np.ndarray
     for suggestion in _suggestions(level, levels, plane, likely, label):
         other = suggestion(plane, likely)
         other[..., 0] = np.where(other[..., 0] > 0, other[..., 0], plane[..., 0])
-        score, _ = scored(level, levels, near, other, step)
+        another = level.used & (other != plane).any(axis=2)
+        score = np.where(another, scored(level, levels, near, other, step, another)[0], likely)
         differs = level.used & (np.abs(other[..., 0] - plane[..., 0]) > _SAME * pixel) | level.used & (score > likely + 0.02)
         takes, fall = _move(plane, likely, other, score, level.used, differs, links, pixel)
         plane[takes], likely[takes] = other[takes], score[takes]

@@ -8,7 +8,7 @@ far each reaches.
 from dataclasses import dataclass, field
 
 import numpy as np
-from jaxtyping import Bool, Float
+from jaxtyping import Bool, Float, Int
 from PIL import Image
 from scipy.ndimage import distance_transform_edt, uniform_filter
 
@@ -35,6 +35,7 @@ class Level:
     sources: Sources
     plane: Float[np.ndarray, "row column 3"]  # (ρ, ∂ρ/∂x, ∂ρ/∂y)
     energy: Float[np.ndarray, "row column"] = field(default=None)  # the integrand of Eq. 2
+    segment: Int[np.ndarray, "row column"] = field(default=None)  # `segments`, once they were sought
     likely: Float[np.ndarray, "row column"] = field(default=None)  # Eq. 3
     agreeing: np.ndarray = field(default=None)  # how many other photos agree
 

@@ -134,11 +134,11 @@ def test_eq3_by_hand(true_levels):
     likely, _ = scored(level, true_levels, near, level.plane, 2)
     y, x = np.argwhere(level.used & (likely > 0.3) & (likely < 0.95))[5]
     weight, value = np.empty(SIDE * SIDE, np.float32), np.empty(SIDE * SIDE, np.float32)
-    total, mean, variance = patch_of(level.grey, x, y, 2, weight, value)
+    total, mean, variance, middle = patch_of(level.grey, x, y, 2, weight, value)
     found = 0.0
     for k, other in enumerate(others):
         e = back_and_forth(x, y, level.plane[y, x, 0], near.transfers[k], near.backs[k], other.plane, other.used, 96, 96)
-        m = 1 - source_cost(x, y, *level.plane[y, x], near.transfers[k], other.grey, 96, 96, 2, weight, value, total, mean, variance)
+        m = 1 - source_cost(x, y, *level.plane[y, x], near.transfers[k], other.grey, 96, 96, 2, weight, value, total, mean, variance, middle)
         found += max(m, 0) * np.exp(-(e**2) / (2 * SIGMA**2)) * (e < 4 * SIGMA)
     assert likely[y, x] == pytest.approx(min(1, found / ENOUGH), abs=1e-3)
 

@@ -15,7 +15,7 @@ from sketchtree.multiview.accelerated import sweep_jax
 from sketchtree.multiview.accelerated.chance_jax import chance, word
 from sketchtree.multiview.accelerated.cost_jax import Others, Patches, mean_of_best, patches_of, source_costs
 from sketchtree.multiview.accelerated.engine import engine_of
-from sketchtree.multiview.accelerated.sweep_jax import IMPOSSIBLE, Sweeps, energy_of
+from sketchtree.multiview.accelerated.sweep_jax import Sweeps, energy_of
 from sketchtree.multiview.cost import SIDE, UNSEEN, patch_of, source_cost
 from sketchtree.multiview.cost import mean_of_best as mean_by_numba
 from sketchtree.multiview.depths import Quality, depth_maps
@@ -69,10 +69,10 @@ def test_patches_are_the_same_at_the_rim_too(step):
     y, x = np.array([[0, 0], [63, 63], [1, 62], [30, 32]], np.int32).T
     found = Patches(*map(np.asarray, patches(GREY, LEVEL.shape, x, y, step)))
     for k, (one, two) in enumerate(zip(x, y, strict=True)):
-        weight, value, total, mean, variance = patch_by_numba(one, two, step)
+        weight, value, total, mean, variance, middle = patch_by_numba(one, two, step)
         np.testing.assert_allclose(found.weight[:, k], weight, atol=1e-6)
-        np.testing.assert_allclose((found.value[:, k] + found.middle[k]) * (weight > 0), value, atol=1e-6)
-        assert (found.total[k], found.mean[k] + found.middle[k], found.variance[k]) == pytest.approx((total, mean, variance), abs=2e-6)
+        np.testing.assert_allclose(found.value[:, k], value, atol=1e-6)
+        assert (found.total[k], found.mean[k], found.variance[k], found.middle[k]) == pytest.approx((total, mean, variance, middle), abs=2e-6)
 
 
 def test_costs_are_the_same_but_for_rounding():
@@ -80,9 +80,9 @@ def test_costs_are_the_same_but_for_rounding():
     found = np.asarray(costs(x, y, *plane, OTHERS, patches(GREY, LEVEL.shape, x, y, 1), 1))
     expected = np.empty_like(found)
     for k in range(len(x)):
-        weight, value, total, mean, variance = patch_by_numba(x[k], y[k])
+        weight, value, total, mean, variance, middle = patch_by_numba(x[k], y[k])
         for j in range(len(NEAR.others)):
-            expected[j, k] = source_cost(int(x[k]), int(y[k]), *plane[:, k].tolist(), NEAR.transfers[j], NEAR.others[j], *NEAR.sizes[j], 1, weight, value, total, mean, variance)
+            expected[j, k] = source_cost(int(x[k]), int(y[k]), *plane[:, k].tolist(), NEAR.transfers[j], NEAR.others[j], *NEAR.sizes[j], 1, weight, value, total, mean, variance, middle)
     apart = np.abs(found - expected)
     assert 0.05 < (expected == UNSEEN).mean() < 0.95  # both kinds are there
     assert np.median(apart) < 1e-6 and (apart < 1e-5).mean() > 0.98 and apart.max() < 2e-4  # most in patches that are nearly even
@@ -101,12 +101,12 @@ def test_eq2_is_the_same_and_what_is_outside_the_range_or_too_steep_is_impossibl
     sought = np.array([LOW, HIGH, FOCAL], np.float32)
     found = np.asarray(energies(x, y, plane, prior, sought, OTHERS, patches(GREY, LEVEL.shape, x, y, 1), 1, best=2))
     for k in range(300):
-        weight, value, total, mean, variance = patch_by_numba(x[k], y[k])
+        weight, value, total, mean, variance, middle = patch_by_numba(x[k], y[k])
         expected = patchmatch.energy_of(
-            int(x[k]), int(y[k]), *plane[:, k].tolist(), LOW, HIGH, FOCAL, float(prior[k]), NEAR.transfers, NEAR.others, NEAR.sizes, 1, 2, weight, value, total, mean, variance, np.empty(3)
+            int(x[k]), int(y[k]), *plane[:, k].tolist(), LOW, HIGH, FOCAL, float(prior[k]), NEAR.transfers, NEAR.others, NEAR.sizes, 1, 2, weight, value, total, mean, variance, middle, np.empty(3), np.inf
         )
         assert found[k] == pytest.approx(expected, abs=1e-4)
-    assert (found[:20] == IMPOSSIBLE).all()
+    assert (found[:20] == patchmatch.IMPOSSIBLE).all()
 
 
 def test_a_sweep_of_both_colours_finds_the_same_planes():

@@ -1,9 +1,6 @@
 """How unlike are patches and what other photos show of their planes? The cost m of `cost`, for many pixels and all photos at once.
 
-It is the same number, but for rounding: single precision here, double there. So that little is lost, brightness is counted from that of the middle pixel (m does
-not change with it), and places in the other photo from where the middle pixel goes, u_0:
-
-    u − u_0 = (Δx a_0 + Δy d_0 − u_0 (Δx a_2 + Δy d_2)) / z
+It is the same number, but for rounding: what a plane does to a whole patch is reckoned in double precision there, in single here.
 """
 
 from typing import NamedTuple
@@ -75,7 +72,7 @@ def source_costs(
         there, shown = _sampled(others, u, v)
         there = there - patches.middle
         weighted = weight * there
-        return (unseen | (weight > 0) & ~(shown & (z > 1e-9)), s + weighted, ss + weighted * there, rs + weighted * value), None
+        return (unseen | ~(shown & (z > 1e-9)), s + weighted, ss + weighted * there, rs + weighted * value), None
 
     none = jnp.zeros_like(q0)
     (unseen, s, ss, rs), _ = jax.lax.scan(add, (jnp.zeros_like(q0, bool), none, none, none), (OFFSETS, patches.weight, patches.value))

@@ -16,12 +16,11 @@ from jaxtyping import Array, Bool, Float, Int
 
 from sketchtree.multiview.accelerated.chance_jax import Word, chance
 from sketchtree.multiview.accelerated.cost_jax import Others, Patches, mean_of_best, patches_of, source_costs
-from sketchtree.multiview.patchmatch import NEIGHBOURS, PRIOR, REACH, STEEPEST
+from sketchtree.multiview.patchmatch import IMPOSSIBLE, NEIGHBOURS, PRIOR, REACH, STEEPEST
 from sketchtree.multiview.workplace import Level, Partners
 
 PIECE = 65_536  # pixels worked on at once
 LEAST = 1_024  # a smaller piece is filled up to a power of two, no less than this
-IMPOSSIBLE = 4.0  # energy of a plane outside the range, or too steep
 
 
 class Sweeps:
