@@ -1,4 +1,4 @@
-"""What do twenty pictures show of a tree? Renders from known cameras, the whole tree in each → depth maps → cloud, at preview quality, as `sketchtree views` makes it."""
+"""What do twenty pictures show of a tree? Renders from known cameras, the whole tree in each → depth maps → cloud, as `sketchtree views` makes it."""
 
 import time
 from dataclasses import replace
@@ -12,7 +12,7 @@ from benchmarks.many_photos.sheet import depth_picture
 from benchmarks.twenty_views.models import Model
 from sketchtree.clouds.cloud import PointCloud
 from sketchtree.keys import root_key
-from sketchtree.multiview.depths import PREVIEW, depth_maps
+from sketchtree.multiview.depths import FULL, PREVIEW, depth_maps
 from sketchtree.multiview.fuse import gathered, thinned
 from sketchtree.multiview.photos import View
 from sketchtree.multiview.sky_and_ground import ground, within
@@ -21,6 +21,7 @@ from sketchtree.multiview.workplace import Level
 from sketchtree.view.picture import draw_in_child, frame_camera, request_of
 
 VIEWS = 20
+FINE = 720  # pixels a side: larger pictures are worked on at full quality
 SHOWN = (0, 5)  # views whose depth maps are kept as pictures
 LOW, HIGH = 4.0, 16.0  # degrees that cameras look down by, in turns
 
@@ -71,7 +72,7 @@ def _around(model: Model) -> np.ndarray:
 
 def cloud_of(views: list[View], pixels: int) -> tuple[PointCloud, list[Level]]:
     """The cloud of pictures whose cameras are known, and their depth maps."""
-    quality, cameras = replace(PREVIEW, longest=pixels), [view.camera for view in views]
+    quality, cameras = replace(FULL if pixels > FINE else PREVIEW, longest=pixels), [view.camera for view in views]
     none = [np.zeros(0, np.int64)] * len(views)
     levels = depth_maps(views, sources_of(cameras, quality.sources, np.zeros((0, 3)), none), quality, key=root_key(0))
     points = gathered(levels)

@@ -120,6 +120,18 @@ def test_poses_that_lack_something_are_named(tmp_path, photos):
     refused(tmp_path / "bundle.out", photos, "bundle.out has 4 cameras, but there are 3 photos. Put Bundler's list.txt beside it.")
 
 
+def test_photos_that_were_cropped_after_their_cameras_were_found_are_named(tmp_path, photos):
+    frames = [{"file_path": f"photo {k}.jpg", "transform_matrix": np.eye(4).tolist()} for k in (1, 2, 3)]
+    Image.new("RGB", (36, 30)).save(photos / "photo 2.jpg")
+    whole = "Give the photo that the pose is of, not cropped or made smaller, or write `w` and `h` of the one that it was."
+    (tmp_path / "a.json").write_text(json.dumps({"fl_x": 30, "frames": frames}))
+    refused(tmp_path / "a.json", photos, f"Photo photo 2.jpg: it has 36 × 30 pixels, others of the same camera 40 × 30. {whole}")
+    (tmp_path / "b.json").write_text(json.dumps({"fl_x": 30, "cx": 38, "cy": 15, "frames": frames}))
+    refused(tmp_path / "b.json", photos, f"Photo photo 2.jpg: it has 36 × 30 pixels, the middle of its lens is at (38, 15). {whole}")
+    (tmp_path / "own.json").write_text(json.dumps({"frames": [frame | {"fl_x": 30} for frame in frames]}))
+    assert [photo.camera.size for photo in read_poses(tmp_path / "own.json", photos).photos] == [(40, 30), (36, 30), (40, 30)]
+
+
 def test_a_colmap_model_that_lacks_something_is_named(tmp_path, photos):
     model = tmp_path / "model"
     written_poses.colmap_text(model, CAMERAS, POINTS, ("FOV", [1, 1, 1, 1, 1]))

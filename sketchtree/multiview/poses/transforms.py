@@ -5,6 +5,7 @@ Frames hold camera → world matrices whose camera looks along −z with y up (O
 """
 
 import json
+from collections import Counter
 from collections.abc import Callable
 from pathlib import Path
 
@@ -18,6 +19,7 @@ from sketchtree.multiview.poses.posed import Posed, Poses
 Size = Callable[[str], tuple[str, tuple[int, int]]]
 """A photo's name as a file of poses tells it → its file's name and its width and height."""
 
+_WHOLE = "Give the photo that the pose is of, not cropped or made smaller, or write `w` and `h` of the one that it was."
 _FLIP = np.diag([1.0, -1.0, -1.0])  # OpenGL's camera ↔ ours
 
 
@@ -31,6 +33,8 @@ def read_transforms(path: Path, size: Size) -> Poses:
     except (ValueError, KeyError, TypeError) as fault:
         raise ViewsError(f"{path.name} is no transforms.json ({fault}).", remedy="Give a file with `frames`, each with `file_path` and `transform_matrix`.") from None
     photos = [_posed(found | frame, size) for frame in frames]
+    if "fl_x" in found and not {"w", "h"} <= set(found):
+        _of_one_camera([photo for photo, frame in zip(photos, frames, strict=True) if not {"fl_x", "w", "h"} & set(frame)])
     return Poses(tuple(sorted(photos, key=lambda photo: photo.name)), up=np.array([0.0, 0.0, 1.0]))
 
 
@@ -47,9 +51,21 @@ def _posed(frame: dict, size: Size) -> Posed:
         middle = float(frame.get("cx", 0.5 * width)), float(frame.get("cy", 0.5 * height))
     except (KeyError, ValueError, TypeError):
         raise ViewsError("its frame lacks a `transform_matrix` of 4 × 4 or a focal length.", photo=name, remedy="Give `fl_x` (pixels) or `camera_angle_x` (radians).") from None
+    if not (0 < middle[0] < width and 0 < middle[1] < height):
+        raise ViewsError(f"it has {width} × {height} pixels, the middle of its lens is at ({middle[0]:g}, {middle[1]:g}).", photo=name, remedy=_WHOLE)
     scale = np.linalg.norm(pose[:, 0])
     matrix = np.array([[across, 0.0, middle[0]], [0.0, down, middle[1]], [0.0, 0.0, 1.0]])
     return Posed(name, Camera(matrix, _FLIP @ (pose[:, :3] / max(scale, 1e-12)).T, pose[:, 3], (width, height)), _lens(frame))
+
+
+def _of_one_camera(photos: list[Posed]) -> None:
+    """Raise ViewsError where photos of one focal length in pixels, whose sizes no one wrote down, differ in size: some are cropped or made smaller."""
+    sizes = Counter(photo.camera.size for photo in photos)
+    usual = max(sizes, key=sizes.get, default=None)
+    for photo in photos:
+        if photo.camera.size != usual:
+            (width, height), (w, h) = photo.camera.size, usual
+            raise ViewsError(f"it has {width} × {height} pixels, others of the same camera {w} × {h}.", photo=photo.name, remedy=_WHOLE)
 
 
 def _lens(frame: dict) -> Lens:
