@@ -21,6 +21,7 @@ from sketchtree.editing.document import Document
 from sketchtree.editing.settled import Settled
 from sketchtree.errors import SeveralTrees, SketchTreeError
 from sketchtree.studio import messages
+from sketchtree.studio.cloud_files import is_cloud
 from sketchtree.studio.cloud_tracer import CloudTracer
 from sketchtree.studio.engine import Fault, Outcome, Tell, untold
 from sketchtree.studio.grower import Grower
@@ -56,6 +57,7 @@ class Crew:
         self._catalogue: messages.Welcome | None = None
         self._whole_shown = -1  # the revision whose whole tree the pages have already
         self._expects: dict[str, int] = {}  # which process of each role was told of points behind the drawing
+        self._cold: set[str] = set()  # roles that get ready for strokes over them
         self._soon: dict[str, asyncio.TimerHandle] = {}  # processes that begin in a while
 
     @property
@@ -77,7 +79,7 @@ class Crew:
         """Begin the processes."""
         self._loop = asyncio.get_running_loop()
         for role in _ROLES:
-            self._hands[role] = Hand(role, self._database, self._event if role == "full" else lambda number, value: None, partial(self._ended, role))
+            self._hands[role] = Hand(role, self._database, partial(self._event, role), partial(self._ended, role))
         photo = [Hand(role, self._database, lambda number, value: None, partial(self._ended, role)) for role in ("photo", "foliage")]
         grow = Hand("grow", self._database, lambda number, value: self._grower.heard(number, value), partial(self._ended, "grow"))
         laid = LaidPhoto()
@@ -119,13 +121,20 @@ class Crew:
             self._run(self._make(), makes=True)
 
     def _expect_points(self) -> None:
-        """Strokes over points come: each process is told once."""
+        """Strokes over points come: each process is told once, and pages how long they would wait."""
         for role in ("full", "quick"):
             hand = self._hands[role]
             hand.ready()
             if self._expects.get(role) != hand.begun:
                 self._expects[role] = hand.begun
-                unheard(hand.ask("expect_points", role == "quick")[1])
+                self._warms(role, True)
+                unheard(hand.ask("expect_points")[1])
+
+    def _warms(self, role: str, on: bool) -> None:
+        before = bool(self._cold)
+        self._cold = self._cold | {role} if on else self._cold - {role}
+        if before != bool(self._cold):
+            self._say(messages.Warming(on=not before))
 
     async def _make(self) -> None:
         """Hurried answers until one is of the newest drawing, then its whole tree. However many drawings come meanwhile, one at a time is made."""
@@ -181,6 +190,7 @@ class Crew:
     def _ended(self, role: str) -> None:
         """A process ended by itself: the terminal is told. The full one, if it had nothing to do: pages that join, and who picks a limb, need the tree that it knew."""
         print(f"A process of the studio ended ({role}). It is begun again when it is needed; nothing of the drawing is lost.", file=sys.stderr)
+        self._warms(role, False)
         if role == "full" and self._made == self._revision and self._basis is not None and self._revive(self._revision, Ended("A process that makes the tree ended.", remedy="")):
             self._run(self._whole(self._revision, self._document.replace(settled=self._basis.settled)), makes=True)
 
@@ -316,6 +326,8 @@ class Crew:
             from sketchtree.studio.making.documents import document_of
 
             return await asyncio.to_thread(document_of, data, name)
+        if is_cloud(data, name):
+            self._expect_points()
         found = await self._hands["side"].ask("read", data, name, tree)[1]
         if not isinstance(found, Document):
             raise SeveralTrees(f"{len(found)} trees stand in {name}.", remedy="Choose one of them.", trees=found)
@@ -383,9 +395,12 @@ class Crew:
         self.on_outcome(Outcome(revision, messages.Trouble(message=error.message, remedy=error.remedy, stroke=getattr(error, "stroke", None), about=about)))
         self._say(messages.Working(state="error", revision=revision))
 
-    def _event(self, number: int, value: object) -> None:
-        """What the full tree's worker tells on its way."""
-        if number != self._full_number:
+    def _event(self, role: str, number: int, value: object) -> None:
+        """What a worker tells on its way: the full tree's, how far it is."""
+        if value[0] == "warm":
+            self._warms(role, False)
+            return
+        if role != "full" or number != self._full_number:
             return
         if value[0] == "event":
             self.on_outcome(Outcome(self._revision, value[1]))

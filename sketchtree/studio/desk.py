@@ -27,7 +27,7 @@ from sketchtree.studio.recovery import Journal, Recovered
 from sketchtree.studio.scribe import Scribe
 from sketchtree.studio.settling import known_at_once, sharing
 
-_KEPT = (messages.Working, messages.Matches, messages.Read, messages.Alternatives, messages.Traced, messages.Foliage, messages.Matte, messages.Trunks, messages.Growing)  # the newest of each is told to pages that join later
+_KEPT = (messages.Working, messages.Warming, messages.Matches, messages.Read, messages.Alternatives, messages.Traced, messages.Foliage, messages.Matte, messages.Trunks, messages.Growing)  # the newest of each is told to pages that join later
 _NO_TREE = frozenset({"underlay", "points", "name", "units", "page", "photo"})  # fields of a document that its tree does not hang on
 
 

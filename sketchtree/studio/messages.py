@@ -360,6 +360,12 @@ class Working(_Said):
     done: Annotated[float, Meta(ge=0, le=1)] = 0.0
 
 
+class Warming(_Said):
+    """Strokes over points: what finds their depths is being made ready, once a machine. A stroke drawn meanwhile waits for it."""
+
+    on: bool
+
+
 class Trouble(_Said):
     """Something could not be done: one paragraph, its cause and what to do."""
 
@@ -611,4 +617,4 @@ class Ghost(_Said):
     arrays: list[Array]
 
 
-Event = Welcome | Changed | Working | Trouble | Several | Matches | Alternatives | Saved | Read | Traced | Foliage | Matte | Trunks | Proposed | Growing | Making | Tree | Ghost
+Event = Welcome | Changed | Working | Warming | Trouble | Several | Matches | Alternatives | Saved | Read | Traced | Foliage | Matte | Trunks | Proposed | Growing | Making | Tree | Ghost

@@ -2,7 +2,6 @@
 
 import dataclasses
 import tempfile
-import threading
 from functools import cached_property
 from pathlib import Path
 
@@ -22,8 +21,10 @@ _UPTO = {"grow": PHOTO, "grown_files": PHOTO, "standing": PHOTO, "trunk": SCRIBB
 class Jobs:
     """All that one worker knows."""
 
-    def __init__(self, database: Path | None, desk):
+    def __init__(self, database: Path | None, desk, *, quick: bool = False):
+        """`quick`: of the worker that answers in a hurry."""
         self.templates = Database.open(database)
+        self.quick = quick
         self.textures = Textures()
         self.desk = desk
         self._made: dict[int, tuple] = {}  # job → revision, document, drawn, tree, chunks: the full tree that the pages have, and one that they may get
@@ -89,9 +90,16 @@ class Jobs:
 
         return photo_answers
 
+    @cached_property
+    def warming(self):
+        """What is slow only the first time."""
+        from sketchtree.studio.making.warming import Warming
+
+        return Warming(self.quick, self.desk.rests)
+
     def import_all(self) -> None:
         """What trees are made with."""
-        from sketchtree.studio.making import chunks, found, ghosts, remarks, warm, work  # noqa: F401
+        from sketchtree.studio.making import chunks, found, ghosts, remarks, warming, work  # noqa: F401
 
     def _full(self, number, watch, revision: int, document: Document, known: dict[str, str], shown: int):
         from sketchtree.keys import root_key
@@ -225,11 +233,9 @@ class Jobs:
 
     _film = _moving
 
-    def _expect_points(self, number, watch, quick: bool):
+    def _expect_points(self, number, watch):
         """A drawing with points behind it: what its answers need is made ready, aside."""
-        from sketchtree.studio.making.warm import FOR_POINTS, warm_up
-
-        threading.Thread(target=lambda: warm_up(quick, self.desk.rests, FOR_POINTS, seen=True), daemon=True).start()
+        self.warming.for_points(lambda: self.desk.say(number, "event", ("warm",)))
 
     def _read(self, number, watch, data: bytes, name: str, tree: int | None):
         from sketchtree.errors import SeveralTrees

@@ -5,8 +5,6 @@ inferred with all but one limb held, as after a stroke; the sizes met first come
 """
 
 import dataclasses
-from collections.abc import Callable
-
 import numpy as np
 
 from sketchtree.editing.seen import FACTOR
@@ -21,21 +19,19 @@ from sketchtree.parameters import GENERIC
 from sketchtree.sketch.reading import sketch_graph
 from sketchtree.sketch.strokes import Sketch, Stroke
 
-_LIMBS = (4, 10, 20, 15, 40, 30)  # of drawings padded to 32 rows and 8 limbs, 32 and 16, 64 and 32, 64 and 16, 128 and 64, 128 and 32
-FOR_POINTS = (4, 10)  # of them, over points: a drawing over a scan begins small
+LIMBS = (4, 10, 20, 15, 40, 30)  # of drawings padded to 32 rows and 8 limbs, 32 and 16, 64 and 32, 64 and 16, 128 and 64, 128 and 32
+FOR_POINTS = (4, 10, 20, 15)  # of them, over points: a drawing over a scan begins small
 
 
-def warm_up(quick: bool, before_each: Callable[[], None] = lambda: None, limbs: tuple[int, ...] = _LIMBS, *, seen: bool = False) -> None:
-    """Compile, or read what was compiled before: the programs of hurried answers, or of full ones. `before_each` may wait for a good moment; `seen`: those of drawings with points behind them."""
-    for count in limbs:
-        before_each()
-        factors = factor_graph(sketch_graph(_little(count)))
-        last = factors.limb_count - 1
-        locked = {int(row): 0.0 for row in np.flatnonzero((factors.limb != last) & ~factors.is_base)}
-        solver = dataclasses.replace(solver_named("elevation"), start=np.zeros(len(factors)), locked=locked, **(QUICK if quick else {}))
-        if seen:
-            solver = dataclasses.replace(solver, factors={FACTOR: SeenPoints(np.zeros((1, 3)), needed=False)})
-        infer(factors, Prior(GENERIC), solver, key=root_key(0), max_steps=None if quick else 1, throw=False)
+def warm_up(quick: bool, limbs: int, *, seen: bool = False) -> None:
+    """Compile, or read what was compiled before: the program of hurried answers, or of full ones, to a drawing with so many limbs; `seen`: with points behind it."""
+    factors = factor_graph(sketch_graph(_little(limbs)))
+    last = factors.limb_count - 1
+    locked = {int(row): 0.0 for row in np.flatnonzero((factors.limb != last) & ~factors.is_base)}
+    solver = dataclasses.replace(solver_named("elevation"), start=np.zeros(len(factors)), locked=locked, **(QUICK if quick else {}))
+    if seen:
+        solver = dataclasses.replace(solver, factors={FACTOR: SeenPoints(np.zeros((1, 3)), needed=False)})
+    infer(factors, Prior(GENERIC), solver, key=root_key(0), max_steps=None if quick else 1, throw=False)
 
 
 def _little(count: int) -> Sketch:

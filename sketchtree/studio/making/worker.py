@@ -93,7 +93,7 @@ def main(pipe: Connection, database: str | None, role: str) -> None:
     desk = Desk(pipe)
     from sketchtree.studio.making.jobs import Jobs
 
-    jobs = Jobs(None if database is None else Path(database), desk)
+    jobs = Jobs(None if database is None else Path(database), desk, quick=role == "quick")
     if role in ("photo", "foliage"):
         jobs.photo_answers.get_ready(leaves=role == "foliage")
     elif role == "grow":
@@ -107,9 +107,8 @@ def main(pipe: Connection, database: str | None, role: str) -> None:
     elif role != "side":
         jobs.import_all()  # before there is another thread
     threading.Thread(target=_answer, args=(jobs, desk), daemon=True).start()
-    warm = threading.Thread(target=_warm, args=(role == "quick", desk), daemon=True)
     if role == "quick":
-        warm.start()
+        jobs.warming.begin()
     while True:
         _, number, kind, arguments = desk.jobs.get()
         if desk.stopped(number, kind):
@@ -117,15 +116,8 @@ def main(pipe: Connection, database: str | None, role: str) -> None:
             continue
         with desk.working():
             _do(jobs, desk, number, kind, arguments)
-        if role == "full" and warm.ident is None:
-            warm.start()  # after the first tree, which somebody waits for
-
-
-def _warm(quick: bool, desk: Desk) -> None:
-    """Compile what every drawing needs, before it is asked for; never while somebody waits for something else."""
-    from sketchtree.studio.making.warm import warm_up
-
-    warm_up(quick, desk.rests)
+        if role == "full" and kind == "full":
+            jobs.warming.begin()  # after the first tree, which somebody waits for
 
 
 def _answer(jobs, desk: Desk) -> None:

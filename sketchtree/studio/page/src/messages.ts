@@ -150,6 +150,12 @@ export interface Working {
   done: number;
 }
 
+/** Strokes over points: what finds their depths is being made ready, once a machine. A stroke drawn meanwhile waits for it. */
+export interface Warming {
+  type: "warming";
+  on: boolean;
+}
+
 /** Something could not be done: one paragraph, its cause and what to do. */
 export interface Trouble {
   type: "trouble";
@@ -604,4 +610,4 @@ export interface Propose {
 }
 
 export type Request = Hello | Strokes | Sketching | Choose | ChooseTrunk | ChoosePoints | SetCloud | Glance | Hold | Flip | Mirror | Lock | Delete | Settle | Readings | Pick | Undo | Redo | Cancel | New | Open | Save | SetUnderlay | UseTraced | Grow | Propose;
-export type Event = Welcome | Changed | Working | Trouble | Several | Matches | Alternatives | Saved | Read | Traced | Foliage | Matte | Trunks | Proposed | Growing | Making | Tree | Ghost;
+export type Event = Welcome | Changed | Working | Warming | Trouble | Several | Matches | Alternatives | Saved | Read | Traced | Foliage | Matte | Trunks | Proposed | Growing | Making | Tree | Ghost;

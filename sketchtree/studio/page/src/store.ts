@@ -6,7 +6,7 @@
 
 import type {
   Alternatives, Changed, Cloud, Edit, Event, Foliage, Ghost, Growing, Limb, Making, Matches, Matte, Options, Points, Proposed, Read, Request, Several, Stroke, Strokes, Traced, Tree, Trouble,
-  Trunk, Trunks, Underlay, Welcome, Working,
+  Trunk, Trunks, Underlay, Warming, Welcome, Working,
 } from "./messages";
 import type { Scan } from "./draw/cloud/scan";
 import { Echo } from "./link/echo";
@@ -35,6 +35,7 @@ export interface Known {
   saved: boolean;
   file: string | null; // the project that was written last; told whenever one was
   working: Working | null;
+  warming: Warming | null; // whether strokes over points would wait
   matches: Matches | null;
   alternatives: Alternatives | null;
   read: Read | null;
@@ -83,7 +84,7 @@ type Listener = () => void;
 export class Store {
   readonly known: Known = {
     welcome: null, connected: false, strokes: new Map(), options: null, edits: [], underlay: null, cloud: null, points: null, scan: null, several: null, name: null, revision: 0, undo: null, redo: null,
-    saved: true, file: null, working: null, matches: null, alternatives: null, read: null, traced: null, foliage: null, proposed: null, growing: null, making: null,
+    saved: true, file: null, working: null, warming: null, matches: null, alternatives: null, read: null, traced: null, foliage: null, proposed: null, growing: null, making: null,
     trunk: null, matte: null, trunks: null, found: null, tree: null, drawnTree: null, photoTree: null, limbs: [], trouble: null,
   };
   readonly ui: Ui = {
@@ -158,6 +159,7 @@ export class Store {
       case "welcome": known.welcome = event; this.tell("welcome"); break;
       case "changed": this.tell("changed", ...this.change(event)); break;
       case "working": known.working = event; this.tell("working"); break;
+      case "warming": known.warming = event; this.tell("warming"); break;
       case "trouble":
         known.trouble = event;
         if (known.trunk !== this.saidTrunk) { known.trunk = this.saidTrunk; this.tell("trunk"); } // it may be what was refused

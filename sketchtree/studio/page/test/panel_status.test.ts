@@ -1,7 +1,7 @@
 import { describe, expect, it } from "vitest";
 import type { Tree } from "../src/messages";
 import { RoundTrip } from "../src/panel/status/round_trip";
-import { figures } from "../src/panel/status/words";
+import { doing, figures } from "../src/panel/status/words";
 
 const tree = {
   segments: 1240, drawn: 240, leaves: 9000, triangles: [40_000, 18_000], height: 8.24,
@@ -16,6 +16,16 @@ describe("the figures of the status line", () => {
 
   it("tell drawn from grown", () => {
     expect(figures(tree, null, null).find((one) => one.name === "segments")!.title).toBe("Pieces of branch: 240 drawn, 1\u202f000 grown.");
+  });
+});
+
+describe("what the program is at", () => {
+  it("is nothing, a stage, or that strokes over points would wait", () => {
+    expect(doing({ state: "idle", stage: "" }, null)).toBe("");
+    expect(doing({ state: "working", stage: "mesh" }, { on: true })).toBe("Making the wood");
+    expect(doing({ state: "idle", stage: "" }, { on: true })).toBe("Getting ready for strokes over points");
+    expect(doing({ state: "working", stage: "infer" }, { on: true })).toBe("Getting ready to find depths, only this once");
+    expect(doing({ state: "working", stage: "infer" }, { on: false })).toBe("Finding the depths");
   });
 });
 

@@ -1,6 +1,6 @@
 // What does the status line say? Everything here is words: no element is touched.
 
-import type { Tree, Working } from "../../messages";
+import type { Tree, Warming, Working } from "../../messages";
 import { count, counted, duration, metres } from "../figures";
 
 export interface Said {
@@ -14,9 +14,14 @@ const STAGES: Record<string, string> = {
   mesh: "Making the wood", export: "Writing the file",
 };
 
-/** What the program is at, for people. */
-export function stage(working: Working): string {
-  return STAGES[working.stage] ?? "Working";
+const WARMS = "Getting ready for strokes over points";
+const WAITS = "Getting ready to find depths, only this once";
+
+/** What the program is at, for people; "": at nothing. */
+export function doing(working: Pick<Working, "state" | "stage"> | null, warming: Pick<Warming, "on"> | null): string {
+  const warms = warming?.on ?? false;
+  if (working?.state !== "working") return warms ? WARMS : "";
+  return warms && working.stage === "infer" ? WAITS : (STAGES[working.stage] ?? "Working");
 }
 
 /** The figures of a tree, most telling first. */

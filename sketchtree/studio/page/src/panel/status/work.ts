@@ -3,9 +3,10 @@
 import { button } from "../../parts/button";
 import { element } from "../../parts/element";
 import type { Store } from "../../store";
-import { stage } from "./words";
+import { doing } from "./words";
 
 const SHORT = 250; // milliseconds
+const SETTLED = 1200; // likewise, of what nobody waits for
 
 export function work(store: Store): HTMLElement {
   const words = element("span", { class: "work-words" });
@@ -15,20 +16,25 @@ export function work(store: Store): HTMLElement {
     label: "Stop", icon: "stop", look: "quiet", hint: "Stop this work. The drawing stays.", testId: "cancel", onPress: () => store.send({ type: "cancel" }),
   });
   stop.classList.add("in-line");
-  const root = element("span", { class: "work" }, words, bar, stop);
+  const root = element("span", { class: "work", testId: "work" }, words, bar, stop);
   root.hidden = true;
   let soon: ReturnType<typeof setTimeout> | null = null;
-  store.on(["working", "connected"], () => {
-    const { working, connected } = store.known;
-    if (working?.state === "working" && connected) {
-      words.textContent = stage(working);
-      bar.value = working.done;
-      soon ??= setTimeout(() => { root.hidden = false; }, SHORT);
+  const show = (): void => {
+    const { working, warming, connected } = store.known;
+    const said = connected ? doing(working, warming) : "";
+    const works = working?.state === "working";
+    stop.hidden = !works;
+    if (said) {
+      words.textContent = said;
+      if (works) bar.value = working.done;
+      else bar.removeAttribute("value");
+      soon ??= setTimeout(() => { root.hidden = false; }, works ? SHORT : SETTLED);
       return;
     }
     if (soon !== null) clearTimeout(soon);
     soon = null;
     root.hidden = true;
-  });
+  };
+  store.on(["working", "warming", "connected"], show);
   return root;
 }
