@@ -29,7 +29,7 @@ from sketchtree.clouds.leafy.leafiness import Leafiness, check_in_leaf, leafines
 from sketchtree.clouds.prepared.prepare import POINTS, Prepared, prepare
 from sketchtree.clouds.standing.feet import Feet, feet
 from sketchtree.clouds.standing.stems import breast_height
-from sketchtree.clouds.standing.trunk import Trunk, trunk
+from sketchtree.clouds.standing.trunk import Trunk, foot_radii, trunk
 from sketchtree.clouds.tracing.traced import Traced, traced
 from sketchtree.errors import OptionError
 from sketchtree.growth_tree import GrowthOptions, Worn, grown_tree, of_skeleton
@@ -197,8 +197,7 @@ def _believed(found: Trunk | None, height: float) -> Trunk | None:
 
 def growth(prepared: Prepared, stands: Feet, trunks: tuple[Trunk | None, ...], kind: Species, key: Key[Array, ""]) -> Grown:
     """The tree of a species that grows toward the points, as thick at its feet as was measured."""
-    thick = None if None in trunks else np.array([one.root / 2 for one in trunks])
-    return grown(prepared.cloud.xyz, stands.rows, kind, key=stage_key(key, "toward points"), radius=thick)
+    return grown(prepared.cloud.xyz, stands.rows, kind, key=stage_key(key, "toward points"), radius=foot_radii(trunks))
 
 
 def _traced(xyz, rows, leafy: Leafiness, foot_radius: float | None) -> Traced:

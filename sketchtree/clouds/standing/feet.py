@@ -1,6 +1,7 @@
 """On which points does the plant stand? One set of start points for each root.
 
-`auto` takes the stems that come out of the ground (`stems`, `parted`): one for a tree, several for a shrub. A number asks for so many roots: the stems with most points and, where there are
+`auto` takes the stems that come out of the ground (`stems`, `parted`): one for a tree, several for a shrub; or those that touch there and are apart farther up (`told`, `apart`), if
+those are more. A number asks for so many roots: the stems with most points and, where there are
 fewer, peaks of projected density (`told`; Guo et al. 2018, §5.3) in what is low. A start set is the lowest ring of its stem.
 """
 
@@ -10,12 +11,14 @@ from typing import Literal
 import numpy as np
 from jaxtyping import Float, Int
 
+from sketchtree.clouds.standing.apart import apart, slim
 from sketchtree.clouds.standing.parted import parted
-from sketchtree.clouds.standing.stems import stems
+from sketchtree.clouds.standing.stems import OVER, breast_height, stems
 from sketchtree.clouds.standing.told import told
 from sketchtree.errors import OptionError
 
 MOST = 200  # roots
+_STEMS = 40  # that are looked for where nobody said how many there are
 _SHARE = 0.15  # of the largest stem's points: a thinner one bears nothing of its own
 _RING = 0.006  # of the height: how high the lowest ring is
 _FEWEST = 6  # points of a ring, where the stem has as many
@@ -36,12 +39,30 @@ def feet(xyz: Float[np.ndarray, "point 3"], above: Float[np.ndarray, " point"] |
         raise OptionError(f"`roots` is {count}; the cloud has {len(xyz):,} points.", remedy=f"Say auto, or 1 to {MOST}.")
     above = xyz[:, 1] - xyz[:, 1].min() if above is None else above
     found = stems(xyz, above)
-    groups = parted(xyz, above, [found.rows[k] for k in np.flatnonzero(found.plant == 0)])
+    whole = [found.rows[k] for k in np.flatnonzero(found.plant == 0)]
+    groups = parted(xyz, above, whole)
     groups = [rows for rows in groups if len(rows) >= _SHARE * len(groups[0])]
-    if count != "auto":
+    if count == "auto":
+        groups = max(_large(slim(xyz, above, groups, _top(above))), _touching(xyz, above, np.sort(np.concatenate(whole))), key=len)
+    else:
         groups = groups[:count] if len(groups) >= count else max(groups, told(xyz, above, count), key=len)
     rings = [_ring(above, some, _RING * float(np.ptp(above))) for some in groups]
     return Feet(rings, np.array([np.median(xyz[ring], axis=0) for ring in rings]), groups)
+
+
+def _touching(xyz, above, among) -> list:
+    """Stems that touch at the ground and nobody counted, the largest first."""
+    found = _large(apart(xyz, above, told(xyz, above, min(_STEMS, len(among)), among), _top(above)))
+    return [rows for rows in found if len(rows) >= _SHARE * len(found[0])]
+
+
+def _large(found: list) -> list:
+    return sorted(found, key=len, reverse=True)
+
+
+def _top(above) -> float:
+    """Up to where stems are sought, metres above the ground."""
+    return OVER * breast_height(float(np.ptp(above)))
 
 
 def _ring(above, rows, thick: float):

@@ -23,11 +23,12 @@ _ROUNDS = 3  # of a layer's middles
 _FEWEST = 3  # points of a stem
 
 
-def told(xyz: Float[np.ndarray, "point 3"], above: Float[np.ndarray, " point"], count: int) -> list[Int[np.ndarray, "_"]]:
-    """The low points of so many stems, the largest first; of fewer where the points show fewer."""
+def told(xyz: Float[np.ndarray, "point 3"], above: Float[np.ndarray, " point"], count: int, among: Int[np.ndarray, "_"] | None = None) -> list[Int[np.ndarray, "_"]]:
+    """The low points of so many stems, the largest first; of fewer where the points show fewer. `among`: points that may be low; without it all."""
     height = float(np.ptp(above))
-    top = max(OVER * breast_height(height), float(np.sort(above)[min(len(above) - 1, 3 * count)]))
-    low = np.flatnonzero(above <= top)
+    among = np.arange(len(above)) if among is None else among
+    top = max(OVER * breast_height(height), float(np.sort(above[among])[min(len(among) - 1, 3 * count)]))
+    low = among[above[among] <= top]
     upper = low[above[low] >= _UPPER * top]
     best: list = []
     for finer in _FINER:

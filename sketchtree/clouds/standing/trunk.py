@@ -7,6 +7,7 @@ that is stated says how much the result would change without one slice or anothe
 isn't round behind. `cross_section` is the paper's way, by one slice at the root.
 """
 
+from collections.abc import Sequence
 from dataclasses import dataclass, replace
 
 import numpy as np
@@ -23,7 +24,7 @@ _CAP = 150  # points of a slice that are looked at
 _HEIGHTS = 8.0  # breast heights that a plant is high: so wide are the cells of density
 _ROUNDS = 2  # slices say where the axis is, the axis how to slice
 _WIDE = 3.0  # times a slice's typical distance from its middle: farther points are no bark
-_ROUND = 0.35  # of the radius: circles that points lie farther from are none
+_ROUND, _FILLED, _SLENDER = 0.35, 0.45, 0.25  # of the radius: circles that points lie farther from are none; of a stem less than a quarter as thick as breast height, whose disc points may fill (depths from photos do)
 
 
 @dataclass(frozen=True, eq=False)
@@ -54,12 +55,19 @@ def trunk(stem: Float[np.ndarray, "low 3"], breast_height: float) -> Trunk | Non
     middle = float(np.mean(s))
     low = max(0.0, float(((stem - base) @ axis).min()))
     root, breast = 2 * found.radius(low), 2 * found.radius(breast_height)
-    if min(root, breast) <= 0 or found.off > _ROUND * found.radius(middle):
+    most = _FILLED if root < _SLENDER * breast_height else _ROUND
+    if min(root, breast) <= 0 or found.off > most * found.radius(middle):
         return None
     far = [2 * (_without(parts, s, k, found).radius(middle) - found.radius(middle)) for k in range(len(s))] if len(s) > _FEWEST else [0.0]
     error = float(np.hypot(2 * found.error, np.sqrt((len(far) - 1) / len(far) * np.sum(np.square(far)))))
     section = cross_section(plane_points(stem, base + low * axis, axis, 2.0 * float(s[1] - s[0])))
     return Trunk(float(root), float(breast), error, base + low * axis, axis, _seen(parts, found, s), section)
+
+
+def foot_radii(trunks: Sequence[Trunk | None]) -> Float[np.ndarray, " foot"] | None:
+    """Radius of every foot, metres; where one can't be told, that of the middle one of the others. None where none can."""
+    known = [one.root / 2 for one in trunks if one is not None]
+    return np.array([one.root / 2 if one is not None else float(np.median(known)) for one in trunks]) if known else None
 
 
 def _column(stem, breast_height: float):

@@ -4,6 +4,7 @@ import numpy as np
 import pytest
 from stems_made import stem
 
+from sketchtree.clouds.standing.apart import apart, slim
 from sketchtree.clouds.standing.density import density
 from sketchtree.clouds.standing.feet import feet
 from sketchtree.clouds.standing.peaks import peaks
@@ -54,18 +55,63 @@ def test_more_roots_than_stems_are_sought_by_density():
 
 
 CLUMP = [np.array([0.1 * np.cos(k), 0.1 * np.sin(k)]) for k in np.arange(6) * np.pi / 3]
+def fork(arms: int, height: float, bends: bool) -> np.ndarray:
+    """A trunk whose arms part at so many metres; straight, or rising more steeply farther up."""
+    parts = [stem(0.2, height, count=600)]
+    for k in range(arms):
+        one = stem(0.2 / np.sqrt(arms), 1.2 - height, taper=0.0, count=900, seed=k + 1)
+        out = 0.5 * (0.3 * one[:, 1] + 0.7 * 0.25 * (1 - np.exp(-4 * one[:, 1])) if bends else one[:, 1])
+        turn = 2 * np.pi * k / arms + 0.3
+        parts.append(one + np.c_[out * np.cos(turn), np.full(len(one), height), out * np.sin(turn)])
+    return np.concatenate(parts)
+
+
 LEANING = [stem(0.08, 0.8, noise=0.002, count=250, seed=k) for k in range(6)]
 SPREADING = np.concatenate([some + np.c_[(x * (1 + 1.5 * some[:, 1])), np.zeros(len(some)), (z * (1 + 1.5 * some[:, 1]))] for some, (x, z) in zip(LEANING, CLUMP, strict=True)])
 LILAC = np.concatenate([SPREADING, crown(low=0.9, high=4.4, wide=1.2)])
 
 
-def test_stems_that_touch_at_the_ground_are_told_apart_farther_up_where_their_number_is_told():
-    assert len(feet(LILAC).rows) == 1
-    found = feet(LILAC, count=6)
+@pytest.mark.parametrize("count", ["auto", 6])
+def test_stems_that_touch_at_the_ground_are_told_apart_farther_up(count):
+    found = feet(LILAC, count=count)
     away = np.linalg.norm(found.place[:, None, [0, 2]] - np.array(CLUMP)[None], axis=2)
     assert sorted(away.argmin(axis=1)) == [0, 1, 2, 3, 4, 5]
     assert away.min(axis=1).max() < 0.04
     assert all(LILAC[ring, 1].max() < 0.05 for ring in found.rows)
+
+
+def test_stems_whose_feet_are_joined_by_ground_are_told_apart():
+    chance = np.random.default_rng(4)
+    soil = np.c_[chance.uniform(-0.15, 0.15, 300), chance.uniform(0, 0.05, 300), chance.uniform(-0.15, 0.15, 300)]
+    assert len(feet(np.concatenate([LILAC, soil])).rows) == 6
+
+
+@pytest.mark.parametrize("bends", [False, True])
+@pytest.mark.parametrize("height", [0.2, 0.45])
+@pytest.mark.parametrize("arms", [2, 5])
+def test_a_trunk_that_forks_above_the_ground_is_one_stem(arms, height, bends):
+    forked = np.concatenate([fork(arms, height, bends), crown()])
+    assert len(feet(forked).rows) == 1
+
+
+def test_a_low_limb_is_no_stem():
+    limb = stem(0.06, 1.2, noise=0.003, count=600, lean=0.7) + [0.0, 0.3, 0.0]
+    assert len(feet(np.concatenate([TREE, limb])).rows) == 1
+
+
+def test_pieces_as_wide_as_apart_are_sprays_of_one_tree_and_slim_ones_may_cross():
+    chance = np.random.default_rng(6)
+    spot, level = chance.normal(0, 0.2, (200, 2)), chance.uniform(0, 1, (200, 1))
+    for wide, stands in ((1.0, 1), (0.1, 2)):
+        two = np.concatenate([np.c_[wide * spot + side * (0.3 - 0.6 * level) * [1, 0], level][:, [0, 2, 1]] for side in (-1, 1)])
+        assert len(slim(two, two[:, 1], [np.arange(200), np.arange(200, 400)], 1.0)) == stands
+
+
+def test_a_bough_that_hangs_from_above_goes_down_to_no_ground():
+    level = np.linspace(0.0, 1.0, 200)
+    upright, hanging = np.c_[0 * level, level, 0 * level], np.c_[0.5 + 0 * level, 0.4 + 0.6 * level, 0 * level]
+    both = np.concatenate([upright, hanging])
+    assert [len(rows) for rows in apart(both, both[:, 1], [np.arange(200), np.arange(200, 400)], 1.0)] == [200]
 
 
 def test_no_more_stems_than_the_points_show():

@@ -6,7 +6,7 @@ from stems_made import stem
 
 from sketchtree.clouds.standing.cross_section import cross_section, plane_points
 from sketchtree.clouds.standing.tapered import tapered
-from sketchtree.clouds.standing.trunk import trunk
+from sketchtree.clouds.standing.trunk import foot_radii, trunk
 
 BREAST = 1.28
 SEEN = {
@@ -90,3 +90,21 @@ def test_slices_that_saw_little_share_one_taper():
     found = tapered(slices, s)
     np.testing.assert_allclose(found.radius(s), 0.2 - 0.05 * s, rtol=0.02)
     np.testing.assert_allclose(found.centre[:, 0], 0.05 * np.arange(5), atol=0.01)
+
+
+def filled(diameter: float) -> np.ndarray:
+    """A stem with points all through it, as depths from photos give."""
+    chance = np.random.default_rng(2)
+    out, turn = 0.5 * diameter * np.sqrt(chance.uniform(size=900)) + chance.normal(0, 0.04 * diameter, 900), chance.uniform(0, 2 * np.pi, 900)
+    return np.c_[out * np.cos(turn), chance.uniform(0, 1.6, 900), out * np.sin(turn)]
+
+
+def test_a_slender_stem_that_points_fill_has_a_thickness_and_a_wide_heap_has_none():
+    assert trunk(filled(0.1), BREAST).root == pytest.approx(0.07, rel=0.15)
+    assert trunk(filled(0.9), BREAST) is None
+
+
+def test_a_foot_whose_thickness_cant_be_told_is_as_thick_as_the_middle_one_of_the_others():
+    thin, thick, thickest = (trunk(stem(diameter), BREAST) for diameter in (0.1, 0.2, 0.3))
+    np.testing.assert_allclose(foot_radii([thickest, None, thin, thick]), [0.15, 0.1, 0.05, 0.1], rtol=0.06)
+    assert foot_radii([None, None]) is None
