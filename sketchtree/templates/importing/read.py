@@ -11,6 +11,7 @@ from sketchtree.skeleton import TreeSkeleton
 from sketchtree.skeleton_files import read_skeleton
 from sketchtree.templates.store.columns import to_columns
 from sketchtree.templates.exemplar import measure
+from sketchtree.templates.importing.forks import forked
 from sketchtree.templates.importing.frame import UP, stood
 from sketchtree.templates.importing.habit import habit_from_tree
 from sketchtree.templates.making.order import Block
@@ -38,7 +39,7 @@ def imported(file: Path, said: Described, traced: TreeSkeleton | None = None) ->
     """The columns of the exemplar in `file`. `traced`: the tree that stands in it, metres, y up, where the file is a point cloud. Raises a `SketchTreeError` that names the file."""
     file = Path(file)
     up = said.up or UP.get(file.suffix.lower(), "y")
-    tree = stood(read_skeleton(file), file=str(file), unit=said.unit, up=up) if traced is None else stood(traced, file=str(file))
+    tree = stood(read_skeleton(file), file=str(file), unit=said.unit, up=up) if traced is None else forked(stood(traced, file=str(file)))
     like = said.like or Habit()
     habit = habit_from_tree(tree, like=like)
     habit = Habit(**{**vars(habit), "leaf": said.leaf or like.leaf, "bark": said.bark or like.bark})
