@@ -23,6 +23,7 @@ from sketchtree.geometry.mesh import Mesh
 from sketchtree.levels.make import Model, level_of_detail
 from sketchtree.skeleton import TreeSkeleton
 from sketchtree.studio.growth import FILMS
+from sketchtree.studio.making.shared_materials import with_shared_materials
 from sketchtree.studio.making.watching import pulses
 from sketchtree.studio.making.work import signature
 from sketchtree.tree_output import Made, about_of
@@ -72,7 +73,7 @@ class Growths:
     def glb(self, of: Document | str, mode: str, bend: float, watch: Watch) -> bytes:
         """An animated GLB of a drawing's tree, or of the one that was laid under a name. Raises SketchTreeError where nothing can grow."""
         growing, about = self._grown(of, mode, bend, watch)
-        asset = growing.asset(seconds=SECONDS, about=about)
+        asset = with_shared_materials(growing.asset(seconds=SECONDS, about=about))
         with watch("export"):
             watch.on_part(0.0)
             return asset_bytes(asset)
@@ -91,7 +92,7 @@ class Growths:
                 if not drawn:
                     raise OptionError(reason, remedy="Choose an animated file, such as .glb.")
             else:
-                asset = growing.asset(seconds=seconds, about=about)
+                asset = with_shared_materials(growing.asset(seconds=seconds, about=about))
                 with watch("export"):
                     watch.on_part(0.0)
                     write_asset(path, asset)
