@@ -5,7 +5,7 @@ many as there are true limbs: Θ of all those rows says how points scatter. So (
 
     limbs      shorter than `SHORT` layers, that bear none longer, are left out
     forks      nearer than `NEAR` layers to the one before on their limb are one with it
-    segments   run from fork to fork, and bend where the limb lies farther than `BEND` layers from them (Douglas & Peucker 1973)
+    segments   run from fork to fork, and bend where the limb lies farther from them than `BEND` layers and its own radius (Douglas & Peucker 1973)
     which      child carries on a limb: the straightest of those about as thick as the thickest (`THICK`). What is traced carries on by the longest way
 
 A layer is the median length of a row.
@@ -19,7 +19,7 @@ from sketchtree.skeleton import TreeSkeleton
 from sketchtree.traverse import child_count, children, limb_chains
 
 SHORT, NEAR, BEND = 8.0, 4.0, 0.5  # layers
-THICK = 0.7  # of the thickest child's radius
+THICK = 0.5  # of the thickest child's radius
 
 
 def forked(tree: TreeSkeleton) -> TreeSkeleton:
@@ -75,11 +75,11 @@ def _corners(tree: TreeSkeleton, layer: float) -> Bool[np.ndarray, " segment"]:
         for k in np.flatnonzero(forks[rows]):
             if run[k] - last >= NEAR * layer:
                 kept[rows[k]], last = True, run[k]
-        start = tree.parent[rows[0]]
+        tolerance, start = max(BEND * layer, float(np.median(tree.radius[rows]))), tree.parent[rows[0]]
         path = rows if start == NULL else np.concatenate([[start], rows])
         ends = np.flatnonzero(kept[path] | (path == start))
         for low, high in zip(ends[:-1], ends[1:], strict=True):
-            kept[path[low + _bends(tree.tip[path[low : high + 1]], BEND * layer)]] = True
+            kept[path[low + _bends(tree.tip[path[low : high + 1]], tolerance)]] = True
     return kept
 
 
