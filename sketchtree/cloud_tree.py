@@ -58,6 +58,7 @@ class CloudOptions:
     species: str = "auto"  # of `clouds.growing.species.names()`, or a recipe of one's own, a .toml file; auto: estimated from the points
     figures: tuple[str, ...] = ()  # of the species and its growth that are to be others: NAME=VALUE (`clouds.growing.figures`)
     roots: int | None = None  # feet; None: as many as there are stems
+    keep_pot: bool = False  # a pot, or a lump of ground under the stem, is not looked for
     in_leaf: str = "auto"  # auto | yes | no: whether some of the points are leaves
     inside: bool | None = None  # branches inside a crown that was seen from outside only; None: where the points leave it out
     pixel: float | None = None  # metres of the plant that a pixel of its photos is: what is thinner goes on beyond the points; None, 0: it ends with them
@@ -151,7 +152,7 @@ def whole_tree(found: "Found", prepared: Prepared, stands: Feet, wanted: CloudOp
 
 def _prepared(given: str | Path | Placed | PointCloud, wanted: CloudOptions) -> Prepared:
     placed = read_placed(given, unit=wanted.unit) if isinstance(given, str | Path) else given
-    return prepare(placed, up=wanted.up, tree=wanted.tree, points=wanted.points)
+    return prepare(placed, up=wanted.up, tree=wanted.tree, points=wanted.points, keep_pot=wanted.keep_pot)
 
 
 @dataclass(frozen=True, eq=False)

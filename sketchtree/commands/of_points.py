@@ -13,7 +13,7 @@ from sketchtree.options import FileOptions, TreeOptions, options_as_dict
 from sketchtree.templates.store.database import Database
 from sketchtree.watch import Watch
 
-_HOW = ("method", "species", "figures", "roots", "in_leaf", "inside", "pixel")
+_HOW = ("method", "species", "figures", "roots", "keep_pot", "in_leaf", "inside", "pixel")
 
 
 @dataclass(frozen=True)

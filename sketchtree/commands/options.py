@@ -50,6 +50,7 @@ _POINTS = (
     click.option("--method", type=click.Choice(["traced", "grown"]), default="traced", show_default=True, help="Wood where the points are; or a tree of the species, grown toward them (Guo et al. 2018)."),
     click.option("--species", default="auto", show_default=True, metavar="auto|NAME|R.toml", help="How the plant grows where it was not seen, or all of it if it is `grown`: a species, or a recipe of your own."),
     click.option("--roots", type=click.IntRange(1), metavar="K", help="How many stems come out of the ground (default: as many as are found)."),
+    click.option("--keep-pot", is_flag=True, help="Don't look for a pot, or a lump of ground, under the stem."),
     click.option("--inside/--no-inside", default=None, help="Fill the inside of a crown (default: where the points leave it out)."),
     click.option("--pixel", type=float, metavar="METRES", help="How much of the plant a pixel of its photos is: twigs go on beyond what shows of them; 0: they end there (default: as the photos of `views` say; of a scan, 0)."),
     click.option("--in-leaf", type=click.Choice(["auto", "yes", "no"]), default="auto", show_default=True, help="Whether some of the points are leaves, which are no wood."),

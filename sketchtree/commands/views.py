@@ -74,10 +74,11 @@ _HIGH = 10.0  # metres, where nothing says how large the plant is
 def _sized(found):
     """(the points in metres, what a pixel is there, what should be known about their size)."""
     from sketchtree.clouds.cloud import PointCloud
+    from sketchtree.clouds.prepared.outliers import height_without
 
     if found.metric:
         return found.cloud, found.size, ()
-    scale = _HIGH / max(found.cloud.height, 1e-12)
+    scale = _HIGH / max(height_without(found.cloud.xyz), 1e-12)
     told = f"Photos don't tell how large the plant is: it was made {_HIGH:g} m high. `--height METRES` says how high it is."
     return PointCloud(scale * found.cloud.xyz, found.cloud.colour, found.cloud.normal), scale * found.size, (told,)
 

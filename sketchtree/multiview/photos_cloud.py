@@ -10,6 +10,7 @@ import numpy as np
 from jaxtyping import Key
 
 from sketchtree.clouds.cloud import PointCloud
+from sketchtree.clouds.prepared.outliers import height_without
 from sketchtree.errors import OptionError
 from sketchtree.keys import numpy_generator, stage_key
 from sketchtree.multiview.accelerated.engine import engine_of
@@ -75,7 +76,7 @@ def photos_cloud(
         with watch("ground"):
             cloud, notices = _without_ground(cloud, key, notices)
     if height is not None:
-        by = height / max(cloud.height, 1e-12)
+        by = height / max(height_without(cloud.xyz), 1e-12)
         cloud, size = PointCloud(by * cloud.xyz, cloud.colour, cloud.normal), by * size
     names = tuple(view.name for view in views)
     return PhotosCloud(cloud, poses is not None or height is not None, names, left_out, placed.error, confirmed, size, tuple(notices), watch.seconds)

@@ -34,6 +34,12 @@ def test_a_cloud_becomes_a_tree_with_its_skeleton_and_report(scan, tmp_path, cap
     assert out.stat().st_size > 10_000
 
 
+def test_a_pot_can_be_kept(scan, tmp_path):
+    report = tmp_path / "t.json"
+    assert run(["cloud", str(scan), "-o", str(tmp_path / "t.swc"), "--keep-pot", "--report", str(report), "--quiet"]) == 0
+    assert json.loads(report.read_text(encoding="utf-8"))["options"]["keep_pot"] is True
+
+
 def test_the_points_can_be_written_with_their_distances_from_the_tree(scan, tmp_path):
     out, distances, report = tmp_path / "t.glb", tmp_path / "d.ply", tmp_path / "t.json"
     assert run(["cloud", str(scan), "-o", str(out), "--distances", str(distances), "--report", str(report), "--quiet"]) == 0

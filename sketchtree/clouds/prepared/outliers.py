@@ -21,3 +21,8 @@ def outliers(xyz: Float[np.ndarray, "point 3"]) -> Bool[np.ndarray, " point"]:
     log = np.log(cKDTree(xyz).query(xyz, k=_NEIGHBOURS + 1)[0][:, 1:].mean(axis=1) + 1e-9)
     middle = np.median(log)
     return log - middle > max(_SPREADS * 1.4826 * float(np.median(np.abs(log - middle))), np.log(_LEAST))
+
+
+def height_without(xyz: Float[np.ndarray, "point 3"]) -> float:
+    """How high points reach, metres, those that belong to nothing left out."""
+    return float(np.ptp(xyz[~outliers(xyz), 1]))

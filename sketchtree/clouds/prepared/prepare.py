@@ -41,8 +41,9 @@ class Prepared:
     remarks: tuple[str, ...]
 
 
-def prepare(given: Placed | PointCloud, *, up: Literal["auto", "y", "z"] = "auto", tree: int | None = None, points: int = POINTS) -> Prepared:
-    """One tree of a cloud. `up`: the axis of the cloud that is up; `tree`: which of several, 1 the largest; `points`: how many are kept at most.
+def prepare(given: Placed | PointCloud, *, up: Literal["auto", "y", "z"] = "auto", tree: int | None = None, points: int = POINTS, keep_pot: bool = False) -> Prepared:
+    """One tree of a cloud. `up`: the axis of the cloud that is up; `tree`: which of several, 1 the largest; `points`: how many are kept at most; `keep_pot`: a
+    pot is not looked for.
 
     Raises SketchError where several trees stand and none was chosen, too few points are left, or nothing stands there; OptionError for another axis, or a tree that isn't there.
     """
@@ -53,7 +54,7 @@ def prepare(given: Placed | PointCloud, *, up: Literal["auto", "y", "z"] = "auto
     placement = placed.placement.then_turned(stood.axis)
     remarks += [stood.remark] if stood.remark else []
     cloud, above, floor = _cleared(stood.cloud, remarks)
-    cloud, above = _unpotted(cloud, above, remarks)
+    cloud, above = (cloud, above) if keep_pot else _unpotted(cloud, above, remarks)
     _check(len(cloud))
     _check_height(cloud)
     found = plants(cloud.xyz, above)
@@ -100,7 +101,7 @@ def _unpotted(cloud: PointCloud, above: np.ndarray, remarks: list[str]) -> tuple
     if rim is None:
         return cloud, above
     kept = above >= rim
-    remarks.append(f"{(~kept).sum():,} points are of a pot, or of what else the plant stands in, {rim:.2g} m high: they were taken away.")
+    remarks.append(f"{(~kept).sum():,} points are of a pot, or of what else the plant stands in, {rim:.2g} m high: they were taken away (`--keep-pot` leaves them).")
     return cloud.select(kept), above[kept] - rim
 
 

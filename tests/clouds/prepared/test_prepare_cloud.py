@@ -9,7 +9,7 @@ from sketchtree.clouds.files.placed import Placed, Placement
 from sketchtree.clouds.prepared.doubled import single_rows
 from sketchtree.clouds.prepared.finite import finite
 from sketchtree.clouds.prepared.ground import ground
-from sketchtree.clouds.prepared.outliers import outliers
+from sketchtree.clouds.prepared.outliers import height_without, outliers
 from sketchtree.clouds.prepared.pot import pot
 from sketchtree.clouds.prepared.prepare import prepare
 from sketchtree.clouds.prepared.several import plants
@@ -109,7 +109,13 @@ def test_a_pot_is_taken_away_and_that_is_said():
     assert pot(POTTED, POTTED[:, 1]) == pytest.approx(1.0, abs=0.15)
     assert found.cloud.height == pytest.approx(6.0, abs=0.3)
     assert np.linalg.norm(found.cloud.xyz[found.above < 0.5][:, [0, 2]], axis=1).max() < 0.2
-    assert found.remarks[0].endswith(" points are of a pot, or of what else the plant stands in, 1.1 m high: they were taken away.")
+    assert found.remarks[0].endswith(" points are of a pot, or of what else the plant stands in, 1.1 m high: they were taken away (`--keep-pot` leaves them).")
+
+
+def test_a_pot_is_kept_where_that_is_asked():
+    found = prepare(PointCloud(POTTED), up="y", keep_pot=True)
+    assert found.cloud.height == pytest.approx(7.0, abs=0.3)
+    assert not any("pot" in remark for remark in found.remarks)
 
 
 def test_a_pot_on_the_ground_goes_with_the_ground():
@@ -167,6 +173,10 @@ def test_what_belongs_to_nothing_is_left_out_and_twigs_are_kept():
     found = outliers(np.concatenate([TREE, noise]))
     assert found[len(TREE) :].mean() > 0.8
     assert found[: len(TREE)].mean() < 0.002
+
+
+def test_what_belongs_to_nothing_makes_a_plant_no_higher():
+    assert height_without(np.concatenate([TREE, [[0.0, 9.0, 0.0], [1.0, -3.0, 1.0]]])) == pytest.approx(np.ptp(TREE[:, 1]), abs=0.2)
 
 
 def test_a_handful_of_points_has_no_outliers():
