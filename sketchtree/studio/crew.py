@@ -320,7 +320,7 @@ class Crew:
         """As `Engine.find`."""
         return await self._hands["full"].ask("find", self._job, limb)[1]
 
-    async def read(self, data: bytes, name: str, tree: int | None = None) -> Document:
+    async def read(self, data: bytes, name: str, cloud: messages.CloudReading = messages.CloudReading()) -> Document:
         """As `Engine.read`. Small drawings of lines are read here, on a thread: they are there before any other process is."""
         if len(data) < _SMALL and Path(name).suffix.lower() in _LINES:
             from sketchtree.studio.making.documents import document_of
@@ -328,7 +328,7 @@ class Crew:
             return await asyncio.to_thread(document_of, data, name)
         if is_cloud(data, name):
             self._expect_points()
-        found = await self._hands["side"].ask("read", data, name, tree)[1]
+        found = await self._hands["side"].ask("read", data, name, cloud)[1]
         if not isinstance(found, Document):
             raise SeveralTrees(f"{len(found)} trees stand in {name}.", remedy="Choose one of them.", trees=found)
         return found

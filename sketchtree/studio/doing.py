@@ -235,11 +235,15 @@ async def _open(desk: Desk, page: Page, request: messages.Open) -> None:
 
 
 async def _open_or_ask(desk: Desk, page: Page, request: messages.Open) -> None:
-    """A cloud in which several trees stand is asked about."""
+    """A cloud in which several trees stand is asked about; where nothing is different that is said too, since the page waits."""
+    before = desk.revision
     try:
-        await filing.open_named(desk, request.name, example=request.example, tree=request.tree)
+        await filing.open_named(desk, request.name, example=request.example, reading=request.cloud)
     except SeveralTrees as several:
         page.outbox.put(messages.Several(name=request.name, trees=list(several.trees)))
+        return
+    if desk.revision == before:
+        desk.answer(page)
 
 
 async def _save(desk: Desk, page: Page, request: messages.Save) -> None:

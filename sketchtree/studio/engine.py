@@ -103,9 +103,8 @@ class Engine(Protocol):
     async def find(self, document: Document, limb: int) -> Any:
         """An undrawn limb of the tree that is shown as an `edits.Adopted`, whatever is being made; raises SketchTreeError where there is none of that id."""
 
-    async def read(self, data: bytes, name: str, tree: int | None = None) -> Document:
-        """A document of a file: any drawing, a project, or a point cloud behind an empty page; `tree`: which of several in the cloud, 1 the largest. Raises SketchTreeError; SeveralTrees
-        where none was chosen."""
+    async def read(self, data: bytes, name: str, cloud: messages.CloudReading = messages.CloudReading()) -> Document:
+        """A document of a file: any drawing, a project, or a point cloud, read so, behind an empty page. Raises SketchTreeError; SeveralTrees where several stand in it and none was chosen."""
 
     async def export(self, document: Document, name: str, options: dict, tell: Tell = untold) -> dict[str, bytes]:
         """The files that the tree of the drawing becomes, by name, likewise."""

@@ -20,6 +20,8 @@ from sketchtree.studio.recovery import StudioError, journal_of
 from sketchtree.studio.scribbled_example import scribbled_example
 from sketchtree.studio.underlays import placed
 
+_PLAIN = messages.CloudReading()
+
 
 async def welcome(desk: Desk, page: Page) -> None:
     """Tell a page what there is to choose from."""
@@ -34,8 +36,8 @@ async def welcome(desk: Desk, page: Page) -> None:
     )  # fmt: skip
 
 
-async def open_named(desk: Desk, name: str, *, example: bool, tree: int | None = None) -> None:
-    """A file of the folder, or an example, takes the place of what is there, once it is read, as a step. `tree`: which of several in a cloud. Raises SketchTreeError."""
+async def open_named(desk: Desk, name: str, *, example: bool, reading: messages.CloudReading = _PLAIN) -> None:
+    """A file of the folder, or an example, takes the place of what is there, once it is read, as a step. `reading`: of points. Raises SketchTreeError."""
     if example and name in examples.SCRIBBLED:
         await _open_scribbled(desk, name)
         return
@@ -48,7 +50,7 @@ async def open_named(desk: Desk, name: str, *, example: bool, tree: int | None =
     async with desk.filing:
         signature = folder.signature(name)
         data = await asyncio.to_thread(folder.read, name)
-        document = await read(desk, data, name, tree)
+        document = await read(desk, data, name, reading)
         async with desk.turn:
             desk.files.signatures[name] = signature
             desk.step(document, "open", saved_as=name if name.lower().endswith(PROJECT) else None)
@@ -61,18 +63,18 @@ async def _open_scribbled(desk: Desk, name: str) -> None:
         desk.step(document, "open")
 
 
-async def open_bytes(desk: Desk, data: bytes, name: str, tree: int | None = None) -> None:
+async def open_bytes(desk: Desk, data: bytes, name: str, reading: messages.CloudReading = _PLAIN) -> None:
     """A drawing, a project or a point cloud takes the place of what is there, once it is read, as a step. Raises SketchTreeError."""
     async with desk.filing:
-        document = await read(desk, data, name, tree)
+        document = await read(desk, data, name, reading)
         async with desk.turn:
             desk.step(document, "open")
 
 
-async def lay(desk: Desk, data: bytes, name: str, tree: int | None = None) -> None:
+async def lay(desk: Desk, data: bytes, name: str, reading: messages.CloudReading = _PLAIN) -> None:
     """The points of a cloud lie behind the drawing, once they are read, as a step. Raises SketchTreeError."""
     async with desk.filing:
-        cloud = (await read(desk, data, name, tree)).cloud
+        cloud = (await read(desk, data, name, reading)).cloud
         if cloud is None:
             raise SketchError(f"{name} is no point cloud.", remedy="Give PLY, LAS, LAZ, XYZ, NPZ or NPY.")
         async with desk.turn:
@@ -80,13 +82,13 @@ async def lay(desk: Desk, data: bytes, name: str, tree: int | None = None) -> No
             desk.step(document.replace(cloud=laid_under(cloud, document.strokes.values()), points=document.points.drawn), "point cloud")
 
 
-async def read(desk: Desk, data: bytes, name: str, tree: int | None = None) -> Document:
+async def read(desk: Desk, data: bytes, name: str, reading: messages.CloudReading = _PLAIN) -> Document:
     """The document of a file, called as the file is. Raises SketchTreeError; SeveralTrees, where a cloud has several and none was chosen."""
     if not is_name(name):
         raise SketchError("That is no name of a drawing.", remedy="Rename the file, without a path, a colon, or a dot at its start.")
     if len(data) > messages.MAX_UPLOAD:
         raise SketchError(f"{name} has {len(data) / 1e6:.0f} MB; {messages.MAX_UPLOAD / 1e6:.0f} MB is the most.", remedy="Choose a smaller file.")
-    document = await desk.engine.read(data, name, tree)
+    document = await desk.engine.read(data, name, reading)
     return fitting(document).replace(name=Path(name).stem)
 
 

@@ -7,6 +7,7 @@ from pathlib import Path
 
 from sketchtree.errors import ExportError, SketchError
 from sketchtree.export.files import write_whole
+from sketchtree.studio.cloud_files import PLAINLY
 from sketchtree.studio.messages import MAX_UPLOAD
 
 PROJECT = ".sketchtree"
@@ -28,14 +29,14 @@ class Folder:
         return self.path.resolve().name or "/"
 
     def files(self) -> list[str]:
-        """Names of the drawings and projects in it, the newest first."""
+        """Names of the drawings, projects and point clouds in it, the newest first."""
         from sketchtree.sketch.formats import READABLE  # every reader comes with it; the page is there before
 
         found = []
         try:
             with os.scandir(self.path) as entries:
                 for entry in entries:
-                    if is_name(entry.name) and Path(entry.name).suffix.lower() in (*READABLE, PROJECT) and entry.is_file(follow_symlinks=False):
+                    if is_name(entry.name) and Path(entry.name).suffix.lower() in (*READABLE, PROJECT, *PLAINLY) and entry.is_file(follow_symlinks=False):
                         found.append((entry.stat().st_mtime_ns, entry.name))
         except OSError:
             return []

@@ -19,6 +19,7 @@ VERSION = 1
 MAX_MESSAGE = 4_000_000  # bytes of one message of the page
 MAX_UPLOAD = 100_000_000  # bytes of one file
 MAX_POINTS = 20_000  # of one stroke
+LOWEST_PLANT, TALLEST_PLANT = 0.05, 150.0  # metres that a plant in a point cloud may be said to be high
 MAX_STROKES = 20_000  # of one drawing
 
 Id = Annotated[str, Meta(min_length=1, max_length=64, pattern=r"^[^\x00-\x1f\x7f]+$")]
@@ -261,12 +262,21 @@ class New(_Said):
     """An empty page. What was there can be had again by undo."""
 
 
+class CloudReading(_Record):
+    """How the points of a file are to be read."""
+
+    tree: Annotated[int, Meta(ge=1, le=10_000)] | None = None  # which of several, 1 the largest
+    up: Literal["auto", "y", "z"] = "auto"  # the file's axis that is up
+    unit: Annotated[float, Meta(ge=1e-6, le=1e4)] = 1.0  # metres that 1 in the file means
+    height: Annotated[float, Meta(ge=LOWEST_PLANT, le=TALLEST_PLANT)] | None = None  # metres of the plant, which say the unit
+
+
 class Open(_Said):
     """A drawing or project of the folder, or an example."""
 
     name: Name
     example: bool = False
-    tree: Annotated[int, Meta(ge=1, le=10_000)] | None = None  # which of several in a point cloud, 1 the largest
+    cloud: CloudReading = CloudReading()  # if it is one
 
 
 class Save(_Said):

@@ -6,7 +6,7 @@
     /picture/WHAT/NAME.png                thumbnails
     /underlay/DIGEST                      the picture to trace over
     /cloud/DIGEST                         the points behind the drawing
-    POST /upload?name=&as=&tree=          a drawing, project or point cloud to open; a picture to trace over, to mark a tree in, or to read strokes from; points to draw over
+    POST /upload?name=&as=&tree=&up=&unit=&height=   a drawing, project or point cloud to open; a picture to trace over, to mark a tree in, or to read strokes from; points to draw over
     POST /export                          the tree, as files, or its growth; hanging up stops their making
     POST /growth                          the tree as it grows, an animated GLB, likewise
     /download  /marks  /command?export=   the project; the strokes that mark the photo, as SVG; the command line that makes the same as that export
@@ -15,6 +15,7 @@
 import asyncio
 import contextlib
 import re
+from collections.abc import Mapping
 from pathlib import Path
 
 import msgspec
@@ -154,9 +155,9 @@ class Studio:
 
     async def _upload(self, request: Request) -> Response:
         name, use = request.query_params.get("name", ""), request.query_params.get("as", "drawing")
-        tree = request.query_params.get("tree", "")
-        if use not in ("drawing", "underlay", "photo", "cloud") or not re.fullmatch("[0-9]{0,5}", tree):
+        if use not in ("drawing", "underlay", "photo", "cloud"):
             raise HTTPException(400)
+        reading = _reading(request.query_params)
         data = await _body(request, messages.MAX_UPLOAD)
         desk = self._session.desk
         await desk.ready.wait()
@@ -165,9 +166,9 @@ class Studio:
         elif use == "photo":
             await filing.open_photo(desk, data, name if is_name(name) else "This file")
         elif use == "cloud":
-            await filing.lay(desk, data, name, int(tree) if tree else None)
+            await filing.lay(desk, data, name, reading)
         else:
-            await filing.open_bytes(desk, data, name, int(tree) if tree else None)
+            await filing.open_bytes(desk, data, name, reading)
         return _json({"revision": desk.revision})
 
     async def _export(self, request: Request) -> Response:
@@ -225,6 +226,15 @@ class Studio:
         await self._session.desk.ready.wait()
         wanted = _read(_EXPORT, request.query_params.get("export", '{"format": ".glb"}'), "What to export")
         return PlainTextResponse(exports.command_line(self._session.document, wanted))
+
+
+def _reading(said: Mapping[str, str]) -> messages.CloudReading:
+    """How points are to be read, as an address says it. Raises Unread."""
+    try:
+        return msgspec.convert({name: said[name] for name in messages.CloudReading.__struct_fields__ if said.get(name)}, messages.CloudReading, strict=False)
+    except msgspec.ValidationError as error:
+        what, _, name = str(error).partition(" - at `$.")
+        raise Unread(f"The cloud's {name.rstrip('`') or 'reading'} can't be that: {what[:1].lower()}{what[1:]}.", remedy="Choose another value.") from error
 
 
 def _read(decoder: msgspec.json.Decoder, said: bytes | str, what: str):

@@ -22,7 +22,7 @@ from sketchtree.studio import messages
 
 TARGET = Path(__file__).parent / "page" / "src" / "messages.ts"
 COMMAND = "python -m sketchtree.studio.typescript"
-_LIMITS = ("VERSION", "MAX_MESSAGE", "MAX_UPLOAD", "MAX_POINTS", "MAX_STROKES")
+_LIMITS = ("VERSION", "MAX_MESSAGE", "MAX_UPLOAD", "MAX_POINTS", "MAX_STROKES", "LOWEST_PLANT", "TALLEST_PLANT")
 _COMMENT = re.compile(r"^    (\w+): .*?  # (.+)$", re.MULTILINE)
 _PLAIN = {kinds.BoolType: "boolean", kinds.IntType: "number", kinds.FloatType: "number", kinds.StrType: "string", kinds.NoneType: "null"}
 

@@ -102,7 +102,7 @@ class FakeEngine:
             raise OptionError("That limb is not there any more.", remedy="Wait until the tree is ready, then pick the limb again.")
         return Adopted(limb, 1, 0.5, np.array([[0.0, 0, 0], [1, 1, 1]]), 0.1)
 
-    async def read(self, data, name, tree=None):
+    async def read(self, data, name, cloud=messages.CloudReading()):
         if data.startswith(b"bad"):
             raise SketchError(f"{name} is no drawing.", remedy="Draw one.")
         if data.startswith(b"{"):

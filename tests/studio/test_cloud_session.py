@@ -27,10 +27,15 @@ TRUNK = Stroke("trunk", np.array([(20.0, 10.0), (20.0, 210.0)]))
 class WithClouds(FakeEngine):
     """Reads every file that is called so as points; `several` stand in `wood.ply`."""
 
-    async def read(self, data, name, tree=None):
-        if name == "wood.ply" and tree is None:
+    def __init__(self):
+        super().__init__()
+        self.readings = []
+
+    async def read(self, data, name, cloud=messages.CloudReading()):
+        self.readings.append(cloud)
+        if name == "wood.ply" and cloud.tree is None:
             raise SeveralTrees("2 trees stand in wood.ply.", remedy="Choose one of them.", trees=("9.0 m high, at x 1.0, z 2.0", "4.0 m high, at x 5.0, z 2.0"))
-        return Document.blank(cloud=CLOUD) if name.endswith(".ply") else await super().read(data, name, tree)
+        return Document.blank(cloud=CLOUD) if name.endswith(".ply") else await super().read(data, name, cloud)
 
     async def with_traced(self, document):
         return document.replace(strokes={"trunk": TRUNK}, settled=Settled(asked="measured"), points=document.points.drawn)
@@ -139,8 +144,25 @@ def test_which_of_several_trees_is_asked(tmp_path):
             await talk.say(messages.Open(name="wood.ply"))
             assert talk.last("several") == {"type": "several", "name": "wood.ply", "trees": ["9.0 m high, at x 1.0, z 2.0", "4.0 m high, at x 5.0, z 2.0"]}
             assert talk.session.document.cloud is None and not talk.all("trouble")
-            await talk.say(messages.Open(name="wood.ply", tree=2))
+            await talk.say(messages.Open(name="wood.ply", cloud=messages.CloudReading(tree=2)))
             assert talk.session.document.cloud == CLOUD
+
+    asyncio.run(test())
+
+
+def test_it_is_read_as_it_was_asked_and_a_page_that_waits_is_answered_where_nothing_is_different(tmp_path):
+    from sketchtree.studio.folder import Folder
+
+    (tmp_path / "scan.ply").write_bytes(b"ply\n")
+    wanted = messages.CloudReading(up="z", height=3.0)
+
+    async def test():
+        async with scene(folder=Folder(tmp_path)) as talk:
+            await talk.say(messages.Open(name="scan.ply", cloud=wanted))
+            assert talk.engine.readings == [wanted]
+            told = len(talk.all("changed"))
+            await talk.say(messages.Open(name="scan.ply", cloud=wanted))
+            assert len(talk.all("changed")) == told + 1
 
     asyncio.run(test())
 

@@ -39,15 +39,15 @@ def test_no_project_is_called_so(name):
         project_name(name)
 
 
-def test_drawings_and_projects_are_listed_the_newest_first(tmp_path):
+def test_drawings_projects_and_clouds_are_listed_the_newest_first(tmp_path):
     import os
 
-    for age, name in enumerate(("c.sketchtree", "a.svg", "b.PNG", "notes.txt", ".d.svg", "e")):
+    for age, name in enumerate(("c.sketchtree", "a.svg", "b.PNG", "scan.LAZ", "notes.txt", ".d.svg", "e")):
         (tmp_path / name).write_text("x")
         os.utime(tmp_path / name, ns=(10**18 - age, 10**18 - age))
     (tmp_path / "link.svg").symlink_to("/etc/passwd")
     (tmp_path / "f.svg").mkdir()
-    assert Folder(tmp_path).files() == ["c.sketchtree", "a.svg", "b.PNG"]
+    assert Folder(tmp_path).files() == ["c.sketchtree", "a.svg", "b.PNG", "scan.LAZ"]
     assert Folder(tmp_path / "gone").files() == []
 
 

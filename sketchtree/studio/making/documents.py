@@ -9,7 +9,7 @@ from pathlib import Path
 import numpy as np
 
 from sketchtree.editing.document import Document, Underlay
-from sketchtree.editing.laid_cloud import CloudChoices, laid
+from sketchtree.editing.laid_cloud import CloudChoices
 from sketchtree.errors import SketchError, SketchTreeError
 from sketchtree.options import ReadingOptions, TreeOptions
 from sketchtree.photo.wanted import PhotoOptions
@@ -19,16 +19,16 @@ from sketchtree.sketch.files.sketch_json import read_sketch_json
 from sketchtree.sketch.formats import read_sketch
 from sketchtree.sketch.strokes import Sketch
 from sketchtree.studio.cloud_files import is_cloud
+from sketchtree.studio.messages import CloudReading
 from sketchtree.trunk.wanted import TrunkChoices
 
 _NOT_KEPT = ("max_strokes", "max_mb", "max_megapixels", "samples", "alternatives")  # limits of a reading, and questions that were answered then
 
 
-def document_of(data: bytes, name: str, tree: int | None = None) -> Document:
-    """The document of a file's bytes: any drawing, a project with all that it keeps, or a point cloud behind an empty page. `tree`: which of several that stand in a cloud, 1 the largest.
-    Raises SketchTreeError, which names the file."""
+def document_of(data: bytes, name: str, cloud: CloudReading = CloudReading()) -> Document:
+    """The document of a file's bytes: any drawing, a project with all that it keeps, or a point cloud, read so, behind an empty page. Raises SketchTreeError, which names the file."""
     if is_cloud(data, name):
-        return _of_points(data, name, tree)
+        return _of_points(data, name, cloud)
     with tempfile.TemporaryDirectory() as folder:
         path = Path(folder) / (Path(name).name or "drawing")
         path.write_bytes(data)
@@ -54,16 +54,14 @@ def _over_points(data: bytes, path: Path) -> Sketch | None:
     return None if drawing is None else read_sketch_json(drawing, path.name)
 
 
-def _of_points(data: bytes, name: str, tree: int | None) -> Document:
+def _of_points(data: bytes, name: str, cloud: CloudReading) -> Document:
     """A page with the points of a file behind it."""
-    from sketchtree.clouds.files.read_cloud import read_placed
-    from sketchtree.clouds.prepared.prepare import prepare
+    from sketchtree.studio.making.points_of_file import points_of
 
     with tempfile.TemporaryDirectory() as folder:
         path = Path(folder) / Path(name).name
         path.write_bytes(data)
-        cloud = laid(prepare(read_placed(path), tree=tree))
-    return Document.blank(name=Path(name).stem, cloud=cloud)
+        return Document.blank(name=Path(name).stem, cloud=points_of(path, cloud))
 
 
 def _by_hand(path: Path) -> dict:

@@ -237,12 +237,12 @@ class Jobs:
         """A drawing with points behind it: what its answers need is made ready, aside."""
         self.warming.for_points(lambda: self.desk.say(number, "event", ("warm",)))
 
-    def _read(self, number, watch, data: bytes, name: str, tree: int | None):
+    def _read(self, number, watch, data: bytes, name: str, cloud):
         from sketchtree.errors import SeveralTrees
         from sketchtree.studio.making.documents import document_of
 
         try:
-            return document_of(data, name, tree)
+            return document_of(data, name, cloud)
         except SeveralTrees as several:
             return several.trees  # a choice to be made, not a trouble
 

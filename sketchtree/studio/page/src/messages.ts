@@ -5,6 +5,8 @@ export const MAX_MESSAGE = 4000000;
 export const MAX_UPLOAD = 100000000;
 export const MAX_POINTS = 20000;
 export const MAX_STROKES = 20000;
+export const LOWEST_PLANT = 0.05;
+export const TALLEST_PLANT = 150.0;
 
 /** Something that can be picked. */
 export interface Choice {
@@ -561,12 +563,20 @@ export interface New {
   type: "new";
 }
 
+/** How the points of a file are to be read. */
+export interface CloudReading {
+  tree?: number | null; // which of several, 1 the largest
+  up?: "auto" | "y" | "z"; // the file's axis that is up
+  unit?: number; // metres that 1 in the file means
+  height?: number | null; // metres of the plant, which say the unit
+}
+
 /** A drawing or project of the folder, or an example. */
 export interface Open {
   type: "open";
   name: string;
   example?: boolean;
-  tree?: number | null; // which of several in a point cloud, 1 the largest
+  cloud?: CloudReading; // if it is one
 }
 
 /** The project, under this name in the folder. */

@@ -14,7 +14,6 @@ import { hintButton } from "./first/hint_button";
 import { turnedNote } from "./first/turned_note";
 import { welcomeBack } from "./first/welcome_back";
 import { cloudCard } from "./cloud/card";
-import { askWhichTree } from "./cloud/which_tree";
 import { photoCard } from "./photo/card";
 import { mountSide } from "./side/mount";
 import { mountStatus } from "./status/mount";
@@ -63,7 +62,6 @@ export function mountPanels(roots: PanelRoots, store: Store, views: Views): void
   roots.page.append(emptyPage(store, { gallery: () => openDialog("gallery"), open: () => openDialog("open") }), words, hintButton(store, hint));
   roots.tree.append(emptyTree(store));
   welcomeBack(store, () => newPage(store));
-  askWhichTree(store);
   mountDrop(store);
 }
 

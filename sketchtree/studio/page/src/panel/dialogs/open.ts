@@ -7,6 +7,7 @@ import { icon } from "../../style/icons";
 import type { Store } from "../../store";
 import { roving } from "../roving";
 import { EXTENSION } from "./project_name";
+import { openCloudNamed } from "./open_cloud";
 import { take } from "./take";
 import { isCloud, isPicture, READABLE } from "./upload";
 
@@ -32,12 +33,13 @@ export function openFile(store: Store): () => void {
     const welcome = store.known.welcome;
     const files = welcome?.files ?? [];
     const folder = `folder “${welcome?.folder ?? ""}”`;
-    where.textContent = files.length > 0
+    where.textContent = !welcome ? "Looking into the folder …" : files.length > 0
       ? `In the ${folder}, where the studio was started:`
       : `The ${folder} has no drawings yet. Choose a file, or drop one anywhere on the page.`;
     list.replaceChildren(...files.map((name) => file(name, name === `${store.known.name ?? ""}${EXTENSION}`, () => {
       box.close();
-      store.send({ type: "open", name });
+      if (isCloud(name)) openCloudNamed(name, store);
+      else store.send({ type: "open", name });
     })));
     list.hidden = files.length === 0;
     walk.keep();

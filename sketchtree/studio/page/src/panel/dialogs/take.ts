@@ -1,9 +1,9 @@
-// A file was chosen or dropped: what becomes of it? A drawing or project opens; for a picture, and for points where there is a drawing, it is asked what they are for.
+// A file was chosen or dropped: what becomes of it? A drawing or project opens; of a picture it is asked what it is for, of points how they are to be read.
 
 import { toast } from "../../parts/toast";
 import type { Store } from "../../store";
 import { Refused } from "../ask";
-import { cloudDialog, treeDialog } from "./cloud";
+import { openCloudFile } from "./open_cloud";
 import { pictureDialog } from "./picture";
 import { isCloud, isPicture, upload } from "./upload";
 
@@ -18,35 +18,24 @@ const DONE: Record<Use, ((name: string) => string) | null> = {
 
 /** Take the file in; true where it is there now. Whatever goes wrong is told. */
 export async function take(file: File, store: Store): Promise<boolean> {
-  const as = await use(file, store);
+  const as = isCloud(file.name) ? await openCloudFile(file, store) : await sent(file);
   if (as === null) return false;
-  try {
-    if (!(await sent(file, as))) return false;
-  } catch (error) {
-    tell(error, file.name);
-    return false;
-  }
   const words = DONE[as]?.(file.name);
   if (words) toast(words, { remedy: "Undo brings back what was there." });
   return true;
 }
 
-async function use(file: File, store: Store): Promise<Use | null> {
-  if (isPicture(file.name)) return pictureDialog(file);
-  return isCloud(file.name) && store.known.strokes.size > 0 && !store.known.underlay?.photo ? cloudDialog() : "drawing";
-}
-
-/** False: several trees stand in it, and none was chosen. */
-async function sent(file: File, as: Use): Promise<boolean> {
+/** What it was sent as; null: not at all. */
+async function sent(file: File): Promise<Use | null> {
+  const as = isPicture(file.name) ? await pictureDialog(file) : "drawing";
+  if (as === null) return null;
   try {
     await upload(file, as);
   } catch (error) {
-    if (!(error instanceof Refused) || error.trees.length === 0) throw error;
-    const tree = await treeDialog(file.name, error.trees);
-    if (tree === null) return false;
-    await upload(file, as, tree);
+    tell(error, file.name);
+    return null;
   }
-  return true;
+  return as;
 }
 
 function tell(error: unknown, name: string): void {

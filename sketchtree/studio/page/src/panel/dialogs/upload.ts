@@ -1,6 +1,6 @@
 // How does a file of the user's come to the program? Whole, by its name; the program knows by its content what it is.
 
-import { MAX_UPLOAD } from "../../messages";
+import { MAX_UPLOAD, type CloudReading } from "../../messages";
 import { ask, Refused } from "../ask";
 import { bytes } from "../figures";
 
@@ -18,13 +18,13 @@ export function isCloud(name: string): boolean {
 }
 
 /** `photo`: a tree is marked in it, on a page of its own; `underlay`: to trace over; `drawing`: strokes are read from it, or points on a page of their own; `cloud`: points behind
- *  the drawing; `tree`: which of several in them. Raises `Refused`. */
-export async function upload(file: File, as: "photo" | "underlay" | "drawing" | "cloud", tree: number | null = null): Promise<void> {
+ *  the drawing; `reading`: how the points are to be read. Raises `Refused`. */
+export async function upload(file: File, as: "photo" | "underlay" | "drawing" | "cloud", reading: CloudReading = {}): Promise<void> {
   const tooLarge = `${file.name} has ${bytes(file.size)}; at most ${bytes(MAX_UPLOAD)} can be read.`;
   if (file.size > MAX_UPLOAD) throw new Refused(tooLarge, "Save it smaller, or with less in it.");
   if (file.size === 0) throw new Refused(`${file.name} is empty.`, "Choose another file.");
   const query = new URLSearchParams({ name: file.name });
   if (isPicture(file.name) || isCloud(file.name)) query.set("as", as);
-  if (tree !== null) query.set("tree", String(tree));
+  for (const [name, value] of Object.entries(reading)) if (value != null) query.set(name, String(value));
   await ask(`upload?${query.toString()}`, { method: "POST", body: file });
 }
