@@ -91,8 +91,11 @@ class CloudChoices:
     shown: bool = True
     size: float = 2.0  # CSS pixels that a point is wide
     traced: bool = False  # the tree is the one that stands in the points (`cloud_tree`), not that of the strokes
+    turn: float = 0.0  # degrees: the azimuth that the page faced last
 
     def __post_init__(self):
+        if not -360.0 <= self.turn <= 360.0:
+            raise OptionError(f"A page turned by {self.turn:g} degrees is out of range.", remedy="Turn it by -360 to 360.")
         if not SIZES[0] <= self.size <= SIZES[1]:
             raise OptionError(f"A point of {self.size:g} pixels is out of range.", remedy=f"Choose {SIZES[0]:g} to {SIZES[1]:g}.")
 

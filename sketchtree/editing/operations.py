@@ -49,7 +49,10 @@ def flip(document: Document, limb: int) -> Document:
 
 
 def mirror(document: Document) -> Document:
-    """The whole tree to the other side of the page. Limbs drawn on turned pages keep their own shape and move with what they grow on."""
+    """The whole tree to the other side of the page. Limbs drawn on turned pages keep their own shape and move with what they grow on. Raises OptionError where points lie behind the drawing: they
+    say on which side each limb is, and a mirrored tree would lie beside them."""
+    if document.cloud is not None:
+        raise OptionError("The points behind the drawing say on which side each limb is: a mirrored tree would lie beside them.", remedy="Flip single limbs, or take the points away first.")
     cleared = {name: dataclasses.replace(one, path=one.path * (1.0, 1.0, -1.0)) for name, one in document.edits.cleared.items()}
     document = document.replace(edits=dataclasses.replace(document.edits, cleared=cleared))
     return _reflected(document, tuple(document.settled.limbs), 0.0)

@@ -196,6 +196,13 @@ class Desk:
         self._went(what, (*begin, *self.ledger.step(before, what, self.document, label, state, merges=merges)))
         return True
 
+    def remember(self, document: Document) -> None:
+        """Something that is no step is so from now on; pages know it already."""
+        lines = self.ledger.keep(self.document, document)
+        self.history.keep(document)
+        if lines:
+            self.scribe.write(lines, lambda: None)
+
     def walk(self, *, on: bool) -> bool:
         """Undo, or redo; False: there is none."""
         before, state = self.document, self.history.state

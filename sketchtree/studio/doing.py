@@ -85,6 +85,13 @@ async def _choose_points(desk: Desk, page: Page, request: messages.ChoosePoints)
         desk.step(document, request.label or "points", alike=("points", request.label))
 
 
+async def _turned(desk: Desk, page: Page, request: messages.Turned) -> None:
+    async with desk.turn:
+        document = desk.document
+        if document.cloud is not None and document.points.turn != request.turn:
+            desk.remember(document.replace(points=replace(document.points, turn=request.turn)))
+
+
 async def _set_cloud(desk: Desk, page: Page, request: messages.SetCloud) -> None:
     async with desk.turn:
         document, said = desk.document, request.cloud
@@ -337,7 +344,7 @@ def _aside(
 
 _DOING: dict[type, Callable[[Desk, Page, Any], Awaitable[None]]] = {
     messages.Hello: _hello, messages.Strokes: _strokes, messages.Sketching: _sketching, messages.Choose: _choose, messages.ChooseTrunk: _choose_trunk,
-    messages.ChoosePoints: _choose_points, messages.SetCloud: _set_cloud, messages.Glance: _glance,
+    messages.ChoosePoints: _choose_points, messages.Turned: _turned, messages.SetCloud: _set_cloud, messages.Glance: _glance,
     messages.Hold: _hold, messages.Flip: _flip, messages.Mirror: _mirror, messages.Lock: _lock, messages.Delete: _delete, messages.Settle: _settle,
     messages.Readings: _readings, messages.Pick: _pick, messages.Undo: _undo, messages.Redo: _redo, messages.Cancel: _cancel, messages.New: _new,
     messages.Open: _open, messages.Save: _save, messages.SetUnderlay: _set_underlay,

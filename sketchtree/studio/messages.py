@@ -132,6 +132,7 @@ class Points(_Record):
     shown: bool = True
     size: Annotated[float, Meta(ge=0.5, le=8)] = 2.0  # CSS pixels that a point is wide
     traced: bool = False  # the tree is the one that stands in them
+    turn: Degrees = 0.0  # the azimuth that the page faced last
 
 
 class Edit(_Record):
@@ -184,6 +185,12 @@ class ChoosePoints(_Said):
 
     points: Points
     label: Annotated[str, Meta(max_length=40)] = "points"
+
+
+class Turned(_Said):
+    """The page faces this azimuth: a drawing with points behind it remembers that. No step."""
+
+    turn: Degrees
 
 
 class SetCloud(_Said):
@@ -307,7 +314,7 @@ class UseTraced(_Said):
 
 
 Request = (
-    Hello | Strokes | Sketching | Choose | ChooseTrunk | ChoosePoints | SetCloud | Glance | Hold | Flip | Mirror | Lock | Delete | Settle | Readings | Pick | Undo | Redo | Cancel | New
+    Hello | Strokes | Sketching | Choose | ChooseTrunk | ChoosePoints | Turned | SetCloud | Glance | Hold | Flip | Mirror | Lock | Delete | Settle | Readings | Pick | Undo | Redo | Cancel | New
     | Open | Save | SetUnderlay | UseTraced | Grow | Propose
 )  # fmt: skip
 

@@ -138,7 +138,7 @@ def points_out(points: CloudChoices) -> messages.Points:
 
 def points_in(said: messages.Points) -> CloudChoices:
     """And as the page says it. Raises OptionError."""
-    return CloudChoices(said.shown, said.size, said.traced)
+    return CloudChoices(said.shown, said.size, said.traced, said.turn)
 
 
 @lru_cache(maxsize=8)

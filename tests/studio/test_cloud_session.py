@@ -52,7 +52,7 @@ def test_a_page_is_told_where_they_lie_and_how_many():
             assert said["cloud"] == {
                 "digest": CLOUD.digest, "x": 0.0, "y": 0.0, "unit": 100.0, "count": 2, "coloured": False, "height": 4.0, "remarks": list(CLOUD.remarks),
             }  # fmt: skip
-            assert said["points"] == {"shown": True, "size": 2.0, "traced": False}
+            assert said["points"] == {"shown": True, "size": 2.0, "traced": False, "turn": 0.0}
             assert talk.session.desk.clouds[CLOUD.digest].points == CLOUD.points
 
     asyncio.run(test())
@@ -163,6 +163,47 @@ def test_it_is_read_as_it_was_asked_and_a_page_that_waits_is_answered_where_noth
             told = len(talk.all("changed"))
             await talk.say(messages.Open(name="scan.ply", cloud=wanted))
             assert len(talk.all("changed")) == told + 1
+
+    asyncio.run(test())
+
+
+def test_over_points_the_tree_is_not_mirrored_until_they_are_taken_away():
+    async def test():
+        async with scene(Document({"trunk": TRUNK}, cloud=CLOUD)) as talk:
+            await talk.say(messages.Mirror())
+            assert talk.last("trouble")["message"] == "The points behind the drawing say on which side each limb is: a mirrored tree would lie beside them."
+            assert talk.last("trouble")["remedy"] == "Flip single limbs, or take the points away first."
+            before = talk.session.document.settled
+            await talk.say(messages.SetCloud(), messages.Mirror())
+            assert talk.session.document.settled is not before and talk.last("changed")["undo"] == "mirror"
+
+    asyncio.run(test())
+
+
+def test_the_side_that_the_page_faces_is_remembered_and_is_no_step(tmp_path, monkeypatch):
+    monkeypatch.setenv("SKETCHTREE_RECOVERY", str(tmp_path))
+
+    async def test():
+        async with scene(Document(cloud=CLOUD), journal=journal_of(None)) as talk:
+            await talk.say(messages.Turned(turn=15))
+            assert talk.session.document.points == CloudChoices(turn=15) and talk.desk.revision == 1 and talk.last("changed")["undo"] is None
+            await talk.say(drawn("a"), messages.Turned(turn=-75))
+            late = type(talk)(talk.session)
+            await late.say(messages.Hello(version=messages.VERSION))
+            assert late.last("changed")["points"]["turn"] == -75 and len(talk.engine.made) == 2
+
+    asyncio.run(test())
+    journal = journal_of(None)
+    found = journal.play()
+    journal.close()
+    assert found.history.document.points.turn == -75 and found.history.undo() and not found.history.undo()
+
+
+def test_without_points_no_side_is_remembered():
+    async def test():
+        async with scene(Document({"trunk": TRUNK})) as talk:
+            await talk.say(messages.Turned(turn=15))
+            assert talk.session.document.points == CloudChoices()
 
     asyncio.run(test())
 

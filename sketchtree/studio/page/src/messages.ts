@@ -119,6 +119,7 @@ export interface Points {
   shown: boolean;
   size: number; // CSS pixels that a point is wide
   traced: boolean; // the tree is the one that stands in them
+  turn: number; // the azimuth that the page faced last
 }
 
 /** The drawing, or what became different in it since `since` (0: everything; whatever the page has goes). */
@@ -460,6 +461,7 @@ export interface SentPoints {
   shown?: boolean;
   size?: number; // CSS pixels that a point is wide
   traced?: boolean; // the tree is the one that stands in them
+  turn?: number; // the azimuth that the page faced last
 }
 
 /** See the points so, and use them so. A quick succession under one `label` makes one step of undo. */
@@ -467,6 +469,12 @@ export interface ChoosePoints {
   type: "choosepoints";
   points: SentPoints;
   label?: string;
+}
+
+/** The page faces this azimuth: a drawing with points behind it remembers that. No step. */
+export interface Turned {
+  type: "turned";
+  turn: number;
 }
 
 /** Points of a scan behind the drawing; their bytes are at /cloud/<digest>: x, y, z of each as 32 bits (metres, y UP, the foot at the origin), then red, green, blue of each as 8, where coloured. */
@@ -619,5 +627,5 @@ export interface Propose {
   type: "propose";
 }
 
-export type Request = Hello | Strokes | Sketching | Choose | ChooseTrunk | ChoosePoints | SetCloud | Glance | Hold | Flip | Mirror | Lock | Delete | Settle | Readings | Pick | Undo | Redo | Cancel | New | Open | Save | SetUnderlay | UseTraced | Grow | Propose;
+export type Request = Hello | Strokes | Sketching | Choose | ChooseTrunk | ChoosePoints | Turned | SetCloud | Glance | Hold | Flip | Mirror | Lock | Delete | Settle | Readings | Pick | Undo | Redo | Cancel | New | Open | Save | SetUnderlay | UseTraced | Grow | Propose;
 export type Event = Welcome | Changed | Working | Warming | Trouble | Several | Matches | Alternatives | Saved | Read | Traced | Foliage | Matte | Trunks | Proposed | Growing | Making | Tree | Ghost;

@@ -52,7 +52,7 @@ describe("the world's place on the page", () => {
 });
 
 describe("what is said", () => {
-  const traced = { shown: true, size: 2, traced: true };
+  const traced = { shown: true, size: 2, traced: true, turn: 0 };
   test("first what to do, then how far it is", () => {
     expect(said({ ...traced, traced: false }, null)).toBe("Draw over the points: limbs take their depth from them.");
     expect(said(traced, { type: "growing", revision: 1, state: "grows", stage: "infer", done: 0.5, remark: "" })).toBe("Tracing the tree …");

@@ -5,6 +5,7 @@ import type { Store } from "../store";
 import { camera } from "./camera";
 import { CloudPicture } from "./cloud/picture";
 import { followScan } from "./cloud/scan";
+import { rememberTurn } from "./cloud/turn";
 import type { Desk } from "./desk";
 import { followDrawing } from "./following";
 import { drawing } from "./hand/drawing";
@@ -66,6 +67,7 @@ export function mountDraw(root: HTMLElement, store: Store): void {
   followDrawing(desk);
   followPhoto(store);
   followScan(store);
+  rememberTurn(store);
   followWay(store);
   mountWheel(top, camera);
   mountTip(root, top, desk);

@@ -4,6 +4,8 @@ import { block, button } from "../../parts/button";
 import { element } from "../../parts/element";
 import type { Store } from "../../store";
 
+const POINTS = "the points behind the page say on which side each limb is";
+
 export function wholeTree(store: Store): HTMLElement {
   const settle = button({
     label: "Guess depths anew", icon: "reset", testId: "settle", hint: "Find all depths again from the drawing alone. What you hold or have locked stays.",
@@ -16,9 +18,9 @@ export function wholeTree(store: Store): HTMLElement {
   const follow = (): void => {
     const reason = store.known.strokes.size === 0 ? "draw something first" : null;
     block(settle, reason);
-    block(mirror, reason);
+    block(mirror, reason ?? (store.known.cloud ? POINTS : null));
   };
-  store.on("strokes", follow);
+  store.on(["strokes", "cloud"], follow);
   follow();
   return element("div", { class: "buttons" }, settle, mirror);
 }
