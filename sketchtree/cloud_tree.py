@@ -32,7 +32,7 @@ from sketchtree.clouds.standing.stems import breast_height
 from sketchtree.clouds.standing.trunk import Trunk, foot_radii, trunk
 from sketchtree.clouds.tracing.traced import Traced, traced
 from sketchtree.errors import OptionError
-from sketchtree.growth_tree import GrowthOptions, Worn, grown_tree, of_skeleton
+from sketchtree.growth_tree import Beginning, GrowthOptions, Worn, grown_tree, of_skeleton
 from sketchtree.keys import stage_key
 from sketchtree.options import TreeOptions
 from sketchtree.skeleton import TreeSkeleton
@@ -90,10 +90,14 @@ class Finish:
     template: str | None = None  # the exemplar whose leaves and bark it wears
     leafing: Covering | None = None  # puts leaves where some were seen; None of a plant that isn't in leaf
 
+    def begun(self, wood: TreeSkeleton) -> Beginning:
+        """What grows and is finished: wood that was found, and which leaves it is to bear."""
+        tree = replace(self.tree, leaf="none") if self.tree.leaf == "auto" and self.leafing is None else self.tree
+        return replace(of_skeleton(wood, tree, self.templates, key=self.key, template=self.template), leafing=self.leafing)
+
     def __call__(self, wood: TreeSkeleton, watch: Watch | None = None) -> tuple[Worn, tuple[str, ...]]:
         """(the finished tree, what a person should know about it)."""
-        tree = replace(self.tree, leaf="none") if self.tree.leaf == "auto" and self.leafing is None else self.tree
-        begun = replace(of_skeleton(wood, tree, self.templates, key=self.key, template=self.template), leafing=self.leafing)
+        begun = self.begun(wood)
         model = grown_tree(begun, GrowthOptions(levels=0), self.tree, watch=watch).model
         return model, (*begun.warnings, *model.warnings)
 
@@ -168,8 +172,7 @@ class Found:
 
     def leafing(self, prepared: Prepared) -> Covering | None:
         """What puts leaves where some were seen."""
-        leaf = self.leafy.leaf
-        return Covering(prepared.cloud.xyz[leaf], self.leafy.area[leaf]) if leaf.any() else None
+        return Covering(prepared.cloud.xyz[self.leafy.sure]) if self.leafy.sure.any() else None
 
 
 def _wood(prepared: Prepared, stands: Feet, wanted: CloudOptions, key) -> Found:

@@ -19,12 +19,8 @@ def traced(source: Path, templates, *, seed: int, seed_chosen: bool, season_chos
 
 def begun(source: Path, templates, *, seed: int, seed_chosen: bool, season_chosen: bool, reading, tree, watch=None):
     """(what the project's tree begins as, the seed in use), of commands that let it grow. Raises as `traced`."""
-    from sketchtree.growth_tree import of_skeleton
-    from sketchtree.keys import root_key
-
     found, seed = traced(source, templates, seed=seed, seed_chosen=seed_chosen, season_chosen=season_chosen, reading=reading, tree=tree, watch=watch)
-    worn = found.finish
-    return of_skeleton(found.skeleton, worn.tree, templates, key=root_key(seed), template=worn.template), seed
+    return found.finish.begun(found.skeleton), seed
 
 
 def grown(source: Path, db: Path | None, *, seed: int, seed_chosen: bool, season_chosen: bool = False, tree=None):

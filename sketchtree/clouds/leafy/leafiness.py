@@ -1,11 +1,13 @@
 """Is the plant in leaf, and which points are its leaves?
 
 First the cloud as a whole, thinned to 20,000 points so that it is looked at as coarsely as any. *Ends* are points on which next to nothing hangs (b < 3, `borne`). It is in leaf where ends are
-many and fill space (`turning.filling`), or are green where its wood is not (`green`):
+many and fill space (`turning.filling`), or are green where its wood is not (`green`); or, where a scan is finer than it is looked at by, so that none of its wood is left out, where leaves
+explain more of it than wood does (π, `leaves_among`), though they are few:
 
-    ends ≥ 0.66 of the points  and  median D of the ends ≥ 2.05
+    ends ≥ 0.66 of the points  and  median D of the ends ≥ 2.05        or        π ≥ 0.6  and  median D ≥ 2
 
 Six trees of ours in leaf have 0.73-0.78 and 2.1-2.7, bare ones 0.37-0.53 and 1.5-2.0; five scans of others that came with no leaves 0.43-0.66 and 1.8-2.3, none of them enough of both.
+With a third of their leaves left they have 0.64-0.72, 2.1-2.4 and a π of 0.64-0.86; bare ones that are off by 0.3 % of their height a π of up to 0.56, but a bare spruce.
 If it isn't, all points are wood.
 
 Then each point of at most 100,000, by b, κ (`turning`) and colour where that tells; the others are what the nearest of these is:
@@ -22,6 +24,7 @@ from typing import NamedTuple
 import numpy as np
 from jaxtyping import Bool, Float, Int
 from scipy.spatial import cKDTree
+from scipy.special import expit
 
 from sketchtree.axes import NULL
 from sketchtree.clouds.leafy.borne import borne
@@ -35,9 +38,13 @@ from sketchtree.skeleton import TreeSkeleton
 
 IN_LEAF = ("auto", "yes", "no")
 ENDS, ENDS_SHARE, FILLS = 3.0, 0.66, 2.05
+_EXPLAINS, _FILLS_FEW = 0.6, 2.0  # π and D, where a scan has at least so many points as two looks:
+_LOOKS = 2.0
 _GREEN_SHARE = 0.55  # of the points are ends at least, where they are green
 _BASE, _BORNE, _TURNING, _NEVER_FLAT, _GREEN = 4.33, 0.95, 0.42, 0.003, 2.0
 _SURE, _BEARS = -1.0, 5.0  # log odds of wood that is sure; b of what bears much
+_CERTAIN = 1.0  # log odds of a leaf that is no twig: of a tree with a tenth of its leaves a third of what is taken for leaves is twigs
+_STEPS = 60  # of expectation and maximisation
 _FEWEST = 300  # points that leaves may be told among
 _TWIG, _BARK = 0.003, 1.3  # of the height: radius of a twig; radii within which points are bark
 _STRAY = 0.03  # of the height: farther from the bark of the wood that was traced, outside or inside, lies no point of wood
@@ -50,7 +57,8 @@ class Leafiness:
     """What of a cloud is leaves."""
 
     leaf: Bool[np.ndarray, " point"]
-    area: Float[np.ndarray, " point"]  # m² of leaf that each stands for, seen or hidden; 0 of wood
+    sure: Bool[np.ndarray, " point"]  # those of them that are no twigs, as far as can be told
+    area: Float[np.ndarray, " point"]  # m² of leaf that each stands for, seen or hidden; 0 of wood; a rough figure
     in_leaf: bool
     ends: float  # share of the points on which next to nothing hangs
     fills: float  # median D of those
@@ -76,7 +84,7 @@ def check_in_leaf(wanted: str) -> None:
 def leafiness(xyz: Float[np.ndarray, "point 3"], feet: list[Int[np.ndarray, " start"]], colour: Float[np.ndarray, "point 3"] | None = None, wanted: str = "auto") -> Leafiness:
     """Which points of a plant on its feet are leaves. `wanted`: of `IN_LEAF`, whether it is in leaf. Raises OptionError."""
     check_in_leaf(wanted)
-    bare = np.zeros(len(xyz), bool), np.zeros(len(xyz))
+    bare = np.zeros(len(xyz), bool), np.zeros(len(xyz), bool), np.zeros(len(xyz))
     if wanted == "no" or len(xyz) < _FEWEST:
         return Leafiness(*bare, False, 0.0, 0.0, False)
     whole = _seen(xyz, feet, colour, _COARSE)
@@ -84,16 +92,17 @@ def leafiness(xyz: Float[np.ndarray, "point 3"], feet: list[Int[np.ndarray, " st
     share = float(np.mean(ends))
     fills = float(np.median(filling(whole.xyz, whole.xyz[ends]))) if ends.any() else 0.0
     found = (share >= ENDS_SHARE and fills >= FILLS) or (whole.green is not None and share >= _GREEN_SHARE)
+    found = found or (fills >= _FILLS_FEW and len(xyz) >= _LOOKS * _COARSE and leaves_among(_odds(whole)) >= _EXPLAINS)
     if wanted == "auto" and not found:
         return Leafiness(*bare, False, share, fills, whole.green is not None)
     fine = _seen(xyz, feet, colour, _FINE)
-    odds = _BASE - _BORNE * fine.hangs + _TURNING * np.log(turning(fine.xyz) + _NEVER_FLAT) + (0.0 if fine.green is None else _GREEN * fine.green)
+    odds = _odds(fine)
     wood = _led_to(odds < _SURE, fine.way) | (odds < 0)
     wood[np.concatenate(fine.feet)] = True
     nearest = cKDTree(fine.xyz).query(xyz)[1]
     leaf = ~wood[nearest]
     area = np.where(leaf, (_AREA * fine.spacing**2 / np.maximum(np.bincount(nearest, minlength=len(fine.xyz)), 1))[nearest], 0.0)
-    return Leafiness(leaf, area, True, share, fills, fine.green is not None)
+    return Leafiness(leaf, leaf & (odds > _CERTAIN)[nearest], area, True, share, fills, fine.green is not None)
 
 
 def off_bark(found: Leafiness, xyz: Float[np.ndarray, "point 3"], wood: TreeSkeleton) -> Leafiness:
@@ -104,9 +113,9 @@ def off_bark(found: Leafiness, xyz: Float[np.ndarray, "point 3"], wood: TreeSkel
         return found
     far, radius = _from_axes(xyz[leaf], wood, thick, wood.radius[thick] / 2)
     bark = leaf[far < _BARK * radius]
-    still, area = found.leaf.copy(), found.area.copy()
-    still[bark], area[bark] = False, 0.0
-    return replace(found, leaf=still, area=area)
+    still, sure, area = found.leaf.copy(), found.sure.copy(), found.area.copy()
+    still[bark], sure[bark], area[bark] = False, False, 0.0
+    return replace(found, leaf=still, sure=sure, area=area)
 
 
 def left_out(points: Float[np.ndarray, "point 3"], wood: TreeSkeleton) -> float:
@@ -149,6 +158,22 @@ def _seen(xyz, feet, colour, most: int) -> _Seen:
     way = ways(some, graph, start)
     hangs = borne(some, way)
     return _Seen(some, start, way, graph.spacing, hangs, green_odds(None if colour is None else colour[kept], hangs > _BEARS, hangs < ENDS))
+
+
+def _odds(seen: _Seen) -> Float[np.ndarray, " point"]:
+    """Log odds of a leaf, of every point, wood and leaves being as many."""
+    return _BASE - _BORNE * seen.hangs + _TURNING * np.log(turning(seen.xyz) + _NEVER_FLAT) + (0.0 if seen.green is None else _GREEN * seen.green)
+
+
+def leaves_among(odds: Float[np.ndarray, " point"]) -> float:
+    """π, the share of leaves that explains log odds best, which are those of as many leaves as wood:
+
+        π = mean of 1 / (1 + e^−(odds + log π / (1 − π)))        (Saerens et al. 2002, by expectation and maximisation)
+    """
+    share = 0.5
+    for _ in range(_STEPS):
+        share = float(np.clip(expit(odds + np.log(share / (1 - share))).mean(), 1e-4, 1 - 1e-4))
+    return share
 
 
 def _led_to(sure: Bool[np.ndarray, " point"], way: Ways) -> Bool[np.ndarray, " point"]:

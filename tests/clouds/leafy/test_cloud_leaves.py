@@ -19,12 +19,17 @@ from sketchtree.clouds.cloud import PointCloud
 from sketchtree.clouds.leafy.borne import borne, passing
 from sketchtree.clouds.leafy.covering import Covering, leaf_area_of
 from sketchtree.clouds.leafy.green import excess, green_odds
-from sketchtree.clouds.leafy.leafiness import leafiness, left_out, off_bark
+from sketchtree.clouds.leafy.leafiness import leafiness, leaves_among, left_out, off_bark
+from sketchtree.clouds.leafy.shown import cubes, pixel_of, shown, spots, spots_of
 from sketchtree.clouds.leafy.turning import filling, turning
 from sketchtree.clouds.tracing.traced import traced
 from sketchtree.clouds.tracing.ways import Ways
 from sketchtree.dressing import Dress
 from sketchtree.errors import OptionError
+from sketchtree.fidelity.sampled import over
+from sketchtree.foliage.cards import leaf_mesh
+from sketchtree.foliage.leaves import select
+from sketchtree.foliage.populate import populate
 from sketchtree.keys import root_key
 from sketchtree.options import TreeOptions
 from sketchtree.skeleton import Kind, TreeSkeleton
@@ -113,6 +118,22 @@ def test_a_plant_whose_leaves_are_green_is_in_leaf(scan):
     assert np.mean(leaf[some][found.leaf]) > 0.98
 
 
+def test_leaves_that_are_sure_are_some_of_those_that_are_no_wood(scan):
+    points, leaf = scan
+    found = told(points)
+    assert not (found.sure & ~found.leaf).any()
+    assert 0.3 < found.sure.sum() / found.leaf.sum() < 1
+    assert leaf[found.sure].mean() >= leaf[found.leaf].mean()
+
+
+@pytest.mark.parametrize("share", [0.1, 0.4, 0.8])
+def test_the_share_of_leaves_that_explains_the_odds_is_the_true_one(share):
+    """Normal odds of two kinds: of leaves about 2, of wood about −2, with variance 4, which are the log odds of themselves."""
+    chance = np.random.default_rng(0)
+    odds = np.where(chance.random(20_000) < share, 2.0, -2.0) + 2.0 * chance.normal(size=20_000)
+    assert leaves_among(odds) == pytest.approx(share, abs=0.02)
+
+
 def test_leaves_become_hardly_any_wood(tree):
     assert 0.75 * LENGTH < tree.skeleton.length[: tree.seen].sum() < 3 * LENGTH
     assert (tree.skeleton.kind[: tree.seen] == int(Kind.OBSERVED)).all() and (tree.skeleton.kind[tree.seen :] == int(Kind.GROWN)).all()
@@ -129,8 +150,14 @@ def test_twigs_grow_to_where_leaves_were_seen(tree):
     assert cKDTree(OUTER).query(new)[0].max() < REACH + 0.25
 
 
-def test_as_many_leaves_are_worn_as_the_points_say(tree):
-    assert leaf_area_of(tree.model.leaves).sum() == pytest.approx(tree.leafy.area.sum(), rel=0.3)
+@pytest.mark.parametrize(("share", "points"), [(1.0, 8), (0.1, 8), (0.3, 30)])
+def test_as_many_leaves_are_worn_as_there_were_however_few_and_however_densely_scanned(tree, share, points):
+    dress, other = Dress("apple", "apple", "summer", tree.model.dress.habit), root_key(7)
+    grew = populate(tree.skeleton, dress.habit, key=other, model="apple")
+    grew = select(grew, np.random.default_rng(0).random(len(grew)) < share)
+    scanned = over([leaf_mesh(replace(grew, shoot=grew.shoot[:0]))], points * len(grew), key=other)
+    worn, _ = Covering(scanned)(tree.skeleton, dress, KEY)
+    assert leaf_area_of(worn).sum() == pytest.approx(leaf_area_of(grew).sum(), rel=0.25)
 
 
 def test_and_where_they_say_so_bare_boughs_stay_bare(tree):
@@ -176,7 +203,7 @@ def test_a_person_is_told_and_the_report_says_it(scan, tree):
 
 
 def test_the_same_key_puts_the_same_leaves(tree):
-    again = Covering(np.array(tree.finish.leafing.place), tree.finish.leafing.area)
+    again = Covering(np.array(tree.finish.leafing.place))
     dress = Dress("apple", "apple", "summer", tree.model.dress.habit)
     one, other = (how(tree.skeleton, dress, KEY)[0] for how in (tree.finish.leafing, again))
     assert len(one) and (one.position == other.position).all()
@@ -197,3 +224,31 @@ def test_wood_that_lies_in_its_points_leaves_none_of_them_out():
     assert left_out(points, whole) == 0
     assert left_out(points, half) == pytest.approx(0.47, abs=0.05)
     assert left_out(points, fat) == 1
+
+
+@pytest.mark.parametrize("model", ["apple", "ash", "pine"])
+def test_spots_lie_on_what_is_drawn_of_a_leaf(model):
+    place = spots_of(model)
+    assert len(place) == 10 and len(np.unique(place, axis=0)) == 10
+    assert np.abs(place).max() < 2.0 and place[:, 1].min() > -0.05
+
+
+def test_a_leaf_before_another_hides_it():
+    """A wall of four sides and the floor under it, round a spot; and the same with a gap."""
+    side = np.stack(np.meshgrid(np.linspace(-1, 1, 60), np.linspace(-1, 1, 60)), axis=-1).reshape(-1, 2)
+    wall = np.concatenate([np.insert(side, axis, at, axis=1) for axis in (0, 1, 2) for at in (-1.0, 1.0)])
+    middle = np.zeros((1, 3))
+    assert not shown(np.concatenate([middle, wall]), 0.08)[0]
+    assert shown(np.concatenate([middle, wall[wall[:, 2] < 0.9]]), 0.08)[0]
+    assert shown(wall, 0.08).mean() > 0.6
+
+
+def test_a_spot_stands_for_a_tenth_of_what_is_drawn(tree):
+    leaves = tree.model.leaves
+    assert 10 * pixel_of(leaves) ** 2 == pytest.approx(leaf_area_of(leaves).mean())
+    assert spots(leaves).shape == (len(leaves), 10, 3)
+    assert np.linalg.norm(spots(leaves) - leaves.position[:, None], axis=2).max() < 2 * leaves.size.max()
+
+
+def test_points_are_counted_by_the_cubes_that_hold_some():
+    assert len(cubes(np.array([[0.1, 0.1, 0.1], [0.9, 0.9, 0.9], [1.1, 0.0, 0.0], [-0.1, 0.0, 0.0]]), 1.0)) == 3
