@@ -19,11 +19,11 @@ from sketchtree.multiview.cameras import Camera
 from sketchtree.multiview.compiled import compiled
 from sketchtree.multiview.workplace import block
 
-NOISE = 0.045  # c of an even place
+NOISE = 0.03  # c of an even place
 BESIDE = 2.2  # pixels
 CLEAR = 0.5  # of c on the line: what c beside it may be, if it is more than noise
 LEAST = 3  # photos
-SHARE = 0.2
+SHARE = 0.3
 NEAR = 6  # pixels to the even place: farther in, all is plant
 ABOUT = 0.6  # pixels: the line may be so far beside where it is thought to be
 

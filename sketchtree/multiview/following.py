@@ -22,11 +22,13 @@ STEP = 2.5  # pixels
 TURNS = np.radians([10.0, 20.0])  # from the course, at a step
 AROUND = 8  # directions at each
 LONGEST = 120  # steps
+DOUBLE, SAME_WAY = 4.5, 0.85  # pixels: beside wood that runs the same way, nothing runs by chance
 APART = 2.0  # pixels: what is nearer to other wood is that wood
 LEAVES = np.radians([35.0, 55.0, 75.0])  # from the limb that bears it
 SPROUTS = 16  # directions at each
-FIRST = 4  # steps that all must be shown, for a twig to begin
-SHORTEST = 6  # steps of a twig
+FIRST = 3  # steps that all must be shown, for a twig to begin
+SHORTEST = 3  # steps of a twig
+SURE = 3  # steps that a spur must go on, not to be roughness
 SPUR = 10.0  # pixels: shorter limbs must be shown
 BENDS = 0.08  # what a turn of TURNS[-1] costs, of what is shown straight on
 _BACK = 6.0  # pixels of the end's course
@@ -51,6 +53,8 @@ def followed(tree: TreeSkeleton, photos: Contrasts, pixel: float) -> TreeSkeleto
     wood = _Wood(tree, pixel)
     _follow(front, wood, photos, pixel)
     _trimmed(front, photos)
+    spur = np.bincount(tree.limb, tree.length)[tree.limb[ends]] < SPUR * pixel
+    front.way = [way if len(way) >= SURE or not short else [] for way, short in zip(front.way, spur, strict=True)]
     tree = _with(tree, front, 1, pixel)
     front = _sprouts(tree, wood, photos, pixel)
     _follow(front, wood, photos, pixel)
@@ -110,21 +114,21 @@ def _shown_by(foot, tip, axis, radius, pixel, to_pixel, contrast, sizes):
 
 
 class _Wood:
-    """Where wood is already, and whose."""
+    """Where wood is already, whose, and which way it runs."""
 
     def __init__(self, tree: TreeSkeleton, pixel: float):
         share = [np.linspace(0.0, 1.0, max(2, int(np.ceil(long / pixel)) + 1))[1:] for long in tree.length]
         row = np.repeat(np.arange(len(tree)), [len(one) for one in share])
         self.place = tree.tip[row] - (1.0 - np.concatenate(share))[:, None] * tree.vector[row]
-        self.owner, self.radius = tree.limb[row], tree.radius[row]
+        self.owner, self.axis = tree.limb[row], _unit(tree.vector[row])
         self._index = cKDTree(self.place)
 
     def near(self, place, reach):
         """Rows of wood within reach of each place."""
         return self._index.query_ball_point(place, reach)
 
-    def more(self, place, owner, radius) -> None:
-        self.place, self.owner, self.radius = np.concatenate([self.place, place]), np.append(self.owner, owner), np.append(self.radius, radius)
+    def more(self, place, owner, axis) -> None:
+        self.place, self.owner, self.axis = np.concatenate([self.place, place]), np.append(self.owner, owner), np.concatenate([self.axis, axis])
         self._index = cKDTree(self.place)
 
 
@@ -140,14 +144,14 @@ def _follow(front: _Front, wood: _Wood, photos: Contrasts, pixel: float) -> None
         best = score.argmax(axis=1)
         at = np.arange(len(alive))
         to = front.place[alive] + step * ways[at, best]
-        goes = fine[at, best] & ~_met(to, alive, name, front, wood, pixel)
+        goes = fine[at, best] & ~_met(to, ways[at, best], alive, name, front, wood, pixel)
         alive, to, way = alive[goes], to[goes], ways[at, best][goes]
         for k, place in zip(alive, to, strict=True):
             front.way[k].append(place)
         front.course[alive] = _unit(0.5 * front.course[alive] + 0.5 * way)
         front.place[alive] = to
         if len(alive):
-            wood.more(to, name[alive], np.zeros(len(alive)))
+            wood.more(to, name[alive], way)
 
 
 def _trimmed(front: _Front, photos: Contrasts) -> None:
@@ -166,12 +170,14 @@ def _fine(start, end, to_pixel, contrast, sizes):
     return shows >= LEAST and past <= SHARE * (shows + past)
 
 
-def _met(to, alive, name, front: _Front, wood: _Wood, pixel: float):
-    """Which places are at other wood than their own, and no farther from it than the step before."""
+def _met(to, way, alive, name, front: _Front, wood: _Wood, pixel: float):
+    """Which places are at other wood than their own, and no farther from it than the step before; or beside wood that runs the same way."""
     found = np.zeros(len(to), bool)
-    for k, rows in enumerate(wood.near(to, APART * pixel)):
+    for k, rows in enumerate(wood.near(to, DOUBLE * pixel)):
         rows = np.asarray(rows, int)
         rows = rows[(wood.owner[rows] != name[alive[k]]) & (wood.owner[rows] != front.own[alive[k]])]
+        far = np.linalg.norm(wood.place[rows] - to[k], axis=1)
+        rows = rows[(far < APART * pixel) | (np.abs(wood.axis[rows] @ way[k]) > SAME_WAY)]
         if len(rows):
             now, before = (np.linalg.norm(wood.place[rows] - place, axis=1).min() for place in (to[k], front.place[alive[k]]))
             found[k] = now < before + 0.5 * STEP * pixel
@@ -218,7 +224,7 @@ def _sprouts(tree: TreeSkeleton, wood: _Wood, photos: Contrasts, pixel: float) -
     if kept:
         begun = _Front(np.array([one[0] for one in kept]), np.array([one[1] for one in kept]), np.array([one[2] for one in kept]), [one[3] for one in kept], np.array([one[1] for one in kept]), np.full(len(kept), -10**9))
         own = np.concatenate([np.full(FIRST + 1, -1 - k) for k in range(len(kept))])
-        wood.more(np.concatenate([one[3] for one in kept]), own, np.zeros(len(own)))
+        wood.more(np.concatenate([one[3] for one in kept]), own, np.repeat([one[2] for one in kept], FIRST + 1, axis=0))
     return begun
 
 
