@@ -45,12 +45,13 @@ def level_of_detail(model: Model, number: int) -> tuple[Mesh, ...]:
 
 
 def within_triangles(model: Model, triangles: int) -> tuple[Mesh, ...]:
-    """The meshes with so many triangles at most, in the order of `level_of_detail`; the model's own where they have no more. Raises OptionError for fewer than `FEWEST_TRIANGLES`."""
+    """The meshes with so many triangles at most, in the order of `level_of_detail`; the model's own where they have no more. Of bare wood as near to its surface as they allow: such a
+    mesh isn't seen from afar, but measured, or worked on. Raises OptionError for fewer than `FEWEST_TRIANGLES`."""
     if triangles < FEWEST_TRIANGLES:
         raise OptionError(f"{triangles:,} triangles are too few for a tree.", remedy=f"Give {FEWEST_TRIANGLES} or more.")
     if sum(mesh.triangle_count for mesh in model.meshes) <= triangles:
         return tuple(model.meshes)
-    return _budget(model).meshes(triangles)
+    return _budget(model, surface=True).meshes(triangles)
 
 
 def as_fine_as(model: Model, wanted: FileOptions) -> tuple[Mesh, ...]:
@@ -71,9 +72,9 @@ def make_levels(model: Model, *, pixel_error: float = 1.0, with_impostor: bool =
     return tuple(Level(part, share) for part, share in zip(parts, _coverages(model, parts, pixel_error), strict=True))
 
 
-def _budget(model: Model) -> Budget:
+def _budget(model: Model, surface: bool = False) -> Budget:
     worn = [leaves for leaves in (model.leaves, model.blossom) if leaves is not None and len(leaves)]
-    return Budget(model.skeleton, worn, model.meshes, model.dress)
+    return Budget(model.skeleton, worn, model.meshes, model.dress, surface)
 
 
 def _most(model: Model, number: int) -> int:

@@ -14,7 +14,15 @@ A polygon of n sides is as wide on average as the full tree's of m sides and rad
 
     R_n = r q_m / q_n        q_n = n sin(π / n) / π
 
-Given a number of triangles, each limb takes the choice of least A + λ · triangles, with one λ for all: at the optimum another triangle buys
+Where it is asked how near the surface stays, as of wood that was measured, D + A is counted instead of A, with D how far the limb's surface lies off what is drawn, times its length:
+
+    left out      D = L (L / 4 + r̄)                  all of it lies as far off as what bears it is, at an angle of 30°
+    spike         D = L (ē_2 + r̄ / 2)
+    tube          D = L (ē_k + w r̄)
+
+so that a long thin limb is worth more than its outline, and a crooked one is no spike.
+
+Given a number of triangles, each limb takes the choice of least A + λ · triangles (or D + A), with one λ for all: at the optimum another triangle buys
 the same everywhere (Everett 1963, "Generalized Lagrange multiplier method"). λ is found by bisection. A limb that bears one that is drawn is drawn.
 """
 
@@ -31,6 +39,7 @@ from sketchtree.geometry.simplify import enough
 SIDES = (3, 4, 6, 8, 12, 16)
 _FINENESS = (0.0, 0.12, 0.3, 0.7, 1.6, 4.0)  # tolerances tried for the line of a limb, / its mean radius
 _SEARCHES = 60
+_HANGS = 0.25  # how far a limb's middle lies off what bears it, of its length: half the sine of 30°
 
 
 @dataclass(frozen=True, eq=False)
@@ -95,8 +104,8 @@ def choose_shapes(ring: Rings, choices: Choices, parent: Int[np.ndarray, " limb"
     return _shapes(ring, choices, best)
 
 
-def choices_of(ring: Rings, full: Int[np.ndarray, " limb"]) -> Choices:
-    """What every limb can be drawn as; on the full tree the limbs have `full` sides."""
+def choices_of(ring: Rings, full: Int[np.ndarray, " limb"], surface: bool = False) -> Choices:
+    """What every limb can be drawn as; on the full tree the limbs have `full` sides. `surface`: it counts how near that stays, not the outline alone."""
     limb, count = ring.limb, len(full)
     ends = np.zeros(len(limb), bool)
     ends[ring.start[:-1]] = ends[ring.start[1:] - 1] = True
@@ -106,6 +115,11 @@ def choices_of(ring: Rings, full: Int[np.ndarray, " limb"]) -> Choices:
     tube = np.column_stack([ring.point, ring.radius])
     area = 2.0 * mean * length
     wrong, cost, fineness, side, kept = [area, 0.5 * area], [np.zeros(count, np.int64), np.full(count, 3)], [NULL, NULL], [0, 3], []
+    if surface:
+        straight = np.bincount(limb, share * _away(ring, tube, ends), count)
+        area = length * (_HANGS * length + mean) + area
+        wrong = [area, np.minimum(length * (straight + 0.5 * mean) + wrong[1], area)]
+    tubes = 3.0 if surface else 2.0
     rough = {n: np.array([roughness(n, int(m)) for m in range(3, int(full.max(initial=3)) + 1)])[full - 3] for n in SIDES}
     for rank, factor in enumerate(_FINENESS):
         scale = (max(factor, 1e-6) * np.maximum(mean, 1e-9))[limb]
@@ -114,7 +128,7 @@ def choices_of(ring: Rings, full: Int[np.ndarray, " limb"]) -> Choices:
         away = np.bincount(limb, share * _away(ring, tube, keep), count)
         rings = np.bincount(limb[keep], minlength=count)
         for n in SIDES:
-            wrong.append(np.minimum(2.0 * length * (away + rough[n] * mean), area))
+            wrong.append(np.minimum(tubes * length * (away + rough[n] * mean), area))
             cost.append(2 * n * (rings - 1) + n - 2)
             fineness.append(rank)
             side.append(n)

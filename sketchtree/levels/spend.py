@@ -46,12 +46,13 @@ class _Form:
 class Budget:
     """A tree whose triangles are to be spent. What is made once serves every level."""
 
-    def __init__(self, skeleton: TreeSkeleton, worn: Sequence[Leaves], full: Sequence[Mesh], dress: Dress):
+    def __init__(self, skeleton: TreeSkeleton, worn: Sequence[Leaves], full: Sequence[Mesh], dress: Dress, surface: bool = False):
+        """`surface`: wood that wears nothing is to keep its surface, rather than its outline alone."""
         self._worn, self._season = tuple(worn), dress.season
         leafy = np.zeros(len(skeleton), bool)
         for leaves in worn:
             leafy[leaves.segment] = True
-        self._wood = LevelWood.of(skeleton, bark=dress.bark, bark_colour=dress.bark_colour, habit=dress.habit, leafy=leafy)
+        self._wood = LevelWood.of(skeleton, bark=dress.bark, bark_colour=dress.bark_colour, habit=dress.habit, leafy=leafy, surface=surface and not self._worn)
         views = views_round(full, _SIDES, _PIXELS)
         self._view = views[_SIDE] if views else None  # None: there is nothing to see
         self._all = None if self._view is None else silhouette(full, self._view)

@@ -36,17 +36,17 @@ class LevelWood:
     @classmethod
     def of(
         cls, tree: TreeSkeleton, *, bark: str, habit: Habit, leafy: Bool[np.ndarray, " segment"] | None = None, hidden: float = 0.5, detail: Detail = Detail(),  # noqa: B008 (frozen)
-        bark_colour: Colour | None = None,
+        bark_colour: Colour | None = None, surface: bool = False,
     ) -> "LevelWood":
         """Of a tree. Limbs of rows that are `leafy` are hidden by their leaves, and weigh only 1 − `hidden`; `detail` is that of the full
-        tree. Raises `OptionError` for an unknown bark."""
+        tree; `surface`: triangles go where they keep the surface, rather than the outline alone (`shapes`). Raises `OptionError` for an unknown bark."""
         frond = frond_rows(tree, habit)
         plan = plan_wood(tree, centre_lines(tree, apart=frond), detail)
         lines, ring = plan.lines, _flared(plan, detail.flare)
         full = (plan.side[ring.limb] >> plan.level)[(ring.start[:-1] + ring.start[1:]) // 2] if len(lines) else plan.side
         weight = np.ones(len(lines)) if leafy is None else 1.0 - hidden * leafy[lines.first_row]
         kind = limb_skins(lines, frond, bark, bark_colour)
-        return cls(plan, ring, choices_of(ring, full) if len(lines) else None, full, weight, kind)
+        return cls(plan, ring, choices_of(ring, full, surface) if len(lines) else None, full, weight, kind)
 
     def meshes(self, triangles: int) -> tuple[Mesh, ...]:
         """At most so many triangles: `wood` first, then `wood_twigs` and `wood_rachis` where there are any."""

@@ -95,3 +95,24 @@ def test_more_triangles_are_never_worse():
     ring = limbs(*[(rng.normal(size=(6, 3)).cumsum(axis=0), rng.uniform(0.01, 0.2)) for _ in range(20)])
     used = [chosen(ring, budget).triangles for budget in (20, 60, 180, 540, 1620)]
     assert used == sorted(used) and used[-1] > 1000
+
+
+def test_for_the_surface_a_limb_that_is_left_out_lies_as_far_off_as_what_bears_it():
+    """Beside its outline A = 2 r L: D = L (L / 4 + r); a straight spike L r / 2, beside A = L r."""
+    wrong = choices_of(limbs((STRAIGHT, 0.02)), np.array([8]), surface=True).wrong[0]
+    np.testing.assert_allclose(wrong[:2], [1.0 * (0.25 + 0.02) + 2 * 0.02, 0.5 * 0.02 + 0.02])
+
+
+def test_for_the_surface_a_crooked_limb_is_no_spike():
+    ring = limbs((CROOKED, 0.02))
+    outline, surface = (choices_of(ring, np.array([8]), surface=wanted).wrong[0, 1] for wanted in (False, True))
+    along = ring.s[:, None] / ring.s[-1]
+    off = np.linalg.norm(ring.point - ring.point[0] - along * (ring.point[-1] - ring.point[0]), axis=1)
+    assert outline == pytest.approx(0.02 * ring.s[-1])
+    assert surface == pytest.approx(ring.s[-1] * (np.average(off, weights=[1, 2, 2, 2, 2, 1]) + 0.01) + outline)
+
+
+def test_for_the_surface_long_thin_limbs_are_drawn_that_outlines_can_do_without():
+    ring, parent = limbs((STRAIGHT, 0.1), *(([[0, 0, 0], [0.5, 0.5 * k, 0]], 0.002) for k in range(1, 5))), [NULL, 0, 0, 0, 0]
+    drawn = {wanted: choose_shapes(ring, choices_of(ring, np.full(5, 16), surface=wanted), np.array(parent), np.ones(5), 30) for wanted in (False, True)}
+    assert (drawn[True].side[1:] > 0).all() and (drawn[False].side[1:] == 0).any()

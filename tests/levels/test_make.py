@@ -9,6 +9,8 @@ from benchmarks.levels import leaf_area
 from sketchtree import keys
 from sketchtree.dressing import Dress
 from sketchtree.errors import OptionError
+from sketchtree.fidelity.sampled import along
+from sketchtree.fidelity.scan_distance import scan_to_mesh
 from sketchtree.foliage.cards import leaf_mesh
 from sketchtree.foliage.populate import populate
 from sketchtree.geometry.wood import wood_meshes
@@ -60,6 +62,13 @@ def test_a_tree_is_to_be_had_with_so_many_triangles_at_most(made):
     with pytest.raises(OptionError) as told:
         within_triangles(model, FEWEST_TRIANGLES - 1)
     assert str(told.value) == "11 triangles are too few for a tree. Give 12 or more."
+
+
+def test_bare_wood_of_so_few_triangles_keeps_its_surface_rather_than_its_outline():
+    bare = tree(season="bare")
+    assert len(bare.leaves) == 0
+    wood, outlines = along(bare.skeleton, 0.02)[0], make._budget(bare).meshes(60)
+    assert scan_to_mesh(wood, within_triangles(bare, 60)).mean < 0.3 * scan_to_mesh(wood, outlines).mean
 
 
 def test_outlines_stay_the_trees(made):
