@@ -141,6 +141,7 @@ class Worn:
     warnings: tuple[str, ...]
     dress: Dress
     wood_used: str
+    leaves_seen: bool = False  # whether they stand where leaves were seen, not wherever the species bears some
 
 
 @dataclass(frozen=True, eq=False)
@@ -297,7 +298,7 @@ def _worn(skeleton: TreeSkeleton, beginning: Beginning, key: Key[Array, ""], tol
     with watch("mesh"):
         wood = wood_worn(skeleton, dress, key=key)
         meshes = (*wood.meshes, *(leaf_mesh(worn, season=dress.season) for worn in (leaves, flowers) if worn is not None and len(worn)))
-    return Worn(beginning.template, skeleton, leaves, flowers, meshes, (*told, *wood.warnings), dress, wood.made)
+    return Worn(beginning.template, skeleton, leaves, flowers, meshes, (*told, *wood.warnings), dress, wood.made, beginning.leafing is not None)
 
 
 @dataclass(frozen=True)

@@ -9,6 +9,9 @@ from sketchtree.export.files import MESHES, PROJECTS, SKELETONS
 from sketchtree.options import FileOptions
 from sketchtree.version import __version__
 
+SEEN = "seen"
+"""What a file says of its leaves where they stand as they were seen in a point cloud."""
+
 WHOLE = MESHES + SKELETONS + PROJECTS  # what a whole tree can be written as; a picture of it is for `view`
 
 
@@ -75,7 +78,7 @@ def asset_of(model, made: Made, files: FileOptions | None = None) -> Asset:
 def about_of(model, made: Made) -> dict:
     """What a file of ours tells of its tree."""
     dress = getattr(model, "dress", None)
-    of_tree = {} if dress is None else {"template": _template_of(model)} | worn_in_words(dress)
+    of_tree = {} if dress is None else {"template": _template_of(model)} | worn_in_words(dress) | ({"leaves": SEEN} if getattr(model, "leaves_seen", False) else {})
     return {"program": "SketchTree", "version": __version__, "seed": made.seed, "units": "metres", "up": "y"} | of_tree
 
 

@@ -54,7 +54,7 @@ def _of_skeleton(source: Path, wanted: dict, templates, *, seed: int, seed_chose
     from sketchtree.growth_tree import of_skeleton
     from sketchtree.keys import root_key
 
-    skeleton, told, units = _skeleton(source)
+    skeleton, told, units, parts = _skeleton(source)
     seed = seed if seed_chosen else int(told.get("seed", seed))
     template = reading.template if reading.template not in ("auto", "none") else told.get("template") if reading.template == "auto" else None
     if template and (templates is None or template not in templates.names):
@@ -62,7 +62,18 @@ def _of_skeleton(source: Path, wanted: dict, templates, *, seed: int, seed_chose
 
         raise TemplateError(f"There is no template called “{template}”.", remedy=f"Choose auto, none or one of: {', '.join(templates.names if templates else ())}.")
     begun = of_skeleton(skeleton, with_own_looks(tree, told, season_chosen=_season_chosen()), templates, key=root_key(seed), template=template or None, height=reading.height)
-    return dataclasses.replace(begun, warnings=(*units, *begun.warnings)), seed
+    return dataclasses.replace(begun, leafing=_as_seen(told, parts, skeleton, reading.height), warnings=(*units, *begun.warnings)), seed
+
+
+def _as_seen(told: dict, parts: tuple, skeleton, height: float | None):
+    """What puts leaves where those of the file are, if they stand there because they were seen."""
+    from sketchtree.tree_output import SEEN
+
+    if told.get("leaves") != SEEN:
+        return None
+    from sketchtree.clouds.leafy.worn_before import worn_before
+
+    return worn_before(parts, skeleton, height)
 
 
 def _season_chosen() -> bool:
@@ -70,13 +81,13 @@ def _season_chosen() -> bool:
 
 
 def _skeleton(source: Path):
-    """(the skeleton of a file, what it tells of the tree's looks, what a person should know). Raises SkeletonError, ExportError."""
+    """(the skeleton of a file, what it tells of the tree's looks, what a person should know, its meshes). Raises SkeletonError, ExportError."""
     from sketchtree.export.read import read_contents
     from sketchtree.skeleton_files import read_skeleton
 
     suffix = source.suffix.lower()
     if suffix in (".npz", ".csv", ".txt"):
-        return read_skeleton(source), {}, ()
+        return read_skeleton(source), {}, (), ()
     contents = read_contents(source)
     if contents.skeleton is None:
         raise ExportError(f"{source} holds no skeleton, and only a skeleton grows.", remedy="Give a file that `sketchtree` wrote, or a skeleton.")
@@ -85,13 +96,13 @@ def _skeleton(source: Path):
     if suffix in PROJECTS:
         from sketchtree.export.skeletons.hdf5 import read_choices
 
-        return contents.skeleton, read_choices(source), said
-    return contents.skeleton, {} if contents.asset is None else _looks(contents.asset), said
+        return contents.skeleton, read_choices(source), said, ()
+    return (contents.skeleton, {}, said, ()) if contents.asset is None else (contents.skeleton, _looks(contents.asset), said, contents.asset.parts)
 
 
 def _looks(asset) -> dict:
     """What a mesh file of ours tells: seed, template and what it wears; of an older one, leaf and bark by the names of its materials."""
-    told = {name: asset.about[name] for name in ("seed", "template", "leaf", "bark", "season") if asset.about.get(name) is not None}
+    told = {name: asset.about[name] for name in ("seed", "template", "leaf", "bark", "season", "leaves") if asset.about.get(name) is not None}
     return _by_materials(asset) | told
 
 
