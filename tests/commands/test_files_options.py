@@ -64,7 +64,7 @@ def test_the_area_of_the_leaves_is_kept(together):
 
 
 def test_apart_each_level_is_a_file(sketch, tmp_path):
-    assert build(sketch, tmp_path / "t.obj", "--levels", "apart") == 0
+    assert build(sketch, tmp_path / "t.obj", "--levels", "apart", "--leaf", "none") == 0
     names = {path.name for path in tmp_path.iterdir()}
     assert {"t_LOD0.obj", "t_LOD1.obj", "t_LOD2.obj", "t_LOD3.obj", "t_impostor.obj"} <= names and "t.obj" not in names
 
@@ -86,7 +86,7 @@ def test_a_tree_has_at_most_as_many_triangles_as_are_asked_for(sketch, together,
 def test_the_preview_shows_the_level_that_is_written(sketch, tmp_path, monkeypatch):
     seen = []
     monkeypatch.setattr("sketchtree.view.preview", lambda meshes, path: (seen.append(sum(mesh.triangle_count for mesh in meshes)), (True, ""))[1])
-    assert build(sketch, tmp_path / "t.glb", "--lod", "3", "--preview", str(tmp_path / "p.png")) == 0
+    assert build(sketch, tmp_path / "t.glb", "--lod", "3", "--leaf", "none", "--preview", str(tmp_path / "p.png")) == 0
     assert seen == [read_asset(tmp_path / "t.glb").levels[0].triangle_count]
 
 
@@ -97,7 +97,7 @@ def test_instanced_leaves_are_few_meshes_at_many_places(sketch, together, tmp_pa
 
 
 def test_a_game_pack_is_a_set_of_files_that_its_manifest_lists(sketch, tmp_path):
-    assert build(sketch, tmp_path / "t.glb", "--pack", "game") == 0
+    assert build(sketch, tmp_path / "t.glb", "--pack", "game", "--leaf", "none") == 0
     said = json.loads((tmp_path / "t.pack.json").read_text())
     listed = {row["name"] if isinstance(row, dict) else row for row in said["files"]}
     assert {path.name for path in tmp_path.iterdir()} == listed and {"t.glb", "t_LOD3.glb", "t_impostor.glb", "t_collision.glb", "t.skeleton.json"} <= listed

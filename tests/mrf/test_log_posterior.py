@@ -44,7 +44,7 @@ def _psi(graph, seed, sd=0.5):
 
 def _worlds():
     one_sided = small_tree().replace(xy=np.abs(small_tree().xy))
-    return {"small": small_tree(), "random": random_tree(3, 8), "one-sided": one_sided, "collinear": _collinear(), "shrub": shrub()}
+    return {"small": small_tree(), "random": random_tree(3, 7), "one-sided": one_sided, "collinear": _collinear(), "shrub": shrub()}
 
 
 def _collinear():
