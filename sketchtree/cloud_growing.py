@@ -42,8 +42,8 @@ def variation(tree: CloudTree, change: Change, watch: Watch | None = None) -> Va
     """The tree that grows in the same points with another figure. Raises OptionError for one that its species can't have."""
     grows, watch = _grows(tree), watch or Watch()
     with watch("infer"):
-        other = growth(tree.prepared, tree.feet, tree.trunks, change.of(grows.species), tree.finish.key)
-    found = Found(other.skeleton, tree.trunks, other.species, tree.leafy, None, other)
+        other = growth(tree.toward, tree.feet, tree.trunks, change.of(grows.species), tree.finish.key)
+    found = Found(other.skeleton, tree.trunks, other.species, tree.leafy, None, other, tree.toward, tree.followed)
     return Variation(change, whole_tree(found, tree.prepared, tree.feet, tree.wanted, tree.finish, watch))
 
 

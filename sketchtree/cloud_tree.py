@@ -5,15 +5,17 @@
 *traced* (the default, ours): the wood runs where the points are. *grown* (Guo et al. 2018, §5): a tree of a species grows toward the points.
 """
 
+from collections.abc import Callable
 from dataclasses import dataclass, replace
 from functools import reduce
 from pathlib import Path
 
 import numpy as np
-from jaxtyping import Array, Key
+from jaxtyping import Array, Float, Key
+from scipy.spatial import cKDTree
 
 from sketchtree.clouds.cloud import PointCloud
-from sketchtree.clouds.files.placed import Placed
+from sketchtree.clouds.files.placed import Placed, Placement
 from sketchtree.clouds.files.read_cloud import read_placed
 from sketchtree.clouds.growing.collapse import collapsed, kept
 from sketchtree.clouds.growing.ends import gone_on
@@ -32,6 +34,7 @@ from sketchtree.clouds.standing.stems import breast_height
 from sketchtree.clouds.standing.trunk import Trunk, foot_radii, trunk
 from sketchtree.clouds.tracing.traced import Traced, traced
 from sketchtree.errors import OptionError
+from sketchtree.fidelity.sampled import along
 from sketchtree.growth_tree import Beginning, GrowthOptions, Worn, grown_tree, of_skeleton
 from sketchtree.keys import stage_key
 from sketchtree.options import TreeOptions
@@ -40,7 +43,10 @@ from sketchtree.templates.store.database import Database
 from sketchtree.watch import Watch
 
 METHODS = ("traced", "grown")
+Follow = Callable[[TreeSkeleton, Placement], TreeSkeleton]
+"""A tree that was traced, metres, and where its points were placed → the tree with what they are too coarse for."""
 _THICKEST = 0.25  # of the height: diameter of a trunk
+_BESIDE = 1.5  # pixels: wood that is farther from points has none
 _LEFT_OUT = 0.12  # of the points of wood that were traced past, where leaves were told
 GENERAL = "broadleaf"
 """The species whose figures are taken where the points say nothing."""
@@ -113,6 +119,8 @@ class CloudTree:
     leafy: Leafiness
     pieces: int | None  # that the points fell into; None of one that was grown
     grows: Grown | None  # how it came to be; None of one that was traced
+    toward: Float[np.ndarray, "point 3"] | None  # what it grew toward: its points, and what was followed beyond them
+    followed: bool  # whether its thin twigs were followed in what the points were made of
     seen: int  # rows that were seen, the first ones; the others bear leaves, or fill the inside
     model: Worn
     wanted: CloudOptions
@@ -133,15 +141,16 @@ def cloud_to_tree(
     wanted: CloudOptions = CloudOptions(),
     tree: TreeOptions = TreeOptions(),
     template: str | None = None,
+    follow: Follow | None = None,
     watch: Watch | None = None,
 ) -> CloudTree:
-    """The tree in a cloud. `template`: the exemplar whose leaves and bark it wears. Raises SketchError for a cloud that can't be read or holds no tree, or several; OptionError."""
+    """The tree in a cloud. `template`: the exemplar whose leaves and bark it wears; `follow`: finds the twigs that points are too coarse for, in what the points were made of. Raises SketchError for a cloud that can't be read or holds no tree, or several; OptionError."""
     watch = watch or Watch()
     with watch("read"):
         prepared = given if isinstance(given, Prepared) else _prepared(given, wanted)
         stands = feet(prepared.cloud.xyz, prepared.above, count="auto" if wanted.roots is None else wanted.roots)
     with watch("infer"):
-        found = _wood(prepared, stands, wanted, key)
+        found = _wood(prepared, stands, wanted, key, follow)
     return whole_tree(found, prepared, stands, wanted, Finish(key, tree, templates, template, found.leafing(prepared)), watch)
 
 
@@ -151,7 +160,7 @@ def whole_tree(found: "Found", prepared: Prepared, stands: Feet, wanted: CloudOp
         wood, seen = _whole(found, prepared, wanted, finish.key)
     model, told = finish(wood, watch)
     told = (*prepared.remarks, *_remarks(found, stands, wanted.roots), *told)
-    return CloudTree(prepared, stands, found.trunks, found.species, found.leafy, found.pieces, found.grows, seen, model, wanted, finish, tuple(dict.fromkeys(told)))
+    return CloudTree(prepared, stands, found.trunks, found.species, found.leafy, found.pieces, found.grows, found.toward, found.followed, seen, model, wanted, finish, tuple(dict.fromkeys(told)))
 
 
 def _prepared(given: str | Path | Placed | PointCloud, wanted: CloudOptions) -> Prepared:
@@ -169,13 +178,15 @@ class Found:
     leafy: Leafiness
     pieces: int | None
     grows: Grown | None = None
+    toward: Float[np.ndarray, "point 3"] | None = None
+    followed: bool = False  # whether its ends are where what the points were made of shows them
 
     def leafing(self, prepared: Prepared) -> Covering | None:
         """What puts leaves where some were seen."""
         return Covering(prepared.cloud.xyz[self.leafy.sure]) if self.leafy.sure.any() else None
 
 
-def _wood(prepared: Prepared, stands: Feet, wanted: CloudOptions, key) -> Found:
+def _wood(prepared: Prepared, stands: Feet, wanted: CloudOptions, key, follow: Follow | None = None) -> Found:
     """What was seen, as a skeleton."""
     xyz = prepared.cloud.xyz
     trunks = tuple(_believed(trunk(xyz[rows], breast_height(prepared.cloud.height)), prepared.cloud.height) for rows in stands.stems)
@@ -187,11 +198,21 @@ def _wood(prepared: Prepared, stands: Feet, wanted: CloudOptions, key) -> Found:
         found = _traced(xyz, stands.rows, leafy, known)
     leafy = leafy if found is None else off_bark(leafy, xyz, found.skeleton)
     kind = estimated(xyz, species(GENERAL), found.skeleton, found.gamma) if wanted.species == "auto" else species(wanted.species)
+    follows = follow is not None and found is not None and not leafy.in_leaf
+    if follows:
+        found = replace(found, skeleton=follow(found.skeleton, prepared.placement))
     if wanted.method == "traced":
-        return Found(_refined(found.skeleton), trunks, kind, leafy, found.pieces)
+        return Found(_refined(found.skeleton), trunks, kind, leafy, found.pieces, followed=follows)
     kind = reduce(lambda kind, said: changes(said)[0].of(kind), wanted.figures, kind)
-    grows = growth(prepared, stands, trunks, kind, key)
-    return Found(grows.skeleton, trunks, kind, leafy, None, grows)
+    toward = _with_wood(xyz, found.skeleton, wanted.pixel) if follows and wanted.pixel else xyz
+    grows = growth(toward, stands, trunks, kind, key)
+    return Found(grows.skeleton, trunks, kind, leafy, None, grows, toward, follows)
+
+
+def _with_wood(xyz: Float[np.ndarray, "point 3"], tree: TreeSkeleton, apart: float) -> Float[np.ndarray, "point 3"]:
+    """Points, and more along wood that has none: what was followed beyond them."""
+    place = along(tree, apart)[0]
+    return np.concatenate([xyz, place[cKDTree(xyz).query(place)[0] > _BESIDE * apart]])
 
 
 def _believed(found: Trunk | None, height: float) -> Trunk | None:
@@ -199,9 +220,9 @@ def _believed(found: Trunk | None, height: float) -> Trunk | None:
     return found if found is not None and found.root <= _THICKEST * height else None
 
 
-def growth(prepared: Prepared, stands: Feet, trunks: tuple[Trunk | None, ...], kind: Species, key: Key[Array, ""]) -> Grown:
+def growth(toward: Float[np.ndarray, "point 3"], stands: Feet, trunks: tuple[Trunk | None, ...], kind: Species, key: Key[Array, ""]) -> Grown:
     """The tree of a species that grows toward the points, as thick at its feet as was measured."""
-    return grown(prepared.cloud.xyz, stands.rows, kind, key=stage_key(key, "toward points"), radius=foot_radii(trunks))
+    return grown(toward, stands.rows, kind, key=stage_key(key, "toward points"), radius=foot_radii(trunks))
 
 
 def _traced(xyz, rows, leafy: Leafiness, foot_radius: float | None) -> Traced:
@@ -219,7 +240,7 @@ def _whole(found: Found, prepared: Prepared, wanted: CloudOptions, key) -> tuple
     seen = len(tree)
     if found.leafy.in_leaf and found.grows is None:
         tree = bearing(tree, xyz, xyz[found.leafy.leaf], found.species, key=stage_key(key, "to leaves"))
-    elif wanted.pixel:
+    elif wanted.pixel and not found.followed:
         tree = gone_on(tree, wanted.pixel / 2, found.species.gamma)
     if wanted.inside is False or (wanted.inside is None and not unseen_inside(xyz)):
         return tree, seen

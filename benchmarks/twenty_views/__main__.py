@@ -11,7 +11,7 @@ from pathlib import Path
 
 from benchmarks.twenty_views.models import NAMES, Model, model
 from benchmarks.twenty_views.scored import scored
-from benchmarks.twenty_views.seen import pixel, seen
+from benchmarks.twenty_views.seen import following, seen
 from benchmarks.twenty_views.sheet import sheet
 from benchmarks.twenty_views.told import lines, table
 from benchmarks.twenty_views.ways import WAYS, made
@@ -45,8 +45,9 @@ def _rows(one: Model, asked) -> dict[str, dict[str, float]]:
     rows["the model"] = scored(one, one.tree)
     others = [scored(one, other, placed=False) for other in one.others]
     rows["another seed"] = max(others, key=lambda row: row["S_T"]) | {"mean": sum(row["S_T"] for row in others) / len(others)}  # the most like it
+    follow = following(one, asked.out / "clouds", asked.pixels)
     for way in wanted:
-        trees[way], seconds = made(cloud, way, pixel(one, asked.pixels))
+        trees[way], seconds = made(cloud, way, follow)
         rows[way] = scored(one, trees[way]) | {"seconds": seconds}
     kept.parent.mkdir(parents=True, exist_ok=True)
     kept.write_text(json.dumps(rows, indent=1))

@@ -16,7 +16,7 @@ import matplotlib.pyplot as plt
 from matplotlib.collections import LineCollection
 
 from benchmarks.twenty_views.models import RECIPES, model
-from benchmarks.twenty_views.seen import SHOWN, pictures, pixel, seen
+from benchmarks.twenty_views.seen import SHOWN, following, pictures, seen
 from sketchtree.cloud_tree import CloudOptions, CloudTree, cloud_to_tree
 from sketchtree.keys import root_key
 from sketchtree.multiview.cameras import Camera
@@ -34,7 +34,7 @@ def figure(name: str, folder: Path, path: Path, pixels: int) -> None:
     cloud = seen(one, folder / "clouds", pixels)
     views = pictures(one, folder / "clouds" / f"{name}_{pixels}.png", pixels)
     depths = np.asarray(Image.open(folder / "clouds" / f"{name}_{pixels}_depths.png").convert("RGB"))
-    made = cloud_to_tree(cloud, Database.open(), key=root_key(0), wanted=CloudOptions(up="y", pixel=pixel(one, pixels)), template=name)
+    made = cloud_to_tree(cloud, Database.open(), key=root_key(0), wanted=CloudOptions(up="y"), template=name, follow=following(one, folder / "clouds", pixels))
     camera, box = views[_VIEW].camera, _box(views[_VIEW].camera, one.mesh.position, pixels)
     panels = plt.figure(figsize=(15.0, 4.6), facecolor=_PAPER)
     titles = ["20 pictures", "depth maps", f"cloud, {len(cloud):,} points", f"skeleton, {made.skeleton.segment_count:,} segments", "tree in leaf"]

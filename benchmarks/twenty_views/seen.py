@@ -16,12 +16,15 @@ from sketchtree.multiview.depths import FULL, PREVIEW, depth_maps
 from sketchtree.multiview.fuse import gathered, thinned
 from sketchtree.multiview.photos import View
 from sketchtree.multiview.sky_and_ground import ground, within
-from sketchtree.multiview.sources import sources_of
-from sketchtree.multiview.workplace import Level
+from sketchtree.multiview.sources import Sources, sources_of
+from sketchtree.multiview.thin.contrasts import contrasts_of
+from sketchtree.multiview.thin.followed import Following
+from sketchtree.multiview.workplace import Level, level_of
 from sketchtree.view.picture import draw_in_child, frame_camera, request_of
 
 VIEWS = 20
 FINE = 720  # pixels a side: larger pictures are worked on at full quality
+NO_PARTNERS = Sources(np.zeros(0, np.int64), 0.0, 1.0)
 SHOWN = (0, 5)  # views whose depth maps are kept as pictures
 LOW, HIGH = 4.0, 16.0  # degrees that cameras look down by, in turns
 
@@ -60,6 +63,13 @@ def pixel(model: Model, pixels: int) -> float:
     around = _around(model)
     camera = camera_of(frame_camera(around, 0.0, LOW, 1.0), pixels)
     return float(camera.project(around.mean(axis=0)[None])[1][0] / camera.matrix[0, 0])
+
+
+def following(model: Model, folder: Path, pixels: int) -> Following:
+    """What the pictures show of twigs too thin for the cloud."""
+    levels = [level_of(view, NO_PARTNERS, 1) for view in pictures(model, folder / f"{model.name}_{pixels}.png", pixels)]
+    shown = contrasts_of([level.camera for level in levels], [level.rgb for level in levels], [level.empty for level in levels])
+    return Following(shown, pixel(model, pixels))
 
 
 def _around(model: Model) -> np.ndarray:

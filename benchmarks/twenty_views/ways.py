@@ -19,6 +19,7 @@ from sketchtree.clouds.standing.feet import feet
 from sketchtree.clouds.standing.stems import breast_height
 from sketchtree.clouds.standing.trunk import trunk
 from sketchtree.keys import root_key
+from sketchtree.multiview.thin.followed import Following
 from sketchtree.options import TreeOptions
 from sketchtree.skeleton import TreeSkeleton
 
@@ -26,11 +27,11 @@ INTERNODES = dict(zip(PLAIN, (5.0, 10.0), strict=True))
 WAYS = (*OURS, *PLAIN)
 
 
-def made(cloud: PointCloud, way: str, pixel: float) -> tuple[TreeSkeleton, float]:
-    """(the tree of one way where the cloud is, CPU seconds). `pixel`: of the pictures, metres of the plant."""
+def made(cloud: PointCloud, way: str, follow: Following) -> tuple[TreeSkeleton, float]:
+    """(the tree of one way where the cloud is, CPU seconds). `follow`: of the pictures."""
     began = time.process_time()
     if way in OURS:
-        found = cloud_to_tree(cloud, key=root_key(0), wanted=CloudOptions(up="y", method=way, pixel=pixel), tree=TreeOptions(leaf="none"))
+        found = cloud_to_tree(cloud, key=root_key(0), wanted=CloudOptions(up="y", method=way, pixel=follow.pixel), tree=TreeOptions(leaf="none"), follow=follow)
         tree, placement = found.skeleton, found.prepared.placement
     else:
         tree, placement = _plain(cloud, INTERNODES[way])

@@ -5,7 +5,7 @@ from dataclasses import dataclass, replace
 from pathlib import Path
 
 from sketchtree.cloud_report import cloud_report
-from sketchtree.cloud_tree import CloudOptions, CloudTree, cloud_to_tree
+from sketchtree.cloud_tree import CloudOptions, CloudTree, Follow, cloud_to_tree
 from sketchtree.commands import cloud_growth, writing
 from sketchtree.growth_tree import check_tree
 from sketchtree.keys import root_key
@@ -53,9 +53,9 @@ def asked(wanted: dict, *, given: tuple[Path, ...], output: Path, report: Path |
     return Asked(points, tree, files, wanted["template"], templates, seed, output, wanted["skeleton"], wanted["preview"], wanted["distances"], report, beside)
 
 
-def made(points, wanted: Asked, watch: Watch) -> CloudTree:
-    """The tree that stands in a file of points, or in points."""
-    return cloud_to_tree(points, wanted.templates, key=root_key(wanted.seed), wanted=wanted.how, tree=wanted.tree, template=wanted.template, watch=watch)
+def made(points, wanted: Asked, watch: Watch, follow: Follow | None = None) -> CloudTree:
+    """The tree that stands in a file of points, or in points. `follow`: finds what they are too coarse for."""
+    return cloud_to_tree(points, wanted.templates, key=root_key(wanted.seed), wanted=wanted.how, tree=wanted.tree, template=wanted.template, follow=follow, watch=watch)
 
 
 def written(

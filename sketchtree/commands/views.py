@@ -50,10 +50,15 @@ def views(folder: Path, output: Path, seed: int, quiet: bool, json_log: bool, re
         how = {name: wanted[name] for name in ("poses", "quality", "height", "keep_ground", "engine")}
         with watch("read"):
             found = photos_cloud(folder, key=stage_key(root_key(seed), "photos"), watch=Watch(progress, progress.part), **how)
-            points, pixel, told = _sized(found)
+            points, pixel, photos, told = _sized(found)
+        follow = None
         if wanted["pixel"] is None:
+            if photos is not None:
+                from sketchtree.multiview.thin.followed import Following
+
+                follow = Following(photos, pixel)
             asked = asked.with_pixel(0.0 if "carve" in found.seconds else pixel)  # a hull ends where shadows end
-        tree = of_points.made(points, asked, watch)
+        tree = of_points.made(points, asked, watch, follow)
         record = of_points.written(
             tree, asked, "views", watch, began=began, imported=imported, given=given, options=how | {"poses": None if how["poses"] is None else str(how["poses"])},
             beside=lambda: None if wanted["cloud_file"] is None else write_cloud(points, wanted["cloud_file"]),
@@ -72,15 +77,16 @@ _HIGH = 10.0  # metres, where nothing says how large the plant is
 
 
 def _sized(found):
-    """(the points in metres, what a pixel is there, what should be known about their size)."""
+    """(the points in metres, what a pixel is there, what photos show of thin wood in their frame, what should be known about their size)."""
     from sketchtree.clouds.cloud import PointCloud
     from sketchtree.clouds.prepared.outliers import height_without
 
     if found.metric:
-        return found.cloud, found.size, ()
+        return found.cloud, found.size, found.photos, ()
     scale = _HIGH / max(height_without(found.cloud.xyz), 1e-12)
     told = f"Photos don't tell how large the plant is: it was made {_HIGH:g} m high. `--height METRES` says how high it is."
-    return PointCloud(scale * found.cloud.xyz, found.cloud.colour, found.cloud.normal), scale * found.size, (told,)
+    photos = None if found.photos is None else found.photos.scaled(scale)
+    return PointCloud(scale * found.cloud.xyz, found.cloud.colour, found.cloud.normal), scale * found.size, photos, (told,)
 
 
 def _told(found) -> dict:

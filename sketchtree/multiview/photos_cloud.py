@@ -5,6 +5,7 @@ photos → cameras (structure from motion, or poses that are given) → depth ma
 
 import os
 from dataclasses import dataclass, field, replace
+from typing import TYPE_CHECKING
 
 import numpy as np
 from jaxtyping import Key
@@ -21,6 +22,9 @@ from sketchtree.multiview.sky_and_ground import ground, within
 from sketchtree.multiview.sources import sources_of
 from sketchtree.multiview.upright import moved_upright
 from sketchtree.watch import Pulse, Watch, no_pulse
+
+if TYPE_CHECKING:
+    from sketchtree.multiview.thin.contrasts import Contrasts
 
 QUALITIES = ("preview", "full")
 SOUGHT = {"preview": {"longest": 1000, "details": 4096}, "full": {"longest": 1600, "details": 8192}}  # by structure from motion; matching takes the square of details
@@ -42,6 +46,7 @@ class PhotosCloud:
     error: float | None  # of matched points in the photos, pixels
     confirmed: float | None  # share of the pixels whose depth other photos confirm; None: carved
     size: float  # of a pixel at the median depth
+    photos: "Contrasts | None"  # what they show of wood too thin for depths, in the frame of the cloud; None: carved
     notices: tuple[str, ...]
     seconds: dict[str, float] = field(default_factory=dict)
 
@@ -69,7 +74,7 @@ def photos_cloud(
         upwards = placed.up if up is None else np.array(up)
         cameras, points, _ = moved_upright([photo.camera for photo in placed.photos], placed.points, upwards, poses is not None)
         views = _views(folder, placed, cameras, wanted.longest)
-    cloud, size, confirmed = _dense(views, points, placed, wanted, key, watch, pulse)
+    cloud, size, confirmed, shown = _dense(views, points, placed, wanted, key, watch, pulse)
     if confirmed is not None and confirmed < FEW:
         notices = [*notices, DOUBTFUL.format(confirmed)]
     if not keep_ground:
@@ -78,8 +83,9 @@ def photos_cloud(
     if height is not None:
         by = height / max(height_without(cloud.xyz), 1e-12)
         cloud, size = PointCloud(by * cloud.xyz, cloud.colour, cloud.normal), by * size
+        shown = None if shown is None else shown.scaled(by)
     names = tuple(view.name for view in views)
-    return PhotosCloud(cloud, poses is not None or height is not None, names, left_out, placed.error, confirmed, size, tuple(notices), watch.seconds)
+    return PhotosCloud(cloud, poses is not None or height is not None, names, left_out, placed.error, confirmed, size, shown, tuple(notices), watch.seconds)
 
 
 def _placed(folder, poses, quality, key, watch, pulse) -> tuple[Poses, tuple[str, ...], list[str]]:
@@ -104,23 +110,25 @@ def _views(folder, placed: Poses, cameras, longest: int) -> list[View]:
     return list(views_of(((find_photo(photo.name, files), camera, photo.lens) for photo, camera in zip(placed.photos, cameras, strict=True)), longest))
 
 
-def _dense(views: list[View], points, placed: Poses, wanted, key, watch, pulse) -> tuple[PointCloud, float, float | None]:
-    """The cloud, the size of a pixel in it, and what share of the pixels is confirmed: of depth maps, or of the visual hull where most views are masks."""
+def _dense(views: list[View], points, placed: Poses, wanted, key, watch, pulse) -> tuple[PointCloud, float, float | None, "Contrasts | None"]:
+    """The cloud, the size of a pixel in it, what share of the pixels is confirmed, what photos show of thin wood: of depth maps, or of the visual hull where most views are masks."""
     masks = [silhouette(view) for view in views]
     if sum(mask is not None for mask in masks) > len(views) / 2:
         with watch("carve"):
             rows = [k for k, mask in enumerate(masks) if mask is not None]
             cloud = carved([views[k] for k in rows], [masks[k] for k in rows], voxels=192 if wanted.longest < 800 else 384)
-            return cloud, float(np.median(np.linalg.norm(np.diff(cloud.xyz, axis=0), axis=1))), None
+            return cloud, float(np.median(np.linalg.norm(np.diff(cloud.xyz, axis=0), axis=1))), None, None
     from sketchtree.multiview.depths import depth_maps
     from sketchtree.multiview.fuse import confirmed, gathered, thinned
+    from sketchtree.multiview.thin.contrasts import contrasts_of
 
     sources = sources_of([view.camera for view in views], wanted.sources, points, [photo.sees for photo in placed.photos])
     levels = depth_maps(views, sources, wanted, key=stage_key(key, "depths"), watch=watch, pulse=pulse)
     with watch("fuse"):
         found = gathered(levels, pulse=pulse)
         near = within(found.xyz, [view.camera for view in views])
-        return thinned(found, found.size, near if near.sum() > 0.05 * len(near) else None), found.size, confirmed(levels)
+        shown = contrasts_of([level.camera for level in levels], [level.rgb for level in levels], [level.empty for level in levels])
+        return thinned(found, found.size, near if near.sum() > 0.05 * len(near) else None), found.size, confirmed(levels), shown
 
 
 def _without_ground(cloud: PointCloud, key, notices: list[str]) -> tuple[PointCloud, list[str]]:
