@@ -13,6 +13,7 @@ STEP = 2.5  # pixels
 TURNS = np.radians([10.0, 20.0])  # from the course, at a step
 AROUND = 8  # directions at each
 LONGEST = 120  # steps
+DIM = 0.25  # of c of the step before: a step that is paler is the blur of an end
 _NEXT = 0.7  # what the step after this one counts
 _PAST, _NEXT_PAST = 0.3, 0.2  # what a photo costs that looks past them
 _BENT = np.array([0.0] + [0.02] * AROUND + [0.08] * AROUND)  # of what is shown: so much a direction must be better than straight on
@@ -35,6 +36,7 @@ def follow(twigs: Twigs, wood: Standing, photos: Contrasts, floor: float) -> Non
     step, alive = STEP * wood.pixel, np.arange(len(twigs.row))
     name = wood.owner.min(initial=0) - 1 - alive  # owners of what is added
     own = np.stack([name, twigs.own], axis=1)
+    last = darkness(twigs.place - step * twigs.course, twigs.place, *photos)
     for _ in range(LONGEST):
         if not len(alive):
             break
@@ -44,20 +46,22 @@ def follow(twigs: Twigs, wood: Standing, photos: Contrasts, floor: float) -> Non
         at = np.arange(len(alive))
         way = ways[at, best]
         to = twigs.place[alive] + step * way
-        goes = np.isfinite(score[at, best]) & (to[:, 1] > floor) & ~wood.met(twigs.place[alive], to, way, own[alive])
+        goes = np.isfinite(score[at, best]) & (dark[at, best] > DIM * last[alive]) & (to[:, 1] > floor) & ~wood.met(twigs.place[alive], to, way, own[alive])
         alive, to, way, dark = alive[goes], to[goes], way[goes], dark[at, best][goes]
         for k, place, c in zip(alive, to, dark, strict=True):
             twigs.way[k].append(place)
             twigs.dark[k].append(c)
         twigs.course[alive] = unit(twigs.course[alive] + way)
-        twigs.place[alive] = to
+        twigs.place[alive], last[alive] = to, dark
         if len(alive):
             wood.more(to, name[alive], way)
-    for way in twigs.way:
-        if len(way) > 1:
-            middle = 0.5 * (way[-2] + way[-1])
-            if not is_shown(middle, way[-1], *photos):
-                way[-1] = middle
+    longer = [way for way in twigs.way if len(way) > 1]
+    if longer:
+        before, end = (np.array([way[k] for way in longer]) for k in (-2, -1))
+        middle = 0.5 * (before + end)
+        pale = darkness(middle, end, *photos) <= DIM * darkness(before, middle, *photos)
+        for way, place in zip((way for way, ends in zip(longer, pale, strict=True) if ends), middle[pale], strict=True):
+            way[-1] = place
 
 
 def cone(course: Float[np.ndarray, "twig 3"]) -> Float[np.ndarray, "twig way 3"]:
@@ -71,10 +75,14 @@ def cone(course: Float[np.ndarray, "twig 3"]) -> Float[np.ndarray, "twig way 3"]
 
 
 @compiled
-def is_shown(start, end, to_pixel, contrast, sizes):
-    """Whether there is a twig between two places."""
-    shows, past, _ = told(start, end, to_pixel, contrast, sizes)
-    return shows >= LEAST and past <= SHARE * (shows + past)
+def darkness(start, end, to_pixel, contrast, sizes):
+    """Mean c between two places of each twig, in the photos that show one there; 0 where there is none."""
+    found = np.zeros(len(start))
+    for k in range(len(start)):
+        shows, past, much = told(start[k], end[k], to_pixel, contrast, sizes)
+        if shows >= LEAST and past <= SHARE * (shows + past):
+            found[k] = much / shows
+    return found
 
 
 @compiled
