@@ -4,7 +4,8 @@ Stems that come out of the ground (`standing.stems`) are grouped into plants. Ev
 through the air (`standing.reached`), so crowns that touch are parted where they do. Trees are numbered from the one with most points.
 
 A plant that is much lower than the highest, or has few points beside the largest, is undergrowth, and so is what doesn't reach breast height: it is left out, and that is said;
-unless it goes on into a tree, as a branch does that hangs to the ground. A stem that is much too thin for its height may be such a branch too.
+unless it goes on into a tree, as a branch does that hangs to the ground. A stem that is much too thin for its height may be such a branch too; or one whose points lie round no bark, far
+more scattered than those of the clearest trunk, as sprays do that weep to the ground.
 """
 
 from collections.abc import Sequence
@@ -16,7 +17,8 @@ from scipy.spatial import cKDTree
 
 from sketchtree.axes import NULL
 from sketchtree.clouds.standing.reached import reached
-from sketchtree.clouds.standing.stems import Stems, stems
+from sketchtree.clouds.standing.stems import Stems, breast_height, stems
+from sketchtree.clouds.standing.trunk import trunk
 from sketchtree.clouds.voxels import voxel_rows, voxel_size
 from sketchtree.errors import OptionError, SeveralTrees
 
@@ -24,6 +26,7 @@ _LOOKED_AT = 60_000  # points that ways are sought through
 _SAID = 9  # trees that an error names
 _TOUCHES = 2.0  # times as far as its own points' sixth neighbours
 _SLENDER = 0.15  # of the largest tree's thickness for its height: what is thinner may be a branch that hangs to the ground
+_MANY, _BLURRED, _LOOSE, _SWELLS = 40, 2.5, 0.08, 1.2  # points of a stem that is judged; times as scattered as the clearest trunk, and of its own radius; times as thick at breast height as at the foot: then it is a spray
 _LOW, _FEW = 0.35, 0.1  # of the highest plant, of the largest's points: less is undergrowth
 
 
@@ -53,16 +56,30 @@ def plants(xyz: Float[np.ndarray, "point 3"], above: Float[np.ndarray, " point"]
         place[k], thick[k] = np.mean(found.place[found.plant == k], axis=0), found.thick[found.plant == k].max()
     tall = (height >= _LOW * height.max()) & (count >= _FEW * count.max())
     slender = thick * height.max() < _SLENDER * height * thick[count.argmax()]
-    trees = np.flatnonzero(tall & ~slender)
+    spray = _sprays(xyz, above, found, number)
+    trees = np.flatnonzero(tall & ~slender & ~spray)
     trees = trees[np.argsort(-count[trees], kind="stable")]
     name = np.full(number, NULL)
     name[trees] = np.arange(len(trees))
     sure = name[of_point]
     for k in np.flatnonzero(name == NULL):
         name[k] = _borne_by(xyz, of_point == k, above, sure, height[k])
-    for k in np.flatnonzero((name == NULL) & tall):  # slender, and for itself: a young tree
+    for k in np.flatnonzero((name == NULL) & tall):  # slender or scattered, and for itself: a young tree, or one whose trunk was hardly seen
         name[k], trees = len(trees), np.append(trees, k)
     return Plants(np.where(weeds, NULL, name[of_point]), place[trees], height[trees])
+
+
+def _sprays(xyz, above, found: Stems, number: int):
+    """Which plants have stems that points lie round far less closely than round the clearest trunk."""
+    breast = breast_height(float(np.percentile(above, 99.9)))
+    most = [max((s for s in np.flatnonzero(found.plant == k)), key=lambda s: len(found.rows[s])) for k in range(number)] if number > 1 else []
+    many = np.array([len(found.rows[s]) >= _MANY for s in most], bool)
+    bark = [trunk(xyz[found.rows[s]], breast) for s in most]
+    off = np.array([np.inf if one is None else one.off for one in bark])
+    loose = np.array([one is None or one.off > _LOOSE * one.breast / 2 for one in bark], bool)
+    swells = np.array([one is not None and one.breast > _SWELLS * one.root for one in bark], bool)
+    least = off.min(initial=np.inf, where=many & ~swells)
+    return many & (swells | loose & (off > _BLURRED * least)) if np.isfinite(least) else np.zeros(number, bool)
 
 
 def _borne_by(xyz, low, above, tree, height: float) -> int:

@@ -37,6 +37,7 @@ class Trunk:
     base: Float[np.ndarray, "3"]  # where the axis meets the foot, metres
     axis: Float[np.ndarray, "3"]  # unit, upwards
     seen: float  # share of the bark's directions that had points
+    off: float  # how far points typically lie off the bark, metres
     section: CrossSection | None  # the paper's, at the root; in the plane across `axis` through `base`
 
 
@@ -61,7 +62,7 @@ def trunk(stem: Float[np.ndarray, "low 3"], breast_height: float) -> Trunk | Non
     far = [2 * (_without(parts, s, k, found).radius(middle) - found.radius(middle)) for k in range(len(s))] if len(s) > _FEWEST else [0.0]
     error = float(np.hypot(2 * found.error, np.sqrt((len(far) - 1) / len(far) * np.sum(np.square(far)))))
     section = cross_section(plane_points(stem, base + low * axis, axis, 2.0 * float(s[1] - s[0])))
-    return Trunk(float(root), float(breast), error, base + low * axis, axis, _seen(parts, found, s), section)
+    return Trunk(float(root), float(breast), error, base + low * axis, axis, _seen(parts, found, s), found.off, section)
 
 
 def foot_radii(trunks: Sequence[Trunk | None]) -> Float[np.ndarray, " foot"] | None:

@@ -51,6 +51,16 @@ def buttressed(seed: int = 8) -> np.ndarray:
     return np.concatenate([tree(), *fins])
 
 
+def weeping(seed: int = 11) -> np.ndarray:
+    """A tree whose three boughs each end in a curtain of leaves that hangs to the ground."""
+    chance, parts = np.random.default_rng(seed), [tree()]
+    for turn in np.arange(3) * 2 * np.pi / 3:
+        out = np.array([2.2 * np.cos(turn), 0.0, 2.2 * np.sin(turn)])
+        parts.append(limb([0, 2.4, 0], out + [0, 3.2, 0], 0.04, 0.02, chance, 120))
+        parts.append(out + np.c_[chance.normal(0, 0.3, 1200), chance.uniform(0.0, 3.3, 1200), chance.normal(0, 0.3, 1200)])
+    return np.concatenate(parts)
+
+
 def floor(wide: float = 4.0, slope: float = 0.0, rough: float = 0.01, seed: int = 5, count: int = 6000) -> np.ndarray:
     """Ground that rises along x and waves a little."""
     chance = np.random.default_rng(seed)

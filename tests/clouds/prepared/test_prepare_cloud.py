@@ -2,7 +2,7 @@
 
 import numpy as np
 import pytest
-from scenes import box, buttressed, floor, limb, lying, tree, wide_in_leaf
+from scenes import box, buttressed, floor, limb, lying, tree, weeping, wide_in_leaf
 
 from sketchtree.clouds.cloud import PointCloud
 from sketchtree.clouds.files.placed import Placed, Placement
@@ -14,6 +14,7 @@ from sketchtree.clouds.prepared.pot import pot
 from sketchtree.clouds.prepared.prepare import prepare
 from sketchtree.clouds.prepared.several import plants
 from sketchtree.clouds.prepared.up_axis import up_chances, upright
+from sketchtree.clouds.standing.stems import stems
 from sketchtree.errors import OptionError, SketchError
 
 TREE = tree()
@@ -237,6 +238,19 @@ def test_a_branch_that_hangs_to_the_ground_is_of_the_tree():
     found = prepare(PointCloud(np.concatenate([TREE, bough, hanging])))
     assert found.remarks == ()
     assert len(found.cloud) == len(TREE) + len(bough) + len(hanging)
+
+
+def test_curtains_of_leaves_that_hang_to_the_ground_are_of_the_tree():
+    found = prepare(PointCloud(weeping()), up="y")
+    assert found.trees == 1
+    assert len(found.cloud) > 0.99 * len(weeping())
+    assert len(stems(weeping(), weeping()[:, 1]).rows) == 4
+
+
+def test_a_young_tree_beside_a_rough_trunk_is_a_tree():
+    chance = np.random.default_rng(3)
+    rough = limb([0, 0, 0], [0, 6, 0], 0.3, 0.2, chance, 400) + chance.normal(0, 0.012, (2403, 3))
+    assert len(plants(np.concatenate([TREE, rough, tree(4.0, 5, (2.2, 0.0))]), np.concatenate([TREE, rough, tree(4.0, 5, (2.2, 0.0))])[:, 1])) == 2
 
 
 # all of it
