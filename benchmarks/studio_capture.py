@@ -1,4 +1,4 @@
-"""What does the studio look like? `python -m benchmarks.studio_capture [--only gif|pictures|photo] [--out docs/pictures]`
+"""What does the studio look like? `python -m benchmarks.studio_capture [--only gif|pictures|photo|points] [--out docs/pictures]`
 
 Plays a real `sketchtree studio` in a browser without a screen, and writes `studio.gif` and the pictures of `docs/studio.md`. Of each moment of the film a
 picture is taken when the screen has come to rest: it shows every step, but not how long one waits (that is what `studio_latency` measures). Needs the extras
@@ -9,6 +9,7 @@ import argparse
 import base64
 import contextlib
 import io
+import json
 import os
 import shutil
 import subprocess
@@ -23,6 +24,7 @@ import numpy as np
 from PIL import Image, ImageDraw
 from playwright.sync_api import Browser, Page, sync_playwright
 
+from benchmarks.studio_cloud import EXAMPLE, strokes_over
 from sketchtree.photo.read_photo import read_photo
 from sketchtree.photo.read_strokes import read_strokes
 
@@ -30,6 +32,14 @@ ARGUMENTS = ["--no-sandbox", "--enable-unsafe-swiftshader", "--use-gl=angle", "-
 PATIENCE = 120.0  # seconds
 PHOTO = Path(__file__).parent.parent / "examples" / "photo" / "autumn_oak"  # a .jpg, and its strokes
 UPLOAD = "async (data) => fetch('upload?name=autumn oak.jpg&as=photo', { method: 'POST', body: Uint8Array.from(atob(data), (c) => c.charCodeAt(0)) })"
+SAY = """(said) => new Promise((done) => {
+  const line = new WebSocket(location.origin.replace("http", "ws") + "/ws");
+  line.onopen = () => {
+    for (const one of [{ type: "hello", version: 1 }, ...JSON.parse(said)]) line.send(JSON.stringify(one));
+    setTimeout(() => { line.close(); done(); }, 3000);
+  };
+})"""  # as another page of the same drawing would
+PEN = {"width": 5.0, "pressure": None}  # page units: the points show beside a line
 WIDE, FRAME = 800, 110  # of the film: pixels, milliseconds a picture
 COLOURS = 160
 TELLING = ("2f6b4f", "86c6a0", "f59a1b", "b45f00", "ffb347", "e5a11b", "cf7b2e", "f0c4cf", "c98ea0", "9cc069", "4f8a4c", "ffffff")  # of buttons, handles, seasons
@@ -287,13 +297,34 @@ def _on_screen(page: Page, width: int, height: int) -> Callable[[np.ndarray], np
     return lambda pixels: middle + scale * (np.asarray(pixels) - [width / 2, height / 2])
 
 
+def points(out: Path) -> None:
+    """Points of a scan under the page, strokes over them, and the tree that took its depths from them, in winter, seen from aside."""
+    with studio("scan.sketchtree") as (browser, address):
+        page = opened(browser, address, 1400, 860)
+        page.get_by_test_id("empty-gallery").click()
+        page.get_by_test_id(f"example-{EXAMPLE}").click()
+        page.locator("[data-testid=cloud-card]:not([hidden])").wait_for(timeout=1000 * PATIENCE)
+        page.evaluate(SAY, json.dumps([{"type": "choose", "options": {"template": "european_ash", "season": "bare"}}, *({"type": "strokes", "label": "branch", "put": [stroke | PEN]} for stroke in strokes_over(16))]))
+        settle(page)
+        page.get_by_test_id("page-zoom").click()
+        page.locator(".template:nth-child(-n + 10) .thumbnail:not([data-picture])").first.wait_for(state="detached", timeout=1000 * PATIENCE)
+        box = page.get_by_test_id("tree-view").bounding_box()
+        page.mouse.move(box["x"] + 0.35 * box["width"], box["y"] + 0.5 * box["height"])
+        page.mouse.down()
+        page.mouse.move(box["x"] + 0.6 * box["width"], box["y"] + 0.5 * box["height"], steps=12)
+        page.mouse.up()
+        page.mouse.move(300, 5)
+        settle(page)
+        still(page, out / "studio_points.png")
+
+
 def main() -> None:
     """All, or one."""
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
-    parser.add_argument("--only", choices=("gif", "pictures", "photo"))
+    parser.add_argument("--only", choices=("gif", "pictures", "photo", "points"))
     parser.add_argument("--out", type=Path, default=Path("docs/pictures"))
     chosen = parser.parse_args()
-    made = {"pictures": lambda: pictures(chosen.out), "photo": lambda: photo(chosen.out), "gif": lambda: film(chosen.out / "studio.gif")}
+    made = {"pictures": lambda: pictures(chosen.out), "photo": lambda: photo(chosen.out), "points": lambda: points(chosen.out), "gif": lambda: film(chosen.out / "studio.gif")}
     for make in made.values() if chosen.only is None else (made[chosen.only],):
         make()
 

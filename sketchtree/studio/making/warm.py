@@ -20,7 +20,7 @@ from sketchtree.sketch.reading import sketch_graph
 from sketchtree.sketch.strokes import Sketch, Stroke
 
 LIMBS = (4, 10, 20, 15, 40, 30)  # of drawings padded to 32 rows and 8 limbs, 32 and 16, 64 and 32, 64 and 16, 128 and 64, 128 and 32
-FOR_POINTS = (4, 10, 20, 15)  # of them, over points: a drawing over a scan begins small
+FOR_POINTS = (4, 10)  # of them, over points: a drawing over a scan begins small
 
 
 def warm_up(quick: bool, limbs: int, *, seen: bool = False) -> None:
