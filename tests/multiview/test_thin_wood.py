@@ -123,13 +123,6 @@ def test_roughness_is_no_limb_and_a_short_twig_that_is_shown_is_one():
     assert len(set(smooth(tree_of([FOOT, TOP, END], [FORK, TWIG]), photos, PIXEL).limb)) == 2  # a long one is not doubted
 
 
-@pytest.mark.parametrize("wide", [0.4, 0.9])
-def test_thin_wood_is_as_thick_as_it_is_dark(wide):
-    tree = tree_of([FOOT, TOP])
-    found = followed(tree, shown(([FOOT, TOP], 2.0), ([TOP, END], wide)), PIXEL)
-    assert np.median(found.radius[len(tree) :]) == pytest.approx(0.5 * wide * PIXEL, rel=0.45)
-
-
 def test_a_tree_that_was_placed_elsewhere_is_the_same_tree():
     tree, photos = tree_of([FOOT, TOP]), shown(([FOOT, TOP], 2.0), ([TOP, END], 0.6))
     here = followed(tree, photos, PIXEL)

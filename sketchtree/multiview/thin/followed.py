@@ -3,8 +3,7 @@
     1. each end goes on (`steps`); a spur counts as one only if it does for `SURE` steps
     2. more twigs begin along the wood (`sprouts`) and go on
     3. short limbs that no photos show by themselves are none (`roughness`)
-
-How thick such wood is, photos say too: a line w pixels wide is w times as dark as wide wood, wherever it is less than 1.
+    4. wood is as thick as photos show it (`widths`)
 """
 
 from dataclasses import dataclass
@@ -18,6 +17,7 @@ from sketchtree.multiview.thin.roughness import SPUR, smooth
 from sketchtree.multiview.thin.sprouts import sprouts
 from sketchtree.multiview.thin.standing import Standing, unit
 from sketchtree.multiview.thin.steps import Twigs, follow
+from sketchtree.multiview.thin.widths import thickened
 from sketchtree.skeleton import Kind, TreeSkeleton
 from sketchtree.traverse import is_tip
 
@@ -55,7 +55,8 @@ def followed(tree: TreeSkeleton, photos: Contrasts, pixel: float) -> TreeSkeleto
     tree = _with(tree, twigs, np.where(spur, SURE, 1), full, pixel)
     twigs = sprouts(tree, wood, photos)
     follow(twigs, wood, photos, floor)
-    return smooth(_with(tree, twigs, np.full(len(twigs.row), SHORTEST + 1), full, pixel), photos, pixel)
+    tree = smooth(_with(tree, twigs, np.full(len(twigs.row), SHORTEST + 1), full, pixel), photos, pixel)
+    return thickened(tree, full, photos, pixel)
 
 
 def _full(photos: Contrasts) -> float:
