@@ -28,7 +28,8 @@ def drawable(
 ) -> TreeSkeleton:
     """The main limbs of `tree`, simplified as a person would draw them."""
     chains = limb_chains(tree.parent, tree.limb)
-    length = np.array([tree.length[rows].sum() for rows in chains])
+    each = tree.length
+    length = np.array([each[rows].sum() for rows in chains])
     owner = np.empty(len(tree), np.int64)
     for limb, rows in enumerate(chains):
         owner[rows] = limb

@@ -87,16 +87,17 @@ def root_radius(
         if not is_root(tree)[tree.parent[row]]:
             share[tree.parent[row]] += beyond[row]
     foot, total = np.zeros(len(tree)), np.zeros(len(tree))
+    root, length = is_root(tree), tree.length
     for row in rows:
         above = tree.parent[row]
-        if not is_root(tree)[above]:
+        if not root[above]:
             most = STOUT * radius[above]
             foot[row], total[row] = min(most, radius[above] * np.sqrt(beyond[row] / max(share[above], 1e-300))), beyond[row]
         elif tree.limb[above] == tree.limb[row]:
             foot[row], total[row] = foot[above], total[above]
         else:
             foot[row], total[row] = STOUT * radius[above], beyond[row]
-        left = (beyond[row] - tree.length[row]) / max(total[row], 1e-300)
+        left = (beyond[row] - length[row]) / max(total[row], 1e-300)
         radius[row] = max(foot[row] * (SLENDER + (1 - SLENDER) * np.clip(left, 0.0, 1.0)), twig)
         if drawn is not None and np.isfinite(drawn[row]):
             radius[row] = max(drawn[row], twig)
@@ -147,10 +148,10 @@ def _length(points: Float[np.ndarray, "point 2"]) -> float:
 
 def _beyond(tree: TreeSkeleton, rows: Int[np.ndarray, " root"]) -> Float[np.ndarray, " segment"]:
     """Metres of root from the start of every root's row on, side roots included."""
-    beyond = np.zeros(len(tree))
+    beyond, length = np.zeros(len(tree)), tree.length
     root = is_root(tree)
     for row in rows[::-1]:
-        beyond[row] += tree.length[row]
+        beyond[row] += length[row]
         if tree.parent[row] != NULL and root[tree.parent[row]]:
             beyond[tree.parent[row]] += beyond[row]
     return beyond

@@ -28,32 +28,33 @@ class LimbTree:
 
 def limb_tree(tree: TreeSkeleton) -> LimbTree:
     """The limbs that have length."""
-    chains = [rows for rows in limb_chains(tree.parent, tree.limb) if tree.length[rows].sum() > 0]
+    each, starts, vectors = tree.length, tree.start, tree.vector
+    chains = [rows for rows in limb_chains(tree.parent, tree.limb) if each[rows].sum() > 0]
     number = np.full(len(tree), NULL)
     for k, rows in enumerate(chains):
         number[rows] = k
     along = np.zeros(len(tree))
     for rows in chains:
-        along[rows] = np.cumsum(tree.length[rows])
+        along[rows] = np.cumsum(each[rows])
     columns = {name: np.zeros(len(chains)) for name in ("length", "thickness", "divergence", "slope", "straightness", "place")}
     parent = np.full(len(chains), NULL)
     for k, rows in enumerate(chains):
         foot = tree.parent[rows[0]]
-        start = tree.start[rows[0]]
-        length, chord = tree.length[rows].sum(), tree.tip[rows[-1]] - start
+        start = starts[rows[0]]
+        length, chord = each[rows].sum(), tree.tip[rows[-1]] - start
         parent[k] = NULL if foot == NULL else number[foot]
         columns["length"][k], columns["thickness"][k] = length, tree.radius[rows[0]]
         columns["straightness"][k] = np.linalg.norm(chord) / length
         columns["slope"][k] = _angle(chord, np.array([0.0, 1.0, 0.0]))
-        columns["divergence"][k] = np.nan if parent[k] == NULL else _angle(_course(tree, rows, start), tree.vector[foot])
+        columns["divergence"][k] = np.nan if parent[k] == NULL else _angle(_course(tree.tip[rows], each[rows], start), vectors[foot])
         columns["place"][k] = 0.0 if parent[k] == NULL else along[foot] / columns["length"][parent[k]]
     return LimbTree(parent, **columns)
 
 
-def _course(tree: TreeSkeleton, rows, start):
+def _course(tip, length, start):
     """Which way a limb leaves: to the end of its first tenth, or of its first row."""
-    total = np.cumsum(tree.length[rows])
-    return tree.tip[rows[np.searchsorted(total, 0.1 * total[-1])]] - start
+    total = np.cumsum(length)
+    return tip[np.searchsorted(total, 0.1 * total[-1])] - start
 
 
 def _angle(one, other) -> float:

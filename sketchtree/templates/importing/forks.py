@@ -56,11 +56,11 @@ def _carried_on(tree: TreeSkeleton) -> TreeSkeleton:
 
 def _told(tree: TreeSkeleton, shortest: float) -> Bool[np.ndarray, " segment"]:
     """The rows of limbs that are long enough, or bear one that is."""
-    told = np.ones(len(tree), bool)
+    told, length, base = np.ones(len(tree), bool), tree.length, tree.is_base
     borne = np.zeros(int(tree.limb.max()) + 1, bool)
     for rows in reversed(limb_chains(tree.parent, tree.limb)):
         bearer = tree.parent[rows[0]]
-        if bearer == NULL or tree.is_base[bearer] or borne[tree.limb[rows[0]]] or tree.length[rows].sum() >= shortest:
+        if bearer == NULL or base[bearer] or borne[tree.limb[rows[0]]] or length[rows].sum() >= shortest:
             borne[tree.limb[bearer]] |= bearer != NULL
         else:
             told[rows] = False
@@ -69,9 +69,9 @@ def _told(tree: TreeSkeleton, shortest: float) -> Bool[np.ndarray, " segment"]:
 
 def _corners(tree: TreeSkeleton, layer: float) -> Bool[np.ndarray, " segment"]:
     """Bases, forks that are not one with another, tips, and rows where a limb must bend between them."""
-    kept, forks = tree.is_base.copy(), child_count(tree.parent) > 1
+    kept, forks, length = tree.is_base.copy(), child_count(tree.parent) > 1, tree.length
     for rows in limb_chains(tree.parent, tree.limb):
-        run, kept[rows[-1]], last = np.cumsum(tree.length[rows]), True, -np.inf
+        run, kept[rows[-1]], last = np.cumsum(length[rows]), True, -np.inf
         for k in np.flatnonzero(forks[rows]):
             if run[k] - last >= NEAR * layer:
                 kept[rows[k]], last = True, run[k]

@@ -69,7 +69,8 @@ def _exponent(ratio) -> float:
 
 def _laterals(tree: TreeSkeleton) -> dict:
     chains = limb_chains(tree.parent, tree.limb)
-    length = {int(tree.limb[rows[0]]): float(tree.length[rows].sum()) for rows in chains}
+    each = tree.length
+    length = {int(tree.limb[rows[0]]): float(each[rows].sum()) for rows in chains}
     first = np.array([rows[0] for rows in chains if tree.parent[rows[0]] != NULL], int)
     first = first[tree.order[first] > tree.order[tree.parent[first]]]
     if len(first) < FEW:
@@ -96,9 +97,9 @@ def _laterals(tree: TreeSkeleton) -> dict:
 
 def _place(tree: TreeSkeleton, chains):
     """How far along its limb every row ends, metres."""
-    along = np.zeros(len(tree))
+    along, length = np.zeros(len(tree)), tree.length
     for rows in chains:
-        along[rows] = np.cumsum(tree.length[rows])
+        along[rows] = np.cumsum(length[rows])
     return along
 
 
