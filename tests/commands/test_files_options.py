@@ -35,7 +35,7 @@ def coarse():
 
 
 def build(sketch, out, *more):
-    return app.run(["build", str(sketch), "-o", str(out), "--template", "apple", "--generations", "2", "--quiet", *more])
+    return app.run(["build", str(sketch), "-o", str(out), "--template", "apple", "--generations", "1", "--quiet", *more])
 
 
 @pytest.fixture(scope="module")
