@@ -73,6 +73,28 @@ def test_twigs_of_photos_go_on_beyond_their_points(points, tree):
     assert (found.skeleton.kind[found.seen :] == int(Kind.GROWN)).all()
 
 
+def _longer(found, placement):
+    """A twig that the points don't show, half a metre off its highest tip, in the frame of the photos."""
+    assert placement.to_file(found.tip).shape == found.tip.shape
+    end = int(found.tip[:, 1].argmax())
+    more = {"parent": np.array([end]), "tip": found.tip[[end]] + [[0.35, 0.35, 0.0]], "radius": np.array([0.004])}
+    return found.append(more | {name: getattr(found, name)[[end]] for name in ("limb", "order", "tree", "kind")})
+
+
+def test_twigs_that_photos_show_are_followed_there_and_not_reckoned(points, tree):
+    found = cloud_to_tree(PointCloud(points), key=KEY, wanted=CloudOptions(pixel=0.01), follow=_longer)
+    assert found.followed and (found.skeleton.kind == int(Kind.OBSERVED)).all() and found.seen == len(found.skeleton)
+    assert found.skeleton.height == pytest.approx(tree.skeleton.height + 0.35, abs=0.01)
+    assert found.skeleton.length.sum() == pytest.approx(tree.skeleton.length.sum() + 0.35 * 2**0.5, abs=0.05)
+
+
+def test_a_tree_grows_toward_what_was_followed_too(points):
+    wanted = CloudOptions(method="grown", pixel=0.01)
+    plain, found = (cloud_to_tree(PointCloud(points), key=KEY, wanted=wanted, tree=TreeOptions(leaf="none"), follow=follow) for follow in (None, _longer))
+    assert len(found.toward) > len(plain.toward) == len(points)
+    assert found.skeleton.height > plain.skeleton.height + 0.1
+
+
 def test_the_source_gives_the_skeleton(points, tree):
     assert CloudSource()(PointCloud(points), key=KEY).tip == pytest.approx(tree.skeleton.tip)
 

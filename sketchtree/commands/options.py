@@ -52,7 +52,7 @@ _POINTS = (
     click.option("--roots", type=click.IntRange(1), metavar="K", help="How many stems come out of the ground (default: as many as are found)."),
     click.option("--keep-pot", is_flag=True, help="Don't look for a pot, or a lump of ground, under the stem."),
     click.option("--inside/--no-inside", default=None, help="Fill the inside of a crown (default: where the points leave it out)."),
-    click.option("--pixel", type=float, metavar="METRES", help="How much of the plant a pixel of its photos is: twigs go on beyond what shows of them; 0: they end there (default: as the photos of `views` say; of a scan, 0)."),
+    click.option("--pixel", type=float, metavar="METRES", help="How much of the plant a pixel of its photos is: twigs go on beyond what shows of them, by Eq. 5; 0: they end there (default: `views` follows them in its photos; of a scan, 0)."),
     click.option("--in-leaf", type=click.Choice(["auto", "yes", "no"]), default="auto", show_default=True, help="Whether some of the points are leaves, which are no wood."),
     click.option("--template", metavar="NAME", help="Exemplar whose leaves and bark it wears (default: bare, unless `--leaf` names some)."),
     click.option("--set", "figures", multiple=True, metavar="NAME=VALUE", help="Another figure of what is `grown`: branching=55, internode=0.8x (so many times), tropism=up (docs/clouds.md). Repeatable."),
