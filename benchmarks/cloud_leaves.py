@@ -1,15 +1,19 @@
 """Are leaves told from wood, and does the wood gain by it? Trees of ours in leaf, scanned by eye of the program, with every point known: a table for `docs/clouds.md`.
 
     python -m benchmarks.cloud_leaves [NAME ...] [--points N] [--shared DIR] [-o SHEET.png]
+    python -m benchmarks.cloud_leaves --fewer [NAME ...] [--points N]
 
 A tree is seen in parallel light from six sides, level and from below, each pixel a point of what is nearest; 4 mm of noise; then thinned to N points. `labels`: precision and recall of leaf and
 of wood, as leaves were told before any wood was traced. `wood`: share of the tree's length that has found wood within 1 % of the height (recall), of the found length that has the tree's (precision), S_T,
 and how far the found wood's surface is from the tree's, with all points taken for wood and with leaves told apart. `leaf`: m² that were worn, of those that the tree has. Bare scans of
 the same trees, and of others with `--shared`, must have none.
+
+`--fewer` asks how many leaves are worn, where all are left, three in ten and one in ten; the stems of short shoots count as wood there, and stay.
 """
 
 import argparse
 import time
+from dataclasses import replace
 from pathlib import Path
 
 import numpy as np
@@ -25,6 +29,7 @@ from sketchtree.clouds.voxels import voxel_rows, voxel_size
 from sketchtree.fidelity.sampled import along, over
 from sketchtree.fidelity.similarity import stava_like
 from sketchtree.foliage.cards import leaf_mesh
+from sketchtree.foliage.leaves import select
 from sketchtree.foliage.populate import populate
 from sketchtree.geometry.wood import wood_meshes
 from sketchtree.keys import root_key
@@ -34,6 +39,7 @@ from sketchtree.templates.store.database import Database
 
 NAMES = ("small_leaved_lime", "wild_cherry", "english_oak_young", "norway_maple", "european_ash")
 SCANS = ("adtree_tree1", "adtree_tree13", "adtree_lille2", "archi_tree1", "rtwig_cloud")
+SHARES = (1.0, 0.3, 0.1)  # of its leaves, that a tree is scanned with
 PIXELS, SIDES, FROM_BELOW, NOISE = 700, 6, (0.0, 0.5), 0.004
 KEY = root_key(5)
 
@@ -103,10 +109,34 @@ def row(name: str, most: int, sheet: list) -> None:
     sheet.append([[*wood, leaf_mesh(worn)], *(list(tree.model.meshes) for tree in made), wood, *([mesh for mesh in tree.model.meshes if mesh.name.startswith("wood")] for tree in made)])
 
 
+def fewer(name: str, most: int) -> None:
+    """A line of one tree for every share of its leaves."""
+    templates = Database.open()
+    one = templates.exemplar(name)
+    wood, worn = list(wood_meshes(one.skeleton, bark=one.habit.bark, habit=one.habit, key=KEY)), populate(one.skeleton, one.habit, key=KEY)
+    wood += _stems(worn, wood[0].material)
+    rank = np.random.default_rng(1).random(len(worn))
+    for share in SHARES:
+        left = replace(select(worn, rank < share), shoot=worn.shoot[:0])
+        xyz, leaf = scanned(wood, [leaf_mesh(left)], most)
+        how = {"template": name, "tree": TreeOptions(leaf=one.habit.leaf, wood="tubes"), "key": KEY}
+        found = leafiness(xyz, [np.flatnonzero(xyz[:, 1] < xyz[:, 1].min() + 0.01 * np.ptp(xyz[:, 1]))])
+        made = cloud_to_tree(PointCloud(xyz), templates, wanted=CloudOptions(up="y", inside=False, in_leaf="yes"), **how)
+        ratio = leaf_area_of(made.model.leaves).sum() / leaf_area_of(left).sum()
+        print(f"| {name.replace('_', ' ')} | {share:g} | {len(xyz):,} | in leaf: {found.in_leaf} | {leaf.mean():.2f}, {made.leafy.share:.2f} | {ratio:.2f} |", flush=True)
+
+
+def _stems(worn, material) -> list:
+    """Short shoots, as wood."""
+    if not len(worn.shoot):
+        return []
+    mesh = leaf_mesh(select(worn, np.arange(len(worn)) < 1))
+    corners = len(mesh.position) - 6 * len(worn.shoot)  # of the one leaf, which come first
+    return [replace(mesh, name="wood_stems", material=material, triangle=mesh.triangle[mesh.triangle.min(axis=1) >= corners])]
+
+
 def _back(tree, foot):
     """The tree where it was scanned: its foot is not at the origin there."""
-    from dataclasses import replace
-
     shift = np.array([0.0, 0.0, 0.0]) - np.asarray(tree.prepared.placement.similarity.translate)
     moved = tuple(replace(mesh, position=mesh.position + shift) for mesh in tree.model.meshes)
     skeleton = tree.skeleton.replace(tip=tree.skeleton.tip + shift, curve_points=tree.skeleton.curve_points + shift)
@@ -119,7 +149,12 @@ def main() -> None:
     parser.add_argument("--points", type=int, default=60_000)
     parser.add_argument("--shared", type=Path, help="the folder with `pointclouds`")
     parser.add_argument("-o", "--out", type=Path)
+    parser.add_argument("--fewer", action="store_true", help="how many leaves are worn, where there are fewer and fewer")
     asked, sheet = parser.parse_args(), []
+    if asked.fewer:
+        for name in asked.names:
+            fewer(name, asked.points)
+        return
     for name in asked.names:
         row(name, asked.points, sheet)
     for name in SCANS if asked.shared else ():

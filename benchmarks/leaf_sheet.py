@@ -17,6 +17,7 @@ from sketchtree import keys
 from sketchtree.foliage.blossom import blossom
 from sketchtree.foliage.cards import leaf_mesh
 from sketchtree.foliage.leaf_materials import leaf_material
+from sketchtree.foliage.leaves import select
 from sketchtree.foliage.models import leaf_model, leaf_names
 from sketchtree.foliage.painting import to_srgb
 from sketchtree.foliage.populate import populate
@@ -86,10 +87,13 @@ def leaf_row(name: str, cell: int) -> Image.Image:
     row = Image.new("RGB", (4 * cell, cell + 16), PAPER)
     row.paste(texture(name, cell), (0, 16))
     tree, habit = twig(name)
+    old = leaf_model(name).blossom_on == "old wood"  # such blossoms stand on what bears the twig, so some of that is drawn
+    low, clear = (0.5 - 0.6 * habit.twig_length, 0.0) if old else (0.5, 8.7 * habit.twig_radius if name != "dragon_tree" else 0.0)
     for k, season in enumerate(("spring", "summer", "autumn")):
-        wood = [_above(mesh, 0.5, 8.7 * habit.twig_radius if name != "dragon_tree" else 0.0) for mesh in wood_meshes(tree, bark="oak", habit=habit, key=KEY)]
+        wood = [_above(mesh, low, clear) for mesh in wood_meshes(tree, bark="oak", habit=habit, key=KEY)]
         worn = [populate(tree, habit, key=KEY, season=season), blossom(tree, habit, key=KEY, season=season)]
-        meshes = [*wood, *(leaf_mesh(one, season=season) for one in worn if one is not None and len(one))]
+        worn = [select(one, one.position[:, 1] > low) for one in worn if one is not None and len(one)]
+        meshes = [*wood, *(leaf_mesh(one, season=season) for one in worn if len(one))]
         row.paste(picture(meshes, cell - 4, cell - 4, azimuth=0.25, tilt=0.6), ((k + 1) * cell + 2, 18))
     ImageDraw.Draw(row).text((4, 2), name.replace("_", " "), fill=INK, font=ImageFont.load_default(12))
     return row
