@@ -9,6 +9,7 @@ from sketchtree.clouds.files.placed import Placement
 from sketchtree.fidelity.recall import recall
 from sketchtree.multiview.thin.contrasts import LEAST, contrast, told
 from sketchtree.multiview.thin.followed import Following, followed
+from sketchtree.multiview.thin.forks import led_back
 from sketchtree.multiview.thin.roughness import smooth
 from sketchtree.multiview.thin.steps import STEP
 from sketchtree.similarity import Similarity
@@ -121,6 +122,19 @@ def test_roughness_is_no_limb_and_a_short_twig_that_is_shown_is_one():
     assert len(set(smooth(tree_of([FOOT, TOP, END], spur), photos, PIXEL).limb)) == 1
     assert len(set(smooth(tree_of([FOOT, TOP, END], twig), photos, PIXEL).limb)) == 2
     assert len(set(smooth(tree_of([FOOT, TOP, END], [FORK, TWIG]), photos, PIXEL).limb)) == 2  # a long one is not doubted
+
+
+def test_a_limb_leaves_along_its_course_and_not_square_off_the_bark():
+    way = (TWIG - FORK) / np.linalg.norm(TWIG - FORK)
+    clear = FORK + 5 * PIXEL * way
+    tree = tree_of([FOOT, TOP, END], [np.array([0.0, clear[1], 0.0]), clear, TWIG])
+    found = led_back(tree, PIXEL)
+    leaves = found.start[found.order == 1][0]
+    assert abs(leaves[1] - FORK[1]) < 1.5 * PIXEL
+    assert np.abs(leaves[[0, 2]]).max() < 1e-9  # on the trunk
+    assert found.tip[found.order == 1][-1] == pytest.approx(TWIG)
+    straight = tree_of([FOOT, TOP, END], [FORK, TWIG])
+    np.testing.assert_array_equal(led_back(straight, PIXEL).parent, straight.parent)
 
 
 def test_a_tree_that_was_placed_elsewhere_is_the_same_tree():

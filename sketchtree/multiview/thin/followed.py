@@ -3,7 +3,8 @@
     1. each end goes on (`steps`); a spur counts as one only if it does for `SURE` steps
     2. more twigs begin along the wood (`sprouts`) and go on
     3. short limbs that no photos show by themselves are none (`roughness`)
-    4. wood is as thick as photos show it (`widths`)
+    4. limbs leave along their courses (`forks`)
+    5. wood is as thick as photos show it (`widths`)
 """
 
 from dataclasses import dataclass
@@ -13,6 +14,7 @@ import numpy as np
 from sketchtree.axes import NULL
 from sketchtree.clouds.files.placed import Placement
 from sketchtree.multiview.thin.contrasts import NOISE, Contrasts
+from sketchtree.multiview.thin.forks import led_back
 from sketchtree.multiview.thin.roughness import SPUR, smooth
 from sketchtree.multiview.thin.sprouts import sprouts
 from sketchtree.multiview.thin.standing import Standing, unit
@@ -56,7 +58,7 @@ def followed(tree: TreeSkeleton, photos: Contrasts, pixel: float) -> TreeSkeleto
     twigs = sprouts(tree, wood, photos)
     follow(twigs, wood, photos, floor)
     tree = smooth(_with(tree, twigs, np.full(len(twigs.row), SHORTEST + 1), full, pixel), photos, pixel)
-    return thickened(tree, full, photos, pixel)
+    return thickened(led_back(tree, pixel), full, photos, pixel)
 
 
 def _full(photos: Contrasts) -> float:
