@@ -6,9 +6,7 @@ import numpy as np
 import pytest
 
 import sketchtree as st
-from sketchtree.clouds.cloud import PointCloud
 from sketchtree.clouds.files.write_cloud import write_cloud
-from sketchtree.clouds.prepared.prepare import prepare
 from sketchtree.commands.app import run
 from sketchtree.drawn_tree import draw_out
 from sketchtree.editing.document import Document
@@ -22,23 +20,12 @@ from sketchtree.laid_tree import Laid, as_strokes, read_laid, tree_of
 from sketchtree.limb_ids import stroke_limb_id
 from sketchtree.options import ReadingOptions
 from sketchtree.sketch.files.project import holds_cloud, holds_traced
-
-COUNT = 700  # points of a limb
-LIMBS = (((0, 0, 0), (0, 6, 0), 0.15), ((0, 3.0, 0), (1.6, 4.6, 1.2), 0.06), ((0, 4.0, 0), (-1.2, 5.4, -1.5), 0.05))  # foot, tip, radius
+from tests.studio.scanned_stick import LIMBS, stick
 
 
 @pytest.fixture(scope="module")
 def cloud():
-    chance = np.random.default_rng(0)
-    points = []
-    for foot, tip, radius in LIMBS:
-        foot, tip = np.array(foot, float), np.array(tip, float)
-        way = (tip - foot) / np.linalg.norm(tip - foot)
-        side = np.cross(way, (0.3, 0.2, 1.0))
-        side /= np.linalg.norm(side)
-        other, turn = np.cross(way, side), chance.uniform(0, 2 * np.pi, COUNT)
-        points.append(foot + chance.random((COUNT, 1)) * (tip - foot) + radius * (np.cos(turn)[:, None] * side + np.sin(turn)[:, None] * other))
-    return laid(prepare(PointCloud(np.concatenate(points)), up="y"))
+    return stick()
 
 
 @pytest.fixture(scope="module")
