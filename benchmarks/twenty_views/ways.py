@@ -5,8 +5,6 @@ Plain: points all alike, a constant influence distance of 5 or 10 internodes (Gu
 
 import time
 
-import numpy as np
-
 from benchmarks.twenty_views.told import OURS, PLAIN
 from sketchtree.cloud_tree import GENERAL, CloudOptions, cloud_to_tree
 from sketchtree.clouds.cloud import PointCloud
@@ -17,7 +15,7 @@ from sketchtree.clouds.growing.wanted import plain
 from sketchtree.clouds.prepared.prepare import prepare
 from sketchtree.clouds.standing.feet import feet
 from sketchtree.clouds.standing.stems import breast_height
-from sketchtree.clouds.standing.trunk import trunk
+from sketchtree.clouds.standing.trunk import foot_radii, trunk
 from sketchtree.keys import root_key
 from sketchtree.multiview.thin.followed import Following
 from sketchtree.options import TreeOptions
@@ -42,6 +40,5 @@ def _plain(cloud: PointCloud, internodes: float):
     prepared = prepare(cloud, up="y")
     xyz, stands = prepared.cloud.xyz, feet(prepared.cloud.xyz, prepared.above)
     trunks = [trunk(xyz[rows], breast_height(prepared.cloud.height)) for rows in stands.stems]
-    radius = None if None in trunks else np.array([one.root / 2 for one in trunks])
     kind = estimated(xyz, species(GENERAL))
-    return grown(xyz, stands.rows, kind, key=root_key(0), wanted=plain(internodes), radius=radius).skeleton, prepared.placement
+    return grown(xyz, stands.rows, kind, key=root_key(0), wanted=plain(internodes), radius=foot_radii(trunks)).skeleton, prepared.placement

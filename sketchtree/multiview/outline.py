@@ -47,13 +47,18 @@ def filled(rgb: Float[np.ndarray, "row column 3"], empty: Bool[np.ndarray, "row 
     """α of every pixel; `empty`: sky, and what is even behind the plant."""
     if not empty.any():
         return np.ones(empty.shape, np.float32)
-    away, (y, x) = distance_transform_edt(~empty, return_indices=True)
-    weight = uniform_filter(empty.astype(np.float32), 3)
-    there = np.stack([uniform_filter(np.where(empty, rgb[..., k], 0.0), 3) / np.maximum(weight, 1e-6) for k in range(3)], axis=2)[y, x]
-    off = np.abs(rgb - there).max(axis=2)
+    off, away = off_even(rgb, empty)
     most = np.where(off < CONTRAST, maximum_filter(off, 5), maximum_filter(off, 3))
     alpha = np.where((away <= NEAR) & (most >= CONTRAST), np.minimum(off / np.maximum(most, 1e-6), 1.0), 1.0)
     return np.where(empty, 0.0, alpha).astype(np.float32)
+
+
+def off_even(rgb: Float[np.ndarray, "row column 3"], empty: Bool[np.ndarray, "row column"]) -> tuple[Float[np.ndarray, "row column"], Float[np.ndarray, "row column"]]:
+    """(how far each pixel's colour is from that of the nearest empty place, in the channel where they differ most; how many pixels away that is)."""
+    away, (y, x) = distance_transform_edt(~empty, return_indices=True)
+    weight = uniform_filter(empty.astype(np.float32), 3)
+    there = np.stack([uniform_filter(np.where(empty, rgb[..., k], 0.0), 3) / np.maximum(weight, 1e-6) for k in range(3)], axis=2)[y, x]
+    return np.abs(rgb - there).max(axis=2), away
 
 
 def looked_past(xyz: Float[np.ndarray, "point 3"], outlines: Outlines) -> Bool[np.ndarray, " point"]:

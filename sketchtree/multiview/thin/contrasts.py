@@ -13,10 +13,10 @@ from typing import NamedTuple
 
 import numpy as np
 from jaxtyping import Bool, Float, Int
-from scipy.ndimage import distance_transform_edt, uniform_filter
 
 from sketchtree.multiview.cameras import Camera
 from sketchtree.multiview.compiled import compiled
+from sketchtree.multiview.outline import off_even
 from sketchtree.multiview.workplace import block
 
 NOISE = 0.03  # c of an even place
@@ -51,15 +51,8 @@ def contrast(rgb: Float[np.ndarray, "row column 3"], empty: Bool[np.ndarray, "ro
     """c of every pixel."""
     if not empty.any():
         return np.ones(empty.shape, np.float32)
-    away, (y, x) = distance_transform_edt(~empty, return_indices=True)
-    off = np.abs(rgb - even_colour(rgb, empty)[y, x]).max(axis=2)
+    off, away = off_even(rgb, empty)
     return np.where(empty, 0.0, np.where(away <= NEAR, np.minimum(off, 1.0), 1.0)).astype(np.float32)
-
-
-def even_colour(rgb: Float[np.ndarray, "row column 3"], empty: Bool[np.ndarray, "row column"]) -> Float[np.ndarray, "row column 3"]:
-    """The mean colour of what is empty round each pixel."""
-    weight = uniform_filter(empty.astype(np.float32), 3)
-    return np.stack([uniform_filter(np.where(empty, rgb[..., k], 0.0), 3) / np.maximum(weight, 1e-6) for k in range(3)], axis=2)
 
 
 @compiled
