@@ -21,7 +21,7 @@ def test_in_the_unit_that_is_said(tmp_path):
 
 @pytest.mark.parametrize("unit", [1.0, 1000.0, 0.0123])
 def test_by_the_height_of_the_plant_whatever_the_unit_was(tmp_path, unit):
-    assert points_of(scan(tmp_path, unit * points()), CloudReading(up="y", height=2.5)).height == pytest.approx(2.5, rel=0.01)
+    assert points_of(scan(tmp_path, unit * points()), CloudReading(up="y", height=2.5)).height == pytest.approx(2.5, rel=0.002)
 
 
 def test_upright_as_it_is_said(tmp_path):

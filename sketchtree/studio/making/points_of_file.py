@@ -13,7 +13,7 @@ from sketchtree.errors import SeveralTrees, SketchTreeError
 from sketchtree.studio.messages import CloudReading
 
 _ENDS = (0.1, 99.9)  # percentiles of the height: a few points beyond belong to nothing
-_NEAR = 0.01  # of the height
+_NEAR = 0.001  # of the height: who says 12 m finds 12.0
 _IN_OUR_WORDS = {  # of remarks and remedies: what the command line says by its options is chosen here when the file is opened
     "If the tree lies down, say which with `--up y` or `--up z`.": "If the tree lies down, open it again and say which.",
     "Check which axis is up (`--up y` or `--up z`).": "Choose the other axis as up.",
