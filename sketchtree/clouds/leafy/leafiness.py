@@ -43,7 +43,7 @@ _LOOKS = 2.0
 _GREEN_SHARE = 0.55  # of the points are ends at least, where they are green
 _BASE, _BORNE, _TURNING, _NEVER_FLAT, _GREEN = 4.33, 0.95, 0.42, 0.003, 2.0
 _SURE, _BEARS = -1.0, 5.0  # log odds of wood that is sure; b of what bears much
-_CERTAIN = 1.0  # log odds of a leaf that is no twig: of a tree with a tenth of its leaves a third of what is taken for leaves is twigs
+_CERTAIN = 1.0  # log odds of a leaf that is no twig, as many leaves as there are: of a tree with a tenth of its leaves a third of what is taken for leaves is twigs
 _STEPS = 60  # of expectation and maximisation
 _FEWEST = 300  # points that leaves may be told among
 _TWIG, _BARK = 0.003, 1.3  # of the height: radius of a twig; radii within which points are bark
@@ -102,7 +102,7 @@ def leafiness(xyz: Float[np.ndarray, "point 3"], feet: list[Int[np.ndarray, " st
     nearest = cKDTree(fine.xyz).query(xyz)[1]
     leaf = ~wood[nearest]
     area = np.where(leaf, (_AREA * fine.spacing**2 / np.maximum(np.bincount(nearest, minlength=len(fine.xyz)), 1))[nearest], 0.0)
-    return Leafiness(leaf, leaf & (odds > _CERTAIN)[nearest], area, True, share, fills, fine.green is not None)
+    return Leafiness(leaf, leaf & (odds + _usual(odds) > _CERTAIN)[nearest], area, True, share, fills, fine.green is not None)
 
 
 def off_bark(found: Leafiness, xyz: Float[np.ndarray, "point 3"], wood: TreeSkeleton) -> Leafiness:
@@ -174,6 +174,12 @@ def leaves_among(odds: Float[np.ndarray, " point"]) -> float:
     for _ in range(_STEPS):
         share = float(np.clip(expit(odds + np.log(share / (1 - share))).mean(), 1e-4, 1 - 1e-4))
     return share
+
+
+def _usual(odds) -> float:
+    """How much likelier a leaf is than among as many leaves as wood, log π / (1 − π), where they are more."""
+    share = leaves_among(odds)
+    return max(float(np.log(share / (1.0 - share))), 0.0)
 
 
 def _led_to(sure: Bool[np.ndarray, " point"], way: Ways) -> Bool[np.ndarray, " point"]:
