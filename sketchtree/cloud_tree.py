@@ -242,7 +242,7 @@ def _whole(found: Found, prepared: Prepared, wanted: CloudOptions, key) -> tuple
         tree = bearing(tree, xyz, xyz[found.leafy.leaf], found.species, key=stage_key(key, "to leaves"))
     elif wanted.pixel and not found.followed:
         tree = gone_on(tree, wanted.pixel / 2, found.species.gamma)
-    if wanted.inside is False or (wanted.inside is None and not unseen_inside(xyz)):
+    if wanted.inside is False or (wanted.inside is None and (found.followed or not unseen_inside(xyz))):  # into a bare crown photos see
         return tree, seen
     return filled(tree, xyz, found.species, key=stage_key(key, "inside")), seen
 

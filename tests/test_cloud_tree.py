@@ -88,6 +88,12 @@ def test_twigs_that_photos_show_are_followed_there_and_not_reckoned(points, tree
     assert found.skeleton.length.sum() == pytest.approx(tree.skeleton.length.sum() + 0.35 * 2**0.5, abs=0.05)
 
 
+def test_a_bare_crown_that_photos_see_into_is_not_filled(points, monkeypatch):
+    monkeypatch.setattr("sketchtree.cloud_tree.unseen_inside", lambda xyz: True)
+    scanned, pictured = (cloud_to_tree(PointCloud(points), key=KEY, follow=follow).skeleton for follow in (None, lambda tree, placement: tree))
+    assert (scanned.kind == int(Kind.GROWN)).any() and not (pictured.kind == int(Kind.GROWN)).any()
+
+
 def test_a_tree_grows_toward_what_was_followed_too(points):
     wanted = CloudOptions(method="grown", pixel=0.01)
     plain, found = (cloud_to_tree(PointCloud(points), key=KEY, wanted=wanted, tree=TreeOptions(leaf="none"), follow=follow) for follow in (None, _longer))
