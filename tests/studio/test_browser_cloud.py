@@ -2,8 +2,10 @@
 
 import time
 
+import numpy as np
 import pytest
 from browser import PATIENCE, Page, Studio, open_window
+from scanned_stick import points
 
 AT = "[data-testid=cloud-card]"
 INKED = """() => {
@@ -61,9 +63,27 @@ def test_points_are_hidden_and_shown_by_either_switch(page):
 
 
 def test_the_tree_in_them_is_traced_and_its_limbs_become_strokes(page):
+    page.get("generations").press("Home")  # only what is drawn: what else grows is not tested here
     page.get("cloud-trace").click()
     traced(page, "ready")
     page.get("cloud-use").click()
     traced(page, "none")
     page.wait(lambda status: status["state"] == "idle" and (status["segments"] or 0) > 60, patience=3 * PATIENCE)
     assert page.get("cloud-card").is_visible() and not page.odd
+
+
+def test_a_file_is_read_as_the_dialog_says_and_what_can_not_be_is_named_there(page, studio):
+    path = studio.folder / "stick.xyz"
+    np.savetxt(path, 1000 * points(), fmt="%.3f")
+    page.get("open").click()
+    page.get("open-file").set_input_files(path)
+    page.get("cloud-up").get_by_text("y", exact=True).click()
+    page.get("cloud-unit").get_by_text("By height").click()
+    page.get("cloud-height").fill("900")
+    page.get("cloud-alone").click()
+    assert page.get("cloud-wrong-height").inner_text() == "A plant of 900 m is out of range: 0.05 to 150 m can be read."
+    assert page.weak_contrasts() == []
+    page.get("cloud-height").fill("12")
+    page.get("cloud-alone").click()
+    page.page.wait_for_function("() => document.querySelector('[data-testid=cloud-figures]').textContent === '2,100 points, 12.0 m high'", timeout=1000 * PATIENCE)
+    assert not page.get("cloud-dialog").is_visible() and not page.odd
