@@ -44,6 +44,7 @@ _GREEN_SHARE = 0.55  # of the points are ends at least, where they are green
 _BASE, _BORNE, _TURNING, _NEVER_FLAT, _GREEN = 4.33, 0.95, 0.42, 0.003, 2.0
 _SURE, _BEARS = -1.0, 5.0  # log odds of wood that is sure; b of what bears much
 _CERTAIN = 1.0  # log odds of a leaf that is no twig, as many leaves as there are: of a tree with a tenth of its leaves a third of what is taken for leaves is twigs
+_USUAL = 0.8  # log odds that this makes at most: what could as well be a twig stays unsure
 _STEPS = 60  # of expectation and maximisation
 _FEWEST = 300  # points that leaves may be told among
 _TWIG, _BARK = 0.003, 1.3  # of the height: radius of a twig; radii within which points are bark
@@ -179,7 +180,7 @@ def leaves_among(odds: Float[np.ndarray, " point"]) -> float:
 def _usual(odds) -> float:
     """How much likelier a leaf is than among as many leaves as wood, log π / (1 − π), where they are more."""
     share = leaves_among(odds)
-    return max(float(np.log(share / (1.0 - share))), 0.0)
+    return float(np.clip(np.log(share / (1.0 - share)), 0.0, _USUAL))
 
 
 def _led_to(sure: Bool[np.ndarray, " point"], way: Ways) -> Bool[np.ndarray, " point"]:
