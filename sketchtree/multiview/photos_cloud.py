@@ -18,7 +18,7 @@ from sketchtree.multiview.accelerated.engine import engine_of
 from sketchtree.multiview.carve import carved, silhouette
 from sketchtree.multiview.photos import View, photo_files, views_of
 from sketchtree.multiview.poses.posed import Poses
-from sketchtree.multiview.sky_and_ground import ground, within
+from sketchtree.multiview.sky_and_ground import far_off, ground, within
 from sketchtree.multiview.sources import sources_of
 from sketchtree.multiview.upright import moved_upright
 from sketchtree.watch import Pulse, Watch, no_pulse
@@ -80,6 +80,8 @@ def photos_cloud(
     if not keep_ground:
         with watch("ground"):
             cloud, notices = _without_ground(cloud, key, notices)
+            if confirmed is not None:
+                cloud, notices = _without_far(cloud, notices)
     if height is not None:
         by = height / max(height_without(cloud.xyz), 1e-12)
         cloud, size = PointCloud(by * cloud.xyz, cloud.colour, cloud.normal), by * size
@@ -129,6 +131,13 @@ def _dense(views: list[View], points, placed: Poses, wanted, key, watch, pulse) 
         near = within(found.xyz, [view.camera for view in views])
         shown = contrasts_of([level.camera for level in levels], [level.rgb for level in levels], [level.empty for level in levels])
         return thinned(found, found.size, near if near.sum() > 0.05 * len(near) else None), found.size, confirmed(levels), shown
+
+
+def _without_far(cloud: PointCloud, notices: list[str]) -> tuple[PointCloud, list[str]]:
+    far = far_off(cloud.xyz)
+    if not far.any():
+        return cloud, notices
+    return cloud.select(~far), [*notices, f"{far.sum():,} points lie far from the plant; they were left out."]
 
 
 def _without_ground(cloud: PointCloud, key, notices: list[str]) -> tuple[PointCloud, list[str]]:

@@ -16,6 +16,7 @@ from jaxtyping import Bool, Float, Key
 from scipy.ndimage import binary_dilation, distance_transform_edt, gaussian_gradient_magnitude, label
 
 from sketchtree.clouds.cloud import PointCloud
+from sketchtree.clouds.standing.stems import pieces
 from sketchtree.keys import numpy_generator, stage_key
 from sketchtree.multiview.cameras import Camera
 from sketchtree.multiview.sources import looked_at
@@ -26,6 +27,7 @@ LIKE = 0.1
 LEVEL = np.cos(np.radians(15.0))
 ABOVE = 0.012  # of the cloud's height
 SHARE, ACROSS, UNDER = 0.03, 0.4, 0.05
+GAP, FEW = 0.05, 0.01
 _TRIES, _COUNTED = 500, 20_000
 
 
@@ -102,3 +104,11 @@ def _level_plane(xyz, height: float, near: float, generator: np.random.Generator
 def _width(xz: Float[np.ndarray, "point 2"]) -> Float[np.ndarray, " 2"]:
     """How far points reach, but for the outermost 2 % on either side: strays lie far out."""
     return np.diff(np.quantile(xz, [0.02, 0.98], axis=0), axis=0)[0]
+
+
+def far_off(xyz: Float[np.ndarray, "point 3"]) -> Bool[np.ndarray, " point"]:
+    """Which points are of no plant: pieces of under `FEW` of the largest's points, with `GAP` of the height between them and all that belongs to it. Edges of the ground leave such, and they would be bridged."""
+    low, high = np.quantile(xyz[:, 1], [0.001, 0.999])
+    piece = pieces(xyz, GAP * float(high - low), 0.0)
+    count = np.bincount(piece)
+    return (count < FEW * count.max())[piece]

@@ -5,11 +5,22 @@ from ring import camera_at
 
 from sketchtree.clouds.cloud import PointCloud
 from sketchtree.keys import root_key
-from sketchtree.multiview.sky_and_ground import behind, ground, sky, within
+from sketchtree.multiview.sky_and_ground import behind, far_off, ground, sky, within
 
 CHANCE = np.random.default_rng(2)
 TREE = np.column_stack([CHANCE.normal(0, 0.1, 800), CHANCE.uniform(0, 3, 800), CHANCE.normal(0, 0.1, 800)])
 MEADOW = np.column_stack([CHANCE.uniform(-2, 2, 900), CHANCE.normal(0, 0.006, 900), CHANCE.uniform(-2, 2, 900)])
+
+
+def test_points_far_from_the_plant_are_told_and_its_own_twigs_are_not():
+    chance = np.random.default_rng(0)
+    plant = chance.uniform([-0.3, 0.0, -0.3], [0.3, 4.0, 0.3], (3000, 3))
+    twig = np.array([0.3, 3.0, 0.0]) + np.linspace(0, 0.8, 30)[:, None] * [1.0, 0.2, 0.0]
+    strays = np.array([4.0, 1.0, 0.5]) + chance.normal(0, 0.02, (15, 3))
+    found = far_off(np.concatenate([plant, twig, strays]))
+    assert found[-15:].all() and not found[:-15].any()
+    other = plant + [6.0, 0.0, 0.0]  # a second plant is no stray
+    assert not far_off(np.concatenate([plant, other])).any()
 
 
 def test_blue_or_bright_and_even_to_the_upper_border_is_sky():
