@@ -13,6 +13,8 @@ from jaxtyping import Float
 Told = tuple[str, str, Float[np.ndarray, "detail 2"], Float[np.ndarray, "detail 2"]]
 """Two photos, and where each has the details that they share, in focal lengths from its middle, without the lens."""
 
+TRIES = 3  # of the mapper, each from another seed, where it places under half of the photos
+
 
 def placed(place: Path, groups: list[list[str]], details: int, seed: int, tell: Callable[[float], None]) -> list[Told] | None:
     """Writes the largest model of the photos in `place/photos` to `place/model`; those of a group share a camera. None: no photo could be placed."""
@@ -54,10 +56,19 @@ def _mapped(colmap, place: Path, seed: int, count: int, tell):
         tell(0.5 + 0.5 * min(1.0, found[0] / count))
 
     options = colmap.IncrementalPipelineOptions()
-    options.random_seed, options.extract_colors = seed, False
+    options.extract_colors = False
     (place / "model").mkdir()
-    models = colmap.incremental_mapping(place / "points.db", place / "photos", place / "model", options=options, next_image_callback=one_more)
-    return max(models.values(), key=lambda model: model.num_reg_images(), default=None)
+    best, most = None, 0
+    for again in range(TRIES):  # from two photos that turn out badly hardly any others are reached
+        options.random_seed, found[0] = seed + again, 0
+        (place / f"try {again}").mkdir()
+        models = colmap.incremental_mapping(place / "points.db", place / "photos", place / f"try {again}", options=options, next_image_callback=one_more)
+        for model in models.values():
+            if model.num_reg_images() > most:
+                best, most = model, model.num_reg_images()
+        if most >= count / 2:
+            break
+    return best
 
 
 def _shared(colmap, database: Path, model) -> list[Told]:

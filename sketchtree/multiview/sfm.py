@@ -118,7 +118,7 @@ def _placed(place: Path, groups: list[list[str]], details: int, seed: int, part,
 
 def _found(poses: Poses, pairs: list[Pair], files: list[Path], shrunk: dict[str, float], unsharp: list[str], silent: int) -> Found:
     left, doubtful = agreeing(len(poses), *contradictions([photo.camera for photo in poses.photos], pairs))
-    if len(left) < max(LEAST, len(poses) / 2):
+    if len(poses) >= LEAST and len(left) < max(LEAST, len(poses) / 2):
         raise ViewsError(
             f"The cameras that were found can't be true: {doubtful:.0%} of the pairs of photos that share details tell other places than all of them together.",
             remedy=f"Alike parts of the plant were taken for one another. {ADVICE} Or give the poses, if something else knows them.",
