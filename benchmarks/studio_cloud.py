@@ -20,7 +20,7 @@ from pathlib import Path
 import msgspec
 import numpy as np
 
-from benchmarks.studio_latency import PATIENCE, Page, studio
+from benchmarks.studio_latency import PATIENCE, entered, studio
 from benchmarks.studio_start import seconds_of
 from sketchtree.keys import root_key
 from sketchtree.laid_tree import Laid, as_strokes, tree_of
@@ -43,16 +43,7 @@ def strokes_over(limbs: int) -> list[dict]:
 
 async def measured(address: str, process, looks: float, strokes: list[dict]) -> None:
     """Prints a line for every stroke."""
-    import httpx
-    from websockets.asyncio.client import connect
-
-    with httpx.Client(trust_env=False) as client:
-        client.get(address, follow_redirects=True)
-        cookie = "; ".join(f"{name}={value}" for name, value in client.cookies.items())
-    base = address.partition("/?")[0]
-    async with connect(base.replace("http", "ws") + "/ws", origin=base, additional_headers={"Cookie": cookie}, max_size=None, proxy=None) as socket:
-        page = Page(socket)
-        await page.ask(type="hello", version=1)
+    async with entered(address) as page:
         await page.said("changed")
         began, cpu = time.perf_counter(), seconds_of(process)
         await page.ask(type="open", name=EXAMPLE, example=True)

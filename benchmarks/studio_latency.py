@@ -18,6 +18,8 @@ import subprocess
 import sys
 import tempfile
 import time
+from collections.abc import AsyncIterator
+from contextlib import asynccontextmanager
 from pathlib import Path
 
 import numpy as np
@@ -76,8 +78,9 @@ def head_of(said: str | bytes) -> dict:
     return json.loads(said[4 : 4 + length])
 
 
-async def measured(address: str, strokes: dict[str, dict], names: list[str]) -> dict[str, list[float]]:
-    """Milliseconds of every stroke."""
+@asynccontextmanager
+async def entered(address: str) -> AsyncIterator[Page]:
+    """A page without a screen at a studio's address, welcomed."""
     import httpx
     from websockets.asyncio.client import connect
 
@@ -85,10 +88,16 @@ async def measured(address: str, strokes: dict[str, dict], names: list[str]) -> 
         client.get(address, follow_redirects=True)
         cookie = "; ".join(f"{name}={value}" for name, value in client.cookies.items())
     base = address.partition("/?")[0]
-    found: dict[str, list[float]] = {"quick": [], "full": []}
     async with connect(base.replace("http", "ws") + "/ws", origin=base, additional_headers={"Cookie": cookie}, max_size=None, proxy=None) as socket:
         page = Page(socket)
         await page.ask(type="hello", version=1)
+        yield page
+
+
+async def measured(address: str, strokes: dict[str, dict], names: list[str]) -> dict[str, list[float]]:
+    """Milliseconds of every stroke."""
+    found: dict[str, list[float]] = {"quick": [], "full": []}
+    async with entered(address) as page:
         await page.said("tree", phase="full")
         for name in (names[0], *names):  # the first is not counted: programs are compiled
             await page.ask(type="strokes", label="erase", gone=[name])

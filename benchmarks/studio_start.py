@@ -78,18 +78,9 @@ def megabytes(process: subprocess.Popen) -> dict[str, float]:
 
 async def edited(address: str, edits: int) -> None:
     """So many strokes, each erased again, one after the other."""
-    import httpx
-    from websockets.asyncio.client import connect
+    from benchmarks.studio_latency import entered
 
-    from benchmarks.studio_latency import Page
-
-    with httpx.Client(trust_env=False) as client:
-        client.get(address, follow_redirects=True)
-        cookie = "; ".join(f"{name}={value}" for name, value in client.cookies.items())
-    base = address.partition("/?")[0]
-    async with connect(base.replace("http", "ws") + "/ws", origin=base, additional_headers={"Cookie": cookie}, max_size=None, proxy=None) as socket:
-        page = Page(socket)
-        await page.ask(type="hello", version=1)
+    async with entered(address) as page:
         await page.said("tree", phase="full")
         for k in range(edits):
             stroke = {"id": "edit", "kind": "branch", "xy": [400, 400, 430 + k % 20, 330]}
