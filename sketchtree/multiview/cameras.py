@@ -41,6 +41,11 @@ class Camera:
             raise ViewsError(f"A camera of {self.size[0]} × {self.size[1]} pixels has the focal length {self.matrix[0, 0]:g}.", remedy="Both must be positive.")
 
     @property
+    def to_pixel(self) -> Float[np.ndarray, "3 4"]:
+        """K R (X − C) as one matrix: of (x, y, z, 1), pixels times depth and depth."""
+        return self.matrix @ np.column_stack([self.rotation, -self.rotation @ self.centre])
+
+    @property
     def ahead(self) -> Float[np.ndarray, " 3"]:
         """Where it looks, a unit vector of the world."""
         return self.rotation[2]

@@ -39,8 +39,7 @@ class Outlines(NamedTuple):
 
 def outlines_of(cameras: list[Camera], filled: list[Float[np.ndarray, "row column"]]) -> Outlines:
     """Of the α of all photos."""
-    to_pixel = [camera.matrix @ np.column_stack([camera.rotation, -camera.rotation @ camera.centre]) for camera in cameras]
-    return Outlines(np.array(to_pixel), block([np.round(255 * alpha).astype(np.uint8) for alpha in filled]), np.array([camera.size for camera in cameras], np.int64))
+    return Outlines(np.array([camera.to_pixel for camera in cameras]), block([np.round(255 * alpha).astype(np.uint8) for alpha in filled]), np.array([camera.size for camera in cameras], np.int64))
 
 
 def filled(rgb: Float[np.ndarray, "row column 3"], empty: Bool[np.ndarray, "row column"]) -> Float[np.ndarray, "row column"]:

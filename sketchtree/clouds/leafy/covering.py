@@ -134,6 +134,8 @@ def spacing_of(place: Float[np.ndarray, "point 3"]) -> float:
     """How far points lie from the nearest others, metres: the median."""
     count = min(_NEIGHBOURS, len(place) - 1)
     return float(np.median(cKDTree(place).query(place, k=count + 1)[0][:, 1:])) if count > 0 else 0.0
+
+
 def leaf_area_of(leaves: Leaves) -> Float[np.ndarray, " leaf"]:
     """What is drawn on each, m²."""
     return drawn_area(leaf_painting(leaves.model)) * leaves.size**2

@@ -42,9 +42,8 @@ class Contrasts(NamedTuple):
 
 def contrasts_of(cameras: list[Camera], rgb: list[np.ndarray], empty: list[np.ndarray]) -> Contrasts:
     """Of all photos: [row column 3] colours and which pixels show nothing of the plant."""
-    to_pixel = [camera.matrix @ np.column_stack([camera.rotation, -camera.rotation @ camera.centre]) for camera in cameras]
     shown = block([np.round(255 * contrast(*one)).astype(np.uint8) for one in zip(rgb, empty, strict=True)])
-    return Contrasts(np.array(to_pixel), shown, np.array([camera.size for camera in cameras], np.int64))
+    return Contrasts(np.array([camera.to_pixel for camera in cameras]), shown, np.array([camera.size for camera in cameras], np.int64))
 
 
 def contrast(rgb: Float[np.ndarray, "row column 3"], empty: Bool[np.ndarray, "row column"]) -> Float[np.ndarray, "row column"]:

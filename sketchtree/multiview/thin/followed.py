@@ -28,7 +28,6 @@ SHORTEST = 3  # steps of a twig that begins
 _BACK = 6.0  # pixels of a limb that say which way it goes at its end
 _FLOOR = 4.0  # pixels over the lowest wood: shadows on the ground are no twigs
 _THIN = (0.1, 0.6)  # pixels: radius of what was followed
-_SHOWS = 0.35  # pixels: radius of the thinnest wood that has depth
 
 
 @dataclass(frozen=True, eq=False)

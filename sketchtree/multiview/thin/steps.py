@@ -3,7 +3,7 @@
 from dataclasses import dataclass, field
 
 import numpy as np
-from jaxtyping import Bool, Float, Int
+from jaxtyping import Float, Int
 
 from sketchtree.multiview.compiled import compiled
 from sketchtree.multiview.thin.contrasts import LEAST, SHARE, Contrasts, told
